@@ -32,9 +32,7 @@ struct Reader {
   std::string_view key;
   const fs::path& folder;
 
-  Value operator()(const Number& range) {
-    return ValueOf(keys.Number(key, range.least, range.greatest, range.unit));
-  }
+  Value operator()(const Number& range) { return ValueOf(keys.Number(key, range.least, range.greatest, range.unit)); }
   Value operator()(const ThreeNumbers& range) {
     return ValueOf(keys.Triple(key, range.least, range.greatest, range.unit, range.parts));
   }
@@ -63,8 +61,7 @@ struct Parser {
   std::string_view text;
 
   absl::Status Wrong(const std::string& expected, const std::string& remedy) const {
-    return absl::InvalidArgumentError(
-        absl::StrCat("is '", std::string(text), "' (expected ", expected, "); ", remedy));
+    return absl::InvalidArgumentError(absl::StrCat("is '", std::string(text), "' (expected ", expected, "); ", remedy));
   }
 
   absl::StatusOr<Value> operator()(const Number& range) const {
@@ -83,8 +80,7 @@ struct Parser {
     if (good) return triple;
     return Wrong(
         absl::StrCat("3 numbers from ", range.least, " to ", range.greatest, " ", std::string(range.unit)),
-        absl::StrCat("give ", std::string(range.parts.substr(1, range.parts.size() - 2)),
-                     " with commas between them"));
+        absl::StrCat("give ", std::string(range.parts.substr(1, range.parts.size() - 2)), " with commas between them"));
   }
   absl::StatusOr<Value> operator()(const Word& word) const {
     const std::vector<std::string> words = Texts(word);
@@ -111,8 +107,7 @@ struct Parser {
          std::vector<std::string>(absl::StrSplit(absl::string_view(text.data(), text.size()), ','))) {
       int number = 0;
       const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), number);
-      if (error != std::errc() || end != item.data() + item.size() || number < range.least ||
-          number > range.greatest)
+      if (error != std::errc() || end != item.data() + item.size() || number < range.least || number > range.greatest)
         return Wrong(absl::StrCat("whole numbers from ", range.least, " to ", range.greatest),
                      "separate them by commas");
       numbers.push_back(number);

@@ -47,8 +47,7 @@ struct WholeNumbers {
   int least, greatest;
 };
 struct YesOrNo {};
-using KeyValues =
-    std::variant<Number, ThreeNumbers, Word, Text, Path, Paths, NumberOrPath, WholeNumbers, YesOrNo>;
+using KeyValues = std::variant<Number, ThreeNumbers, Word, Text, Path, Paths, NumberOrPath, WholeNumbers, YesOrNo>;
 
 struct KeyDeclaration {
   std::string_view key, flag;  // flag: empty where there is none
@@ -64,14 +63,13 @@ template <typename Settings>
 struct Key {
   KeyDeclaration declaration;
   std::variant<std::optional<double> Settings::*, std::optional<std::string> Settings::*,
-               std::optional<bool> Settings::*, std::optional<Triple> Settings::*,
-               std::optional<Level> Settings::*, std::vector<int> Settings::*,
-               std::vector<std::string> Settings::*>
+               std::optional<bool> Settings::*, std::optional<Triple> Settings::*, std::optional<Level> Settings::*,
+               std::vector<int> Settings::*, std::vector<std::string> Settings::*>
       member;
 };
 
-using Value = std::variant<std::monostate, double, std::string, bool, Triple, std::vector<int>,
-                           std::vector<std::string>>;
+using Value =
+    std::variant<std::monostate, double, std::string, bool, Triple, std::vector<int>, std::vector<std::string>>;
 
 // The value of a key of a file; none if the key is missing, or a problem, which `keys` remembers. Paths count from
 // `folder`.
@@ -87,8 +85,7 @@ template <typename Settings>
 void Put(const Value& value, const Key<Settings>& key, Settings& settings) {
   std::visit(
       [&](const auto& given, const auto member) {
-        if constexpr (std::is_assignable_v<decltype(settings.*member), decltype(given)>)
-          settings.*member = given;
+        if constexpr (std::is_assignable_v<decltype(settings.*member), decltype(given)>) settings.*member = given;
       },
       value, key.member);
 }
@@ -101,11 +98,11 @@ void ReadKeys(TomlKeys& keys, const Table& table, const std::filesystem::path& f
 template <typename Settings>
 bool IsGiven(const Key<Settings>& key, const Settings& settings) {
   const auto is_given = []<typename Member>(const Member& member) {
-    if constexpr (requires { member.has_value(); }) {
+    if constexpr (
+        requires { member.has_value(); })
       return member.has_value();
-    } else {
+    else
       return !member.empty();
-    }
   };
   return std::visit([&](const auto member) { return is_given(settings.*member); }, key.member);
 }
@@ -121,8 +118,7 @@ bool IsAnyGiven(const Table& table, const Settings& settings) {
 template <typename Table, typename Settings>
 void Override(const Table& table, const Settings& flags, Settings& settings) {
   for (const Key<Settings>& key : table)
-    if (IsGiven(key, flags))
-      std::visit([&](const auto member) { settings.*member = flags.*member; }, key.member);
+    if (IsGiven(key, flags)) std::visit([&](const auto member) { settings.*member = flags.*member; }, key.member);
 }
 
 }  // namespace albtpu::config

@@ -34,11 +34,8 @@ absl::Status CheckEffect(const SeaSettings& sea, const Key<SeaSettings>& key) {
     return formats::UsageError(absl::StrCat(std::string(declared.flag), " (", std::string(declared.key),
                                             " in a survey file) has no effect ", why, ", or leave it out"));
   };
-  const auto is_one_of = [&](const auto& keys) {
-    return std::ranges::find(keys, declared.key) != std::end(keys);
-  };
-  if (!sea.file.has_value() && is_one_of(kOnlyOfFiles))
-    return no_effect("without a file of the sea; add --sea FILE");
+  const auto is_one_of = [&](const auto& keys) { return std::ranges::find(keys, declared.key) != std::end(keys); };
+  if (!sea.file.has_value() && is_one_of(kOnlyOfFiles)) return no_effect("without a file of the sea; add --sea FILE");
   if (!sea.has_waves() && is_one_of(kOnlyWithWaves))
     return no_effect("without waves; add --sea FILE, or --hs and --tp");
   if (sea.has_waves() && declared.key == "fetch")
@@ -62,8 +59,7 @@ absl::Status CheckBreaking(const JonswapWaves& waves, double depth) {
 }  // namespace
 
 SeaDescription SeaSettings::description() const {
-  SeaDescription description{
-      .wind_speed_10m = wind_speed, .water_depth = water_depth, .tail_from = tail_from};
+  SeaDescription description{.wind_speed_10m = wind_speed, .water_depth = water_depth, .tail_from = tail_from};
   if (wind_from.has_value()) description.wind_from = RadiansOfDegrees(*wind_from);
   for (std::size_t i = 0; i < kTailRules.size(); ++i)
     if (tail == kTailRules[i]) description.tail = kRules[i];
@@ -85,8 +81,7 @@ std::string ProblemOf(const WaveSettings& waves, bool by_flags) {
   }
   if (!waves.spread.has_value() || !waves.spreading.has_value()) return "";
   const char* const before = by_flags ? "--" : "";
-  return absl::StrCat(before, "spread and ", before,
-                      "spreading both say how directions spread; give one of them");
+  return absl::StrCat(before, "spread and ", before, "spreading both say how directions spread; give one of them");
 }
 
 JonswapWaves WavesOf(const WaveSettings& settings) {
@@ -100,17 +95,15 @@ JonswapWaves WavesOf(const WaveSettings& settings) {
 absl::StatusOr<JonswapWaves> ParseSwell(std::string_view text) {
   const std::vector<std::string> items = absl::StrSplit(absl::string_view(text.data(), text.size()), ',');
   const auto error = [&](const std::string& why) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("'", std::string(text), "' ", why,
-                     "; give HS,TP,FROM or HS,TP,FROM,SPREAD in m, s and degrees, such "
-                     "as 1.1,9.5,295"));
+    return absl::InvalidArgumentError(absl::StrCat("'", std::string(text), "' ", why,
+                                                   "; give HS,TP,FROM or HS,TP,FROM,SPREAD in m, s and degrees, such "
+                                                   "as 1.1,9.5,295"));
   };
   if (items.size() < 3 || items.size() > 4) return error("is no swell");
   WaveSettings settings;
   constexpr std::string_view kOrder[] = {"hs", "tp", "waves_from", "spread"};
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto& key =
-        *std::ranges::find(kWaveKeys, kOrder[i], [](const auto& each) { return each.declaration.key; });
+    const auto& key = *std::ranges::find(kWaveKeys, kOrder[i], [](const auto& each) { return each.declaration.key; });
     const absl::StatusOr<Value> value = ParseValue(key.declaration, items[i]);
     if (!value.ok())
       return error(absl::StrCat("has the ", std::string(kOrder[i]), " '", items[i], "' (expected ",
@@ -145,10 +138,8 @@ absl::Status CheckSea(const SeaSettings& sea) {
     const double depth = sea.water_depth.value_or(std::numeric_limits<double>::infinity());
     if (absl::Status status = CheckBreaking(waves, depth); !status.ok()) return status;
   }
-  if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value()) {
-    return formats::UsageError(
-        absl::StrCat("--sea-time: '", *sea.time, "' is no time; give UTC as 2020-06-08T03:50Z"));
-  }
+  if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value())
+    return formats::UsageError(absl::StrCat("--sea-time: '", *sea.time, "' is no time; give UTC as 2020-06-08T03:50Z"));
   return absl::OkStatus();
 }
 

@@ -15,9 +15,8 @@ FlagKey FindFlag(std::string_view flag) {
   ForEachSection([&](const char*, const auto& keys, const auto& section) {
     for (const auto& key : keys) {
       if (key.declaration.flag != flag) continue;
-      found = {&key.declaration, [&key, section](const Value& value, SurveySettings& settings) {
-                 Put(value, key, section(settings));
-               }};
+      found = {&key.declaration,
+               [&key, section](const Value& value, SurveySettings& settings) { Put(value, key, section(settings)); }};
     }
   });
   assert(found.declaration != nullptr);
@@ -32,9 +31,8 @@ SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
     sea.longest_gap = sea.anemometer_height = sea.fetch = {};
   }
   if (flags.trajectory.is_given()) file.trajectory = {};
-  ForEachSection([&](const char*, const auto& keys, const auto& section) {
-    Override(keys, section(flags), section(file));
-  });
+  ForEachSection(
+      [&](const char*, const auto& keys, const auto& section) { Override(keys, section(flags), section(file)); });
   if (!flags.sea.waves.empty()) file.sea.waves = flags.sea.waves;
   return file;
 }
@@ -74,8 +72,7 @@ void ReadMore(TomlKeys&, Settings&) {}
 void CheckTogether(TomlKeys& keys, const TrajectorySettings& trajectory) {
   if (!trajectory.from_returns.value_or(false)) return;
   for (const std::string_view key : {"files", "errors", "time"})
-    if (keys.Has(key))
-      keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
+    if (keys.Has(key)) keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
 }
 void CheckTogether(TomlKeys& keys, const SurfaceSettings& surface) {
   if (!keys.Has("level") || surface.located.value_or("level") == "level") return;
@@ -131,8 +128,7 @@ struct Describe {
     return {"number", UnitText(number.unit), number.least, number.greatest, {}, "NUMBER"};
   }
   ValueFacts operator()(const ThreeNumbers& numbers) const {
-    return {"3 numbers", UnitText(numbers.unit),    numbers.least, numbers.greatest,
-            {},          std::string(numbers.shown)};
+    return {"3 numbers", UnitText(numbers.unit), numbers.least, numbers.greatest, {}, std::string(numbers.shown)};
   }
   ValueFacts operator()(const Word& word) const {
     const std::vector<std::string> words(word.words.begin(), word.words.end());
@@ -165,14 +161,13 @@ void AddTable(const char* section, const Table& table, std::vector<ListedKey>& l
 void AddSigma(std::vector<ListedKey>& list) {
   for (const ErrorSource& source : kErrorSources) {
     const bool one = source.size() == 1;
-    list.push_back(
-        {"sigma",
-         std::string(source.name),
-         "",
-         "of the error files, the sensor, or assumed",
-         absl::StrCat("Standard deviation", one ? ": " : absl::StrCat("s ", config::PartsText(source), ": "),
-                      std::string(source.doc)),
-         {one ? "number" : "3 numbers", UnitText(source.unit), 0, source.greatest, {}, ""}});
+    list.push_back({"sigma",
+                    std::string(source.name),
+                    "",
+                    "of the error files, the sensor, or assumed",
+                    absl::StrCat("Standard deviation", one ? ": " : absl::StrCat("s ", config::PartsText(source), ": "),
+                                 std::string(source.doc)),
+                    {one ? "number" : "3 numbers", UnitText(source.unit), 0, source.greatest, {}, ""}});
   }
 }
 

@@ -46,15 +46,12 @@ Eigen::VectorXd Exponent(const Eigen::VectorXd& harmonics, const Eigen::MatrixXd
     const Eigen::VectorXd means = functions.transpose() * density;
     const Eigen::VectorXd gradient = means - harmonics + kRidge * c;
     if (gradient.cwiseAbs().maxCoeff() < kExact) break;
-    Eigen::MatrixXd hessian =
-        functions.transpose() * density.asDiagonal() * functions - means * means.transpose();
+    Eigen::MatrixXd hessian = functions.transpose() * density.asDiagonal() * functions - means * means.transpose();
     hessian.diagonal().array() += kRidge;
     const Eigen::VectorXd newton = -hessian.ldlt().solve(gradient);
     const double before = objective(c), slope = gradient.dot(newton);
     double length = 1;
-    while (length > kShortestStep && !(objective(c + length * newton) <= before + 1e-4 * length * slope)) {
-      length /= 2;
-    }
+    while (length > kShortestStep && !(objective(c + length * newton) <= before + 1e-4 * length * slope)) length /= 2;
     if (length <= kShortestStep) break;  // at the precision of the objective, or at the narrowest density
     c += length * newton;
   }
@@ -119,13 +116,11 @@ WavenumberRange EnergeticRange(const std::vector<double>& k, const std::vector<d
   }
   std::size_t first = 0, last = k.size() - 1;
   while (first + 1 < last && elevation[first + 1] < kLeftOut * elevation.back() &&
-         slope[first + 1] < kLeftOut * slope.back()) {
+         slope[first + 1] < kLeftOut * slope.back())
     ++first;
-  }
   while (last > first + 1 && elevation[last - 1] > (1 - kLeftOut) * elevation.back() &&
-         slope[last - 1] > (1 - kLeftOut) * slope.back()) {
+         slope[last - 1] > (1 - kLeftOut) * slope.back())
     --last;
-  }
   return {k[first], k[last]};
 }
 
@@ -169,9 +164,8 @@ double SampledSpectrum::Spreading(double k, double psi) const {
 double SampledSpectrum::peak_wavenumber() const {
   const auto energy = [&](std::size_t i) { return saturation_[i] * std::exp(-2 * log_k_[i]); };  // k S(k)
   std::size_t peak = 0;
-  for (std::size_t i = 1; i < log_k_.size(); ++i) {
+  for (std::size_t i = 1; i < log_k_.size(); ++i)
     if (energy(i) > energy(peak)) peak = i;
-  }
   return std::exp(log_k_[peak]);
 }
 

@@ -45,9 +45,8 @@ std::vector<SeaState::Ring> SeaState::Rings() const {
   std::array<double, kDirections> spreading;
   for (int i = 0; i <= steps; ++i) {
     const double k = lowest * std::exp(i * step);
-    if (i == 0 || spectrum_->spreading_varies_with_wavenumber()) {
+    if (i == 0 || spectrum_->spreading_varies_with_wavenumber())
       for (int j = 0; j < kDirections; ++j) spreading[j] = FrozenSpreading(k, (j + 0.5) * kDirectionStep);
-    }
     const double trapezoid = i == 0 || i == steps ? 0.5 : 1.0;
     const double ring = 2 * k * S(k) * step * kDirectionStep * trapezoid;  // S/k times k dk, both half planes
     rings[i].k = k;
@@ -65,29 +64,30 @@ double SeaState::FrozenSpreading(double k, double psi) const {
 
 double SeaState::Psi(double k, double psi) const { return S(k) / k * FrozenSpreading(k, psi); }
 
-double SeaState::DirectionalPsi(double k, double psi) const {
-  return S(k) / k * spectrum_->Spreading(k, psi);
-}
+double SeaState::DirectionalPsi(double k, double psi) const { return S(k) / k * spectrum_->Spreading(k, psi); }
 
 WavenumberRange SeaState::energetic_range() const {
   const auto [lowest, highest] = spectrum_->energetic_range();
   return {std::max(lowest, longest_wave_), highest};
 }
 
-Eigen::Matrix2d SlopeCovariance(const SeaState& sea,
-                                const std::function<double(double k, double psi)>& weight) {
-  return sea.Integral(Eigen::Matrix2d(Eigen::Matrix2d::Zero()), [&](double k, double psi) {
-    const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
-    return Eigen::Matrix2d(weight(k, psi) * wave * wave.transpose());
-  });
+Eigen::Matrix2d SlopeCovariance(const SeaState& sea, const std::function<double(double k, double psi)>& weight) {
+  return sea.Integral(
+      Eigen::Matrix2d(Eigen::Matrix2d::Zero()),
+      [&](double k, double psi) {
+        const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
+        return Eigen::Matrix2d(weight(k, psi) * wave * wave.transpose());
+      });
 }
 
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea) {
-  return SlopeCovariance(sea, [](double, double) { return 1.0; });
+  return SlopeCovariance(
+      sea, [](double, double) { return 1.0; });
 }
 
 double ElevationVariance(const SeaState& sea) {
-  return sea.Integral(0.0, [](double, double) { return 1.0; });
+  return sea.Integral(
+      0.0, [](double, double) { return 1.0; });
 }
 
 }  // namespace albtpu

@@ -104,9 +104,8 @@ class SeaState {
   // Integral of weight(k, psi) Psi over the plane: see SlopeCovariance. `Value` is a number or a matrix.
   template <typename Value, typename Weight>
   Value Integral(Value sum, const Weight& weight) const {
-    for (const Ring& ring : *rings_) {
+    for (const Ring& ring : *rings_)
       for (int j = 0; j < kDirections; ++j) sum += ring.power[j] * weight(ring.k, (j + 0.5) * kDirectionStep);
-    }
     return sum;
   }
 
@@ -137,8 +136,7 @@ class SeaState {
 // Trapezoidal rule in log k (100 steps to a factor of e, finer than any footprint filter varies where it matters) and
 // 32 directions of the half plane; the relative error is below 1e-4 if the filter passes at least 3e-5 of the mean
 // square slope.
-Eigen::Matrix2d SlopeCovariance(const SeaState& sea,
-                                const std::function<double(double k, double psi)>& weight);
+Eigen::Matrix2d SlopeCovariance(const SeaState& sea, const std::function<double(double k, double psi)>& weight);
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea);
 
 // Variance of elevation [m^2]; the significant wave height is four times its root.

@@ -58,10 +58,9 @@ std::string SeaTimeText(double time) {
   const year_month_day date(midnight);
   const hh_mm_ss clock(instant - midnight);
   std::array<char, 32> text;
-  int size =
-      std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d", static_cast<int>(date.year()),
-                    static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                    static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()));
+  int size = std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d", static_cast<int>(date.year()),
+                           static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                           static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()));
   if (const int second = static_cast<int>(clock.seconds().count()); second != 0)
     size += std::snprintf(text.data() + size, text.size() - static_cast<std::size_t>(size), ":%02d", second);
   return std::string(text.data(), static_cast<std::size_t>(size)) + "Z";

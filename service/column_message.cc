@@ -30,8 +30,7 @@ void ColumnMessage::Add(const google::protobuf::MessageLite& message) {
 
 char* ColumnMessage::AddColumn(int field, std::size_t size) {
   slices_.push_back(Header(field, size));
-  const grpc_slice column =
-      grpc_slice_malloc_large(size);  // Never stored inside the slice object, which moves.
+  const grpc_slice column = grpc_slice_malloc_large(size);  // Never stored inside the slice object, which moves.
   slices_.emplace_back(column, grpc::Slice::STEAL_REF);
   return reinterpret_cast<char*>(column.data.refcounted.bytes);
 }

@@ -23,8 +23,7 @@ std::string PrintableText(std::string_view text) {
   const auto is_control = [](char c) { return absl::ascii_iscntrl(static_cast<unsigned char>(c)); };
   std::replace_if(printable.begin(), printable.end(), is_control, ' ');
   using Json = nlohmann::json;  // Its serializer replaces bytes that are not UTF-8.
-  printable =
-      Json::parse(Json(printable).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  printable = Json::parse(Json(printable).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
   ReplaceC1Controls(printable);
   return printable;
 }

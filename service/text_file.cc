@@ -28,8 +28,7 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& flag, const std::fil
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (file.bad()) return absl::DataLossError(absl::StrCat(where, ": cannot be read"));
   if (text.size() <= kMaxBytes) return text;
-  return absl::InvalidArgumentError(
-      absl::StrCat(where, ": has more than 1 MiB; check that it is the right file"));
+  return absl::InvalidArgumentError(absl::StrCat(where, ": has more than 1 MiB; check that it is the right file"));
 }
 
 }  // namespace albtpu

@@ -15,9 +15,7 @@
 namespace albtpu {
 namespace {
 
-double Scaled(double coordinate, Scale scale) {
-  return scale == Scale::kLog ? std::log(coordinate) : coordinate;
-}
+double Scaled(double coordinate, Scale scale) { return scale == Scale::kLog ? std::log(coordinate) : coordinate; }
 
 // "12 m", "3 m s-1": a coordinate as messages print it. Nine digits distinguish any two floats.
 std::string WithUnits(double value, const AxisSchema& schema) {
@@ -25,8 +23,7 @@ std::string WithUnits(double value, const AxisSchema& schema) {
 }
 
 // The rule that the node at `index` breaks; empty if it breaks none.
-std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<double>& nodes,
-                    std::size_t index) {
+std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<double>& nodes, std::size_t index) {
   const double node = nodes[index];
   if (!std::isfinite(node)) return absl::StrCat(WithUnits(node, schema), ": nodes must be finite");
   if (static_cast<double>(static_cast<float>(node)) != node) {
@@ -34,25 +31,22 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
                            std::string(schema.units), static_cast<float>(node));
   }
   if (node < 0) return absl::StrCat(WithUnits(node, schema), ": nodes must not be negative");
-  if (node > format::kMaxNode) {
+  if (node > format::kMaxNode)
     return absl::StrFormat("%s: nodes must not be above %g", WithUnits(node, schema), format::kMaxNode);
-  }
-  if (scale == Scale::kLog && node == 0) {
+  if (scale == Scale::kLog && node == 0)
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
-  }
   if (schema.fold != Fold::kNone && node > MaxAngle(schema.fold)) {
     const double greatest = MaxAngle(schema.fold);
-    return absl::StrFormat(
-        "%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",
-        WithUnits(node, schema), greatest, greatest);
+    return absl::StrFormat("%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",
+                           WithUnits(node, schema), greatest, greatest);
   }
   if (index > 0 && !(node > nodes[index - 1])) {
-    return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
-                           index - 1, WithUnits(nodes[index - 1], schema));
+    return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema), index - 1,
+                           WithUnits(nodes[index - 1], schema));
   }
   if (index > 0 && node - nodes[index - 1] < format::kMinNodeDistance) {
-    return absl::StrFormat("%s, too close to node %d (%s): nodes must be %g apart", WithUnits(node, schema),
-                           index - 1, WithUnits(nodes[index - 1], schema), format::kMinNodeDistance);
+    return absl::StrFormat("%s, too close to node %d (%s): nodes must be %g apart", WithUnits(node, schema), index - 1,
+                           WithUnits(nodes[index - 1], schema), format::kMinNodeDistance);
   }
   return "";
 }
@@ -75,14 +69,12 @@ absl::StatusOr<Axis> Axis::Create(const AxisSchema& schema, std::vector<double> 
 
 absl::StatusOr<Axis> Axis::Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale) {
   const std::string name(schema.name);
-  if (nodes.empty()) {
+  if (nodes.empty())
     return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has no nodes: it needs at least one", name));
-  }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::string problem = Problem(schema, scale, nodes, i);
-    if (!problem.empty()) {
+    if (!problem.empty())
       return absl::InvalidArgumentError(absl::StrFormat("axis '%s' node %d is %s", name, i, problem));
-    }
   }
   return Axis(schema, std::move(nodes), scale);
 }

@@ -70,8 +70,8 @@ double RadiusFactor95(double axis_ratio) {
 }
 
 double RadiusOverThu(const std::array<float, kQuantityCount>& values) {
-  return RadiusFactor95(AxisRatio(values[Index(Quantity::kRefractionAlongWind)],
-                                  values[Index(Quantity::kRefractionCrossWind)]));
+  return RadiusFactor95(
+      AxisRatio(values[Index(Quantity::kRefractionAlongWind)], values[Index(Quantity::kRefractionCrossWind)]));
 }
 
 double LargerRadiusOverThu(double thu_a, double radius_over_thu_a, double thu_b, double radius_over_thu_b) {

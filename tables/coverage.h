@@ -10,7 +10,7 @@ namespace albtpu {
 enum class Coverage {
   kTwoSigma,  // Twice the standard deviation; THU is twice the root of the summed variances of x and y.
   kOneSigma,  // Half of that: a root mean square error, as ASPRS states accuracy.
-  kP95,  // 1.95996 sigma in one dimension; in two, the radius that contains 95 % of a normal distribution.
+  kP95,       // 1.95996 sigma in one dimension; in two, the radius that contains 95 % of a normal distribution.
 };
 
 // The ratio of the 95 % radius of a centred two-dimensional normal distribution to twice the root of its summed

@@ -12,8 +12,7 @@ namespace albtpu {
 namespace {
 
 absl::Status Invalid(std::string_view attribute, std::string_view problem) {
-  return absl::InvalidArgumentError(
-      absl::StrFormat("attribute '%s' %s", std::string(attribute), std::string(problem)));
+  return absl::InvalidArgumentError(absl::StrFormat("attribute '%s' %s", std::string(attribute), std::string(problem)));
 }
 
 // The length in bytes of the UTF-8 character at the beginning of `text`; 0 if there is no valid character (Unicode
@@ -47,24 +46,21 @@ absl::Status CheckText(std::string_view attribute, std::string_view text) {
 
 bool IsId(std::string_view id) {
   const auto is_alphanumeric = [](char c) { return absl::ascii_islower(c) || absl::ascii_isdigit(c); };
-  return !id.empty() && is_alphanumeric(id[0]) && std::all_of(id.begin(), id.end(), [&](char c) {
-    return is_alphanumeric(c) || c == '_' || c == '-';
-  });
+  return !id.empty() && is_alphanumeric(id[0]) &&
+         std::all_of(id.begin(), id.end(), [&](char c) { return is_alphanumeric(c) || c == '_' || c == '-'; });
 }
 
 bool IsAttributeName(std::string_view name) {
   return !name.empty() && !absl::ascii_isdigit(name[0]) &&
-         std::all_of(name.begin(), name.end(), [](char c) { return absl::ascii_isalnum(c) || c == '_'; });
+         std::all_of(
+             name.begin(), name.end(), [](char c) { return absl::ascii_isalnum(c) || c == '_'; });
 }
 
 absl::Status CheckAttribute(std::string_view name, const AttributeValue& value) {
-  if (!IsAttributeName(name)) {
-    return Invalid(name,
-                   "has an invalid name: use letters, digits and underscores, and do not begin with a digit");
-  }
-  for (std::string_view reserved : format::kReservedAttributes) {
+  if (!IsAttributeName(name))
+    return Invalid(name, "has an invalid name: use letters, digits and underscores, and do not begin with a digit");
+  for (std::string_view reserved : format::kReservedAttributes)
     if (name == reserved) return Invalid(name, "is reserved: it is written from the contents of the table");
-  }
   const std::string* text = std::get_if<std::string>(&value);
   return text == nullptr ? absl::OkStatus() : CheckText(name, *text);
 }
@@ -78,16 +74,14 @@ absl::Status CheckProvenance(const Provenance& provenance) {
                                 "': use lowercase letters, digits, '-' and '_', and begin with a letter or a "
                                 "digit"));
   }
-  if (provenance.version.empty())
-    return Invalid(format::kVersion, "is empty: name this edition of the table");
+  if (provenance.version.empty()) return Invalid(format::kVersion, "is empty: name this edition of the table");
   if (provenance.title.find('\n') != std::string::npos)
     return Invalid(format::kTitle, "has several lines: it must be one line");
   absl::Status status = CheckText(format::kVersion, provenance.version);
   if (status.ok()) status = CheckText(format::kTitle, provenance.title);
   if (status.ok()) status = CheckText(format::kCampaign, provenance.campaign);
-  for (const auto& [name, value] : provenance.attributes) {
+  for (const auto& [name, value] : provenance.attributes)
     if (status.ok()) status = CheckAttribute(name, value);
-  }
   return status;
 }
 

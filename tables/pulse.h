@@ -15,9 +15,9 @@ namespace albtpu {
 // m hits the node 0.1 m through every interface.
 struct Pulse {
   float wind_speed = 0;  // m/s at 10 m; no effect in a table of one sea
-  float fetch = std::numeric_limits<
-      float>::infinity();  // m; infinity: a fully developed sea; no effect in a table of one sea
-  float incidence = 0;     // degree from the vertical, in air
+  float fetch =
+      std::numeric_limits<float>::infinity();  // m; infinity: a fully developed sea; no effect in a table of one sea
+  float incidence = 0;                         // degree from the vertical, in air
   // Degree from downwind; absent: the worse of 0 and 90 degrees. In a table of one sea, from its x axis towards its y
   // axis; absent: the worst node.
   std::optional<float> azimuth = {};

@@ -27,9 +27,8 @@ const Limits& LimitsOf(S44Order order) { return kLimits[static_cast<std::size_t>
 }  // namespace
 
 std::optional<S44Order> FindS44Order(std::string_view name) {
-  for (S44Order order : kS44Orders) {
+  for (S44Order order : kS44Orders)
     if (Name(order) == name) return order;
-  }
   return std::nullopt;
 }
 
@@ -47,9 +46,8 @@ double TvuLimit(S44Order order, double depth) {
 double ThuLimitAsPrintedByBirkebak(double depth) { return 5 + 0.02 * depth; }
 
 std::optional<S44Order> BestOrder(double thu, double tvu, double depth) {
-  for (S44Order order : kS44Orders) {
+  for (S44Order order : kS44Orders)
     if (ThuLimit(order, depth) > thu && TvuLimit(order, depth) > tvu) return order;
-  }
   return std::nullopt;
 }
 

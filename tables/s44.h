@@ -10,8 +10,8 @@ namespace albtpu {
 
 // The strictest order first. Edition 6.1.0 (2022), tables 1 and 2; Exclusive is new in edition 6.
 enum class S44Order { kExclusive, kSpecial, k1a, k1b, k2 };
-inline constexpr std::array<S44Order, 5> kS44Orders = {S44Order::kExclusive, S44Order::kSpecial,
-                                                       S44Order::k1a, S44Order::k1b, S44Order::k2};
+inline constexpr std::array<S44Order, 5> kS44Orders = {S44Order::kExclusive, S44Order::kSpecial, S44Order::k1a,
+                                                       S44Order::k1b, S44Order::k2};
 inline constexpr std::string_view kS44Edition = "IHO S-44 edition 6.1.0";
 
 inline constexpr std::array<std::string_view, 5> kS44OrderNames = {"exclusive", "special", "1a", "1b", "2"};

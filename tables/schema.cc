@@ -6,10 +6,7 @@ namespace {
 // The numbers of the sea do not change when the azimuth turns by 180 degrees or is mirrored at the wind axis, and
 // beyond the longest fetch the sea is fully developed.
 constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
-    {.name = "wind_speed",
-     .units = "m s-1",
-     .long_name = "wind speed at 10 m above the sea",
-     .scale = Scale::kLinear},
+    {.name = "wind_speed", .units = "m s-1", .long_name = "wind speed at 10 m above the sea", .scale = Scale::kLinear},
     {.name = "fetch",
      .units = "m",
      .long_name = "fetch; at the last node and beyond, the sea is fully developed",
@@ -53,23 +50,20 @@ constexpr std::array<QuantitySchema, kQuantityCount> kQuantitySchemas = {{
     {"refraction_cross_wind", "degree", "2 sigma of the direction in water, across the wind", false, false},
     {"thu", "m", "total horizontal uncertainty of the sea surface, 2 sigma", true, false},
     {"tvu", "m", "total vertical uncertainty of the sea surface, 2 sigma", true, false},
-    {"bias_along_beam", "m", "horizontal bias, positive if reported too far along the azimuth of the beam",
-     true, true},
+    {"bias_along_beam", "m", "horizontal bias, positive if reported too far along the azimuth of the beam", true, true},
     {"bias_vertical", "m", "vertical bias, positive if reported too shallow", true, true},
 }};
 
-constexpr std::array<std::size_t, kAxisCount> kBlendOrder = {
-    Index(AxisId::kWindSpeed), Index(AxisId::kFetch),     Index(AxisId::kAzimuth),
-    Index(AxisId::kIncidence), Index(AxisId::kFootprint), Index(AxisId::kDepth)};
+constexpr std::array<std::size_t, kAxisCount> kBlendOrder = {Index(AxisId::kWindSpeed), Index(AxisId::kFetch),
+                                                             Index(AxisId::kAzimuth),   Index(AxisId::kIncidence),
+                                                             Index(AxisId::kFootprint), Index(AxisId::kDepth)};
 
 constexpr TableSchema kSchema = {
     .name = "sea_surface", .axes = kAxisSchemas, .quantities = kQuantitySchemas, .blend_order = kBlendOrder};
 static_assert(IsWellFormed(kSchema));
 
-constexpr TableSchema kSchemaOfOneSea = {.name = "one_sea",
-                                         .axes = kAxisSchemasOfOneSea,
-                                         .quantities = kQuantitySchemas,
-                                         .blend_order = kBlendOrder};
+constexpr TableSchema kSchemaOfOneSea = {
+    .name = "one_sea", .axes = kAxisSchemasOfOneSea, .quantities = kQuantitySchemas, .blend_order = kBlendOrder};
 static_assert(IsWellFormed(kSchemaOfOneSea));
 
 }  // namespace
@@ -82,16 +76,14 @@ const AxisSchema& Describe(AxisId axis) { return kAxisSchemas[Index(axis)]; }
 const QuantitySchema& Describe(Quantity quantity) { return kQuantitySchemas[Index(quantity)]; }
 
 std::optional<AxisId> FindAxis(std::string_view name) {
-  for (AxisId axis : kAxes) {
+  for (AxisId axis : kAxes)
     if (Describe(axis).name == name) return axis;
-  }
   return std::nullopt;
 }
 
 std::optional<Quantity> FindQuantity(std::string_view name) {
-  for (Quantity quantity : kQuantities) {
+  for (Quantity quantity : kQuantities)
     if (Describe(quantity).name == name) return quantity;
-  }
   return std::nullopt;
 }
 

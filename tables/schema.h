@@ -14,9 +14,8 @@ namespace albtpu {
 // The axes, slowest first. This is the order of the dimensions of every dataset and of every message.
 enum class AxisId { kWindSpeed, kFetch, kIncidence, kAzimuth, kFootprint, kDepth };
 inline constexpr std::size_t kAxisCount = 6;
-inline constexpr std::array<AxisId, kAxisCount> kAxes = {AxisId::kWindSpeed, AxisId::kFetch,
-                                                         AxisId::kIncidence, AxisId::kAzimuth,
-                                                         AxisId::kFootprint, AxisId::kDepth};
+inline constexpr std::array<AxisId, kAxisCount> kAxes = {AxisId::kWindSpeed, AxisId::kFetch,     AxisId::kIncidence,
+                                                         AxisId::kAzimuth,   AxisId::kFootprint, AxisId::kDepth};
 
 // The uncertainty of a pulse by the sea surface. All but the biases are 2 sigma.
 enum class Quantity {

@@ -21,8 +21,8 @@ std::string Position(std::span<const Axis> axes, const QuantitySchema& quantity,
   std::string position;
   for (std::size_t i = axes.size() - (quantity.over_last_axis ? 0 : 1); i-- > 0;) {
     const std::size_t size = axes[i].size();
-    position = absl::StrCat(std::string(axes[i].schema().name), " ", index % size,
-                            position.empty() ? "" : ", ", position);
+    position =
+        absl::StrCat(std::string(axes[i].schema().name), " ", index % size, position.empty() ? "" : ", ", position);
     index /= size;
   }
   return absl::StrCat("[", position, "]");
@@ -46,8 +46,8 @@ absl::Status CheckValues(std::span<const Axis> axes, const QuantitySchema& quant
                          const std::vector<float>& values, const ValueRules& rules) {
   const std::size_t expected = ValueCount(axes, quantity);
   if (values.size() != expected) {
-    return absl::InvalidArgumentError(absl::StrFormat("variable '%s' has %d values: its axes have %d nodes",
-                                                      name, values.size(), expected));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("variable '%s' has %d values: its axes have %d nodes", name, values.size(), expected));
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string_view problem = Problem(values[i], rules);
@@ -58,8 +58,7 @@ absl::Status CheckValues(std::span<const Axis> axes, const QuantitySchema& quant
   return absl::OkStatus();
 }
 
-absl::Status CheckVariable(std::span<const Axis> axes, const QuantitySchema& quantity,
-                           const Variable& variable) {
+absl::Status CheckVariable(std::span<const Axis> axes, const QuantitySchema& quantity, const Variable& variable) {
   const std::string name(quantity.name);
   absl::Status status =
       CheckValues(axes, quantity, name, variable.values,
@@ -71,36 +70,32 @@ absl::Status CheckVariable(std::span<const Axis> axes, const QuantitySchema& qua
 
 absl::Status CheckAxes(const TableSchema& schema, std::span<const Axis> axes) {
   if (axes.size() != schema.axes.size()) {
-    return absl::InvalidArgumentError(absl::StrFormat("there are %d axes: expected the %d of kind '%s'",
-                                                      axes.size(), schema.axes.size(),
-                                                      std::string(schema.name)));
+    return absl::InvalidArgumentError(absl::StrFormat("there are %d axes: expected the %d of kind '%s'", axes.size(),
+                                                      schema.axes.size(), std::string(schema.name)));
   }
   std::size_t count = 1;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const std::string name(axes[i].schema().name), expected(schema.axes[i].name);
-    if (name != expected) {
+    if (name != expected)
       return absl::InvalidArgumentError(absl::StrFormat("axis %d is '%s': expected '%s'", i, name, expected));
-    }
     if (axes[i].schema() != schema.axes[i]) {
-      return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has other rules than that of kind '%s'",
-                                                        name, std::string(schema.name)));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("axis '%s' has other rules than that of kind '%s'", name, std::string(schema.name)));
     }
     if (axes[i].size() > format::kMaxNodeCount) {
-      return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has %d nodes: it may have %d at most",
-                                                        name, axes[i].size(), format::kMaxNodeCount));
+      return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has %d nodes: it may have %d at most", name,
+                                                        axes[i].size(), format::kMaxNodeCount));
     }
     if (axes[i].size() > format::kMaxValueCount / count) {
-      return absl::InvalidArgumentError(
-          absl::StrFormat("the axes up to '%s' span more than %d nodes, the most that a table may have", name,
-                          format::kMaxValueCount));
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "the axes up to '%s' span more than %d nodes, the most that a table may have", name, format::kMaxValueCount));
     }
     count *= axes[i].size();
   }
   return absl::OkStatus();
 }
 
-absl::Status CheckVariables(const TableSchema& schema, std::span<const Axis> axes,
-                            const Table::Variables& variables) {
+absl::Status CheckVariables(const TableSchema& schema, std::span<const Axis> axes, const Table::Variables& variables) {
   if (variables.size() != schema.quantities.size()) {
     return absl::InvalidArgumentError(absl::StrFormat("there are %d variables: expected the %d of kind '%s'",
                                                       variables.size(), schema.quantities.size(),
@@ -174,8 +169,7 @@ std::size_t ValueCount(std::span<const Axis> axes, const QuantitySchema& quantit
   return count;
 }
 
-absl::StatusOr<Table> Table::Create(const TableSchema& schema, Axes axes, Variables variables,
-                                    Provenance provenance) {
+absl::StatusOr<Table> Table::Create(const TableSchema& schema, Axes axes, Variables variables, Provenance provenance) {
   assert(IsWellFormed(schema));
   absl::Status status = CheckAxes(schema, axes);
   if (status.ok()) status = CheckVariables(schema, axes, variables);

@@ -34,8 +34,7 @@ class Table {
   // schema has quantities, a required variable is missing, a shape does not fit the axes, a value breaks the rules
   // of `Variable`, or the provenance its own. The message names the axis or the variable and the index. `schema`
   // must be well-formed and outlive the table.
-  static absl::StatusOr<Table> Create(const TableSchema& schema, Axes axes, Variables variables,
-                                      Provenance provenance);
+  static absl::StatusOr<Table> Create(const TableSchema& schema, Axes axes, Variables variables, Provenance provenance);
 
   const TableSchema& schema() const { return *schema_; }
   const Axes& axes() const { return axes_; }

@@ -23,9 +23,9 @@ enum class Fold {
 
 // The meaning of a query without a coordinate on an axis.
 enum class IfAbsent {
-  kRefuse,        // Invalid: the axis needs a coordinate.
-  kLastNode,      // The last node.
-  kLargerOfEnds,  // The worse of 0 and 90 degrees: of the two answers, each value is the larger in magnitude.
+  kRefuse,         // Invalid: the axis needs a coordinate.
+  kLastNode,       // The last node.
+  kLargerOfEnds,   // The worse of 0 and 90 degrees: of the two answers, each value is the larger in magnitude.
   kLargestOfNodes  // The worst node: of the answers at all nodes, each value is the largest in magnitude.
 };
 
@@ -103,9 +103,8 @@ constexpr bool IsWellFormed(const TableSchema& schema) {
 
   const auto& order = schema.blend_order;
   if (order.size() != axis_count || order.back() != axis_count - 1) return false;
-  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
     if (std::find(order.begin(), order.end(), axis) == order.end()) return false;
-  }
   std::size_t largest = 0;
   for (const AxisSchema& axis : schema.axes) {
     if (axis.fold != Fold::kNone && (axis.units != "degree" || axis.is_endless)) return false;
@@ -113,9 +112,8 @@ constexpr bool IsWellFormed(const TableSchema& schema) {
     if (TakesLargest(axis.if_absent) && ++largest > 1) return false;
   }
   if (TakesLargest(schema.axes.back().if_absent)) return false;
-  for (const QuantitySchema& quantity : schema.quantities) {
+  for (const QuantitySchema& quantity : schema.quantities)
     if (!quantity.over_last_axis && axis_count == 1) return false;
-  }
   return HasDistinctNames(schema);
 }
 

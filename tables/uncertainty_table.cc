@@ -15,18 +15,16 @@ namespace {
 
 }  // namespace
 
-absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(Axes axes, Variables variables,
-                                                          Provenance provenance) {
+absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(Axes axes, Variables variables, Provenance provenance) {
   return Create(kSeaSurface, std::move(axes), std::move(variables), std::move(provenance));
 }
 
-absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(const TableSchema& kind, Axes axes,
-                                                          Variables variables, Provenance provenance) {
+absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(const TableSchema& kind, Axes axes, Variables variables,
+                                                          Provenance provenance) {
   assert(IsOfSea(kind));
-  absl::StatusOr<Table> table =
-      Table::Create(kind, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
-                    {std::make_move_iterator(variables.begin()), std::make_move_iterator(variables.end())},
-                    std::move(provenance));
+  absl::StatusOr<Table> table = Table::Create(
+      kind, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
+      {std::make_move_iterator(variables.begin()), std::make_move_iterator(variables.end())}, std::move(provenance));
   if (!table.ok()) return table.status();
   return UncertaintyTable(*std::move(table));
 }

@@ -41,11 +41,10 @@ AnswerTally AnswerTally::FromJson(const Json& answers) {
   for (const auto& [outcome, number] : outcomes.items()) {
     const std::uint64_t count = Count(number);
     tally.chosen += count;
-    if (outcome == "INTERPOLATED") {
+    if (outcome == "INTERPOLATED")
       tally.interpolated = count;
-    } else if (count > 0) {
+    else if (count > 0)
       tally.without_number[outcome] = {count, ReadSpread(Member(Member(answers, "outside"), outcome))};
-    }
   }
   tally.min_depth = Number(Member(Member(answers, "depth"), "least"));
   return tally;
@@ -54,9 +53,7 @@ AnswerTally AnswerTally::FromJson(const Json& answers) {
 void AnswerTally::Merge(const AnswerTally& other) {
   chosen += other.chosen;
   interpolated += other.interpolated;
-  if (other.min_depth.has_value()) {
-    min_depth = std::min(min_depth.value_or(*other.min_depth), *other.min_depth);
-  }
+  if (other.min_depth.has_value()) min_depth = std::min(min_depth.value_or(*other.min_depth), *other.min_depth);
   for (const auto& [outcome, theirs] : other.without_number) {
     WithoutNumber& ours = without_number[outcome];
     if (ours.coordinate.has_value() && theirs.coordinate.has_value()) {
@@ -85,8 +82,7 @@ Names MakeNames() {
   for (std::size_t i = 0; i < OutcomeCounts::kOutOfDomainCount; ++i) {
     const std::size_t axis = i / 3;
     names[1 + i] = absl::StrCat(
-        "OUT_OF_DOMAIN", axis > 0 ? absl::StrCat(":", std::string(Describe(kAxes[axis - 1]).name)) : "",
-        sides[i % 3]);
+        "OUT_OF_DOMAIN", axis > 0 ? absl::StrCat(":", std::string(Describe(kAxes[axis - 1]).name)) : "", sides[i % 3]);
   }
   return names;
 }
@@ -140,22 +136,18 @@ std::uint64_t OutcomeCounts::total() const {
 nlohmann::ordered_json OutcomeCounts::Json() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["INTERPOLATED"] = interpolated();
-  for (std::size_t i = 1; i < asked_.size(); ++i) {
+  for (std::size_t i = 1; i < asked_.size(); ++i)
     if (asked_[i] > 0) json[std::string(Name(i))] = asked_[i];
-  }
-  for (std::size_t i = 0; i < without_pulse_.size(); ++i) {
+  for (std::size_t i = 0; i < without_pulse_.size(); ++i)
     if (without_pulse_[i] > 0) json[std::string(OutcomeName(static_cast<NoPulse>(i)))] = without_pulse_[i];
-  }
   return json;
 }
 
 std::string OutcomeCounts::Text(std::string_view without_azimuth) const {
-  std::string text =
-      absl::StrCat(total(), total() == 1 ? " pulse: " : " pulses: ", interpolated(), " interpolated");
+  std::string text = absl::StrCat(total(), total() == 1 ? " pulse: " : " pulses: ", interpolated(), " interpolated");
   const nlohmann::ordered_json json = Json();
-  for (const auto& [outcome, count] : json.items()) {
+  for (const auto& [outcome, count] : json.items())
     if (outcome != "INTERPOLATED") absl::StrAppend(&text, ", ", count.get<std::uint64_t>(), " ", outcome);
-  }
   if (without_azimuth_ > 0) {
     absl::StrAppend(&text, "; ", without_azimuth_ == AskedTotal() ? "all" : absl::StrCat(without_azimuth_),
                     " without azimuth: ", std::string(without_azimuth));
@@ -166,14 +158,11 @@ std::string OutcomeCounts::Text(std::string_view without_azimuth) const {
 AnswerCells::AnswerCells(AnswerStyle style) : style_(style) {
   for (const Quantity quantity : kQuantities) names_.emplace_back(Describe(quantity).name);
   names_.emplace_back("outcome");
-  if (style_.standard_errors) {
-    for (const Quantity quantity : kQuantities) {
+  if (style_.standard_errors)
+    for (const Quantity quantity : kQuantities)
       names_.push_back(std::string(Describe(quantity).name) + std::string(kStandardErrorSuffix));
-    }
-  }
-  if (style_.s44_order.has_value()) {
+  if (style_.s44_order.has_value())
     names_.insert(names_.end(), {"s44_best_order", "s44_remaining_thu", "s44_remaining_tvu"});
-  }
 }
 
 AnswerSelection AnswerCells::selection() const {

@@ -56,8 +56,7 @@ std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i);
 
 // The meaning of an answer without azimuth, by a table of winds and by a table of one sea.
-inline constexpr std::string_view kWorseOfTheWind =
-    "each value is the larger of those along and across the wind";
+inline constexpr std::string_view kWorseOfTheWind = "each value is the larger of those along and across the wind";
 inline constexpr std::string_view kWorstOfTheSea = "each value is the largest of all azimuths";
 inline std::string_view WithoutAzimuth(const client::TableSummary& table) {
   return table.sea.has_value() ? kWorstOfTheSea : kWorseOfTheWind;
@@ -127,14 +126,12 @@ class AnswerCells {
 
   // Calls `number(float)`, `text(std::string_view)` or `nothing()` for each column in order.
   template <typename NumberCell, typename TextCell, typename EmptyCell>
-  void Visit(const AnswerBatch& answers, std::size_t i, NumberCell number, TextCell text,
-             EmptyCell nothing) const {
+  void Visit(const AnswerBatch& answers, std::size_t i, NumberCell number, TextCell text, EmptyCell nothing) const {
     const auto number_or_nothing = [&](float value) { std::isfinite(value) ? number(value) : nothing(); };
     for (const auto& column : answers.values) number_or_nothing(column[i]);
     text(OutcomeName(answers, i));
-    if (style_.standard_errors) {
+    if (style_.standard_errors)
       for (const auto& column : answers.standard_errors) number_or_nothing(column[i]);
-    }
     if (!style_.s44_order.has_value()) return;
     const std::uint8_t best = answers.best_s44_orders[i];
     best > 0 ? text(Name(kS44Orders[best - 1])) : nothing();

@@ -24,8 +24,7 @@ AnswerColumns AnswerBatch::Resize(std::size_t count, const AnswerSelection& sele
   sides.assign(count, 0);
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
     columns.values[i] = column(values[i], selection.quantities[i]);
-    columns.standard_errors[i] =
-        column(standard_errors[i], selection.quantities[i] && selection.standard_errors);
+    columns.standard_errors[i] = column(standard_errors[i], selection.quantities[i] && selection.standard_errors);
   }
   columns.best_s44_orders = column(best_s44_orders, selection.best_s44_orders);
   columns.remaining_thu = column(remaining_thu, selection.s44_remaining);

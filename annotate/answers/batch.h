@@ -99,19 +99,17 @@ struct AnswerBatch {
 // A source of answers for batches: a table, or the sea at the time of each pulse (annotate/seas). Thread-safe.
 class AnswerSource {
  public:
-  using Answer =
-      std::function<absl::Status(const Query&, const PulseBatch&, const AnswerSelection&, AnswerBatch&)>;
+  using Answer = std::function<absl::Status(const Query&, const PulseBatch&, const AnswerSelection&, AnswerBatch&)>;
 
   AnswerSource(client::UncertaintySource& source);  // NOLINT: each table answers. Must outlive it.
-  AnswerSource(const client::TableSummary& table, Answer answer)
-      : table_(&table), answer_(std::move(answer)) {}
+  AnswerSource(const client::TableSummary& table, Answer answer) : table_(&table), answer_(std::move(answer)) {}
 
   // The table, or the one of a sea, whose axes all seas share.
   const client::TableSummary& table() const { return *table_; }
 
  private:
-  friend absl::Status AnswerPulses(const AnswerSource&, const Query&, const PulseBatch&,
-                                   const AnswerSelection&, AnswerBatch&);
+  friend absl::Status AnswerPulses(const AnswerSource&, const Query&, const PulseBatch&, const AnswerSelection&,
+                                   AnswerBatch&);
 
   const client::TableSummary* table_;
   Answer answer_;

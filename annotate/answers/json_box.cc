@@ -6,8 +6,7 @@
 namespace albtpu::annotate {
 
 JsonBox::JsonBox() : JsonBox(nlohmann::ordered_json()) {}
-JsonBox::JsonBox(nlohmann::ordered_json json)
-    : json_(std::make_unique<nlohmann::ordered_json>(std::move(json))) {}
+JsonBox::JsonBox(nlohmann::ordered_json json) : json_(std::make_unique<nlohmann::ordered_json>(std::move(json))) {}
 JsonBox::JsonBox(const JsonBox& other) : JsonBox(*other) {}
 JsonBox::JsonBox(JsonBox&& other) noexcept = default;
 JsonBox& JsonBox::operator=(JsonBox other) noexcept {

@@ -37,10 +37,8 @@ struct WrongUnit {
 
 // With a full divergence of 1.5 mrad, 0.0015 mrad is a divergence in rad, 1500 mrad one in urad.
 constexpr WrongUnit kWrongUnits[] = {
-    {AxisId::kWindSpeed, Side::kAbove, Given::kUnknown, kMetresPerSecondPerKnot,
-     "is the wind speed in knots?"},
-    {AxisId::kWindSpeed, Side::kAbove, Given::kUnknown, kMetresPerSecondPerKmPerHour,
-     "is the wind speed in km/h?"},
+    {AxisId::kWindSpeed, Side::kAbove, Given::kUnknown, kMetresPerSecondPerKnot, "is the wind speed in knots?"},
+    {AxisId::kWindSpeed, Side::kAbove, Given::kUnknown, kMetresPerSecondPerKmPerHour, "is the wind speed in km/h?"},
     {AxisId::kFetch, Side::kBelow, Given::kUnknown, 1000, "is the fetch in km?"},
     {AxisId::kIncidence, Side::kBelow, Given::kUnknown, 180 / std::numbers::pi, "is the incidence in rad?"},
     {AxisId::kFootprint, Side::kAbove, Given::kFootprint, 0.01, "is the footprint in cm?"},
@@ -48,8 +46,7 @@ constexpr WrongUnit kWrongUnits[] = {
     {AxisId::kFootprint, Side::kAbove, Given::kBeam, kMetresPerFoot, "is the altitude in feet?"},
     {AxisId::kFootprint, Side::kAbove, Given::kBeam, 0.001, "is the divergence in urad?"},
     {AxisId::kFootprint, Side::kBelow, Given::kBeam, 1000, "is the divergence in rad?"},
-    {AxisId::kFootprint, Side::kBelow, Given::kFootprint, 1000,
-     "is it the divergence, or the footprint in km?"},
+    {AxisId::kFootprint, Side::kBelow, Given::kFootprint, 1000, "is it the divergence, or the footprint in km?"},
     {AxisId::kDepth, Side::kBelow, Given::kUnknown, -1, "are depths negative downwards?"},
     {AxisId::kDepth, Side::kAbove, Given::kUnknown, 0.01, "is the depth in cm?", 3},
     {AxisId::kDepth, Side::kAbove, Given::kUnknown, 0.001, "is the depth in mm?", 3},
@@ -130,10 +127,10 @@ LikelyCause OutOfDomain(AxisId axis, Side side, const Spread& spread, const Caus
   const client::AxisRange& range = context.axes[Index(axis)];
   const std::string units = axis == AxisId::kWindSpeed ? "m/s" : std::string(schema.units);
   LikelyCause cause;
-  cause.why = absl::StrFormat("%s %s is %s %g %s, the %s node of the table", std::string(schema.name),
-                              RangeText(spread.least, spread.greatest, units), std::string(Name(side)),
-                              side == Side::kAbove ? range.last : range.first, units,
-                              side == Side::kAbove ? "last" : "first");
+  cause.why =
+      absl::StrFormat("%s %s is %s %g %s, the %s node of the table", std::string(schema.name),
+                      RangeText(spread.least, spread.greatest, units), std::string(Name(side)),
+                      side == Side::kAbove ? range.last : range.first, units, side == Side::kAbove ? "last" : "first");
   if (axis == AxisId::kDepth && context.water_level.has_value()) {
     cause.suggestion = WaterLevelQuestion(spread.median, context);
     return cause;
@@ -142,13 +139,12 @@ LikelyCause OutOfDomain(AxisId axis, Side side, const Spread& spread, const Caus
                       : *context.footprint_from_beam           ? Given::kBeam
                                                                : Given::kFootprint;
   const std::string questions = UnitQuestions(axis, side, given, spread.median, context);
-  if (!questions.empty()) {
+  if (!questions.empty())
     cause.suggestion = absl::StrCat(questions, " ", GiveText(axis, given, side));
-  } else if (axis == AxisId::kDepth && side == Side::kAbove) {
+  else if (axis == AxisId::kDepth && side == Side::kAbove)
     cause.suggestion = "the water is too deep for this table: check the water level, or use another table";
-  } else {
+  else
     cause.suggestion = absl::StrCat(GiveText(axis, given, side), ", or use a table that covers it");
-  }
   return cause;
 }
 
@@ -161,10 +157,9 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
       return {"the position of the sensor is too uncertain from their returns", "give its --trajectory"};
     case NoPulse::kNoSurface:
       if (context.water_level_by_time) {
-        return {
-            "the file of --water-level has no level at their times",
-            "check its times, which are UTC with a Z or GPS times in the form of the points, and give levels "
-            "at most 2 hours apart from before the first point to after the last"};
+        return {"the file of --water-level has no level at their times",
+                "check its times, which are UTC with a Z or GPS times in the form of the points, and give levels "
+                "at most 2 hours apart from before the first point to after the last"};
       }
       return {"no water surface is known there",
               "check --water-classes, or give the height of the water by --water-level"};
@@ -177,8 +172,8 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
   }
   LikelyCause cause{"they lie above the water surface", "check the water surface and its vertical datum"};
   if (spread.has_value()) {
-    cause.why = absl::StrCat("they lie ", RangeText(-spread->greatest, -spread->least, "m"),
-                             " above the water surface");
+    cause.why =
+        absl::StrCat("they lie ", RangeText(-spread->greatest, -spread->least, "m"), " above the water surface");
     if (context.water_level.has_value()) cause.suggestion = WaterLevelQuestion(spread->median, context);
   }
   return cause;
@@ -199,13 +194,10 @@ std::optional<LikelyCause> FindLikelyCause(const AnswerTally& tally, const Cause
     for (const Side side : {Side::kBelow, Side::kAbove}) {
       const std::string name =
           absl::StrCat("OUT_OF_DOMAIN:", std::string(Describe(axis).name), ":", std::string(Name(side)));
-      if (outcome == name && most.coordinate.has_value()) {
-        return OutOfDomain(axis, side, *most.coordinate, context);
-      }
+      if (outcome == name && most.coordinate.has_value()) return OutOfDomain(axis, side, *most.coordinate, context);
     }
   }
-  if (outcome == "INVALID")
-    return LikelyCause{"a coordinate is not a finite number", "correct the coordinates"};
+  if (outcome == "INVALID") return LikelyCause{"a coordinate is not a finite number", "correct the coordinates"};
   return LikelyCause{outcome, "check the coordinates against the axes that `albtpu-query tables` lists"};
 }
 
@@ -217,14 +209,12 @@ constexpr double kAboveByWaves = 2;      // m; how far the shallowest point may 
 }  // namespace
 
 std::string RunVerdict::Problem(const AnswerTally& tally) const {
-  const std::string how_many =
-      tally.interpolated == 0
-          ? absl::StrCat("no ", record_, " got a number")
-          : absl::StrCat("only ", tally.interpolated, " of ", tally.chosen, " ", record_, "s got a number");
-  const std::string outcomes =
-      absl::StrJoin(tally.without_number, ", ", [](std::string* text, const auto& outcome) {
-        absl::StrAppend(text, outcome.second.count, " ", outcome.first);
-      });
+  const std::string how_many = tally.interpolated == 0 ? absl::StrCat("no ", record_, " got a number")
+                                                       : absl::StrCat("only ", tally.interpolated, " of ", tally.chosen,
+                                                                      " ", record_, "s got a number");
+  const std::string outcomes = absl::StrJoin(tally.without_number, ", ", [](std::string* text, const auto& outcome) {
+    absl::StrAppend(text, outcome.second.count, " ", outcome.first);
+  });
   const std::optional<LikelyCause> cause = FindLikelyCause(tally, context_);
   if (!cause.has_value()) return how_many;
   return absl::StrCat(how_many, " (", outcomes, ": ", cause->why, "); ", cause->suggestion);
@@ -247,9 +237,7 @@ std::optional<double> RunVerdict::MinDepthWithOtherSign() const {
 
 absl::Status RunVerdict::status() const {
   const std::string where = files_ == 1 ? last_file_ : absl::StrCat("in all ", files_, " files");
-  if (all_.mostly_without_number()) {
-    return absl::FailedPreconditionError(absl::StrCat(where, ": ", Problem(all_)));
-  }
+  if (all_.mostly_without_number()) return absl::FailedPreconditionError(absl::StrCat(where, ": ", Problem(all_)));
   const std::optional<double> corrected = MinDepthWithOtherSign();
   if (!corrected.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrFormat(

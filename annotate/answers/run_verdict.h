@@ -36,8 +36,7 @@ std::optional<LikelyCause> FindLikelyCause(const AnswerTally& tally, const Cause
 class RunVerdict {
  public:
   // `record` is what the files contain, for the user, in the singular: "pulse", "chosen point".
-  RunVerdict(CauseContext context, std::string record)
-      : context_(std::move(context)), record_(std::move(record)) {}
+  RunVerdict(CauseContext context, std::string record) : context_(std::move(context)), record_(std::move(record)) {}
 
   // Counts a file that was written, or was complete already. Returns a message that names the file and the likely cause
   // if fewer than half of its pulses got a number, otherwise an empty text.

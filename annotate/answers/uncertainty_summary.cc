@@ -78,8 +78,7 @@ std::optional<InterpolationError> Parse(Quantity quantity, const std::string& at
 std::vector<InterpolationError> InterpolationErrors(const client::TableSummary& table) {
   std::vector<InterpolationError> errors;
   for (const Quantity quantity : kQuantities) {
-    const auto attribute =
-        table.attributes.find("interpolation_error_" + std::string(Describe(quantity).name));
+    const auto attribute = table.attributes.find("interpolation_error_" + std::string(Describe(quantity).name));
     if (attribute == table.attributes.end()) continue;
     const std::optional<InterpolationError> error = Parse(quantity, attribute->second);
     if (error.has_value()) errors.push_back(*error);
@@ -96,10 +95,8 @@ std::string InterpolationErrorNote(const client::TableSummary& table) {
   const std::vector<InterpolationError> errors = InterpolationErrors(table);
   if (errors.empty()) return "interpolation error: not known (the table does not state it)";
   std::string note = "interpolation error, relative, at random pulses all over the table: ";
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    absl::StrAppend(&note, i > 0 ? "; " : "", std::string(Describe(errors[i].quantity).name), " ",
-                    Text(errors[i]));
-  }
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    absl::StrAppend(&note, i > 0 ? "; " : "", std::string(Describe(errors[i].quantity).name), " ", Text(errors[i]));
   return note;
 }
 
@@ -131,9 +128,8 @@ void UncertaintySummary::Range::Merge(const Range& other) {
 }
 
 ordered_json UncertaintySummary::Range::Json(std::uint64_t count, bool standard_errors) const {
-  ordered_json json = {{"least", formats::JsonNumber(least)},
-                       {"mean", Mean(sum, count)},
-                       {"greatest", formats::JsonNumber(greatest)}};
+  ordered_json json = {
+      {"least", formats::JsonNumber(least)}, {"mean", Mean(sum, count)}, {"greatest", formats::JsonNumber(greatest)}};
   // Null where the table has no standard errors.
   if (standard_errors) json["mean_standard_error"] = Mean(standard_error_sum, count);
   return json;
@@ -203,12 +199,10 @@ AnswerTally UncertaintySummary::Tally() const {
     without_number.count = count;
     if (spread.count() > 0) without_number.coordinate = {spread.least(), spread.middle(), spread.greatest()};
   };
-  for (std::size_t i = 1; i < outside_.size(); ++i)
-    add(OutcomeCounts::Name(i), outcomes_.count(i), outside_[i]);
+  for (std::size_t i = 1; i < outside_.size(); ++i) add(OutcomeCounts::Name(i), outcomes_.count(i), outside_[i]);
   for (std::size_t i = 0; i < kNoPulseCount; ++i) {
     const auto why = static_cast<NoPulse>(i);
-    add(OutcomeName(why), outcomes_.count(why),
-        why == NoPulse::kAboveWater ? above_water_ : CoordinateSpread());
+    add(OutcomeName(why), outcomes_.count(why), why == NoPulse::kAboveWater ? above_water_ : CoordinateSpread());
   }
   if (std::isfinite(min_depth_)) tally.min_depth = min_depth_;
   return tally;
@@ -218,11 +212,11 @@ std::string UncertaintySummary::BandText(std::size_t index) const {
   const Band& band = bands_[index];
   const double begin = index == 0 ? 0 : kBandEnds[index - 1];
   const std::string end = index < kBandEnds.size() ? absl::StrFormat("%g", kBandEnds[index]) : "";
-  std::string text = absl::StrFormat(
-      "  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %7.1f %%", absl::StrFormat("%g - %s", begin, end),
-      band.count, Mean(band.thu.sum, band.count), band.thu.greatest, Mean(band.tvu.sum, band.count),
-      band.tvu.greatest, ThuLimit(order(), begin), TvuLimit(order(), begin),
-      100 * Mean(static_cast<double>(band.Within(order())), band.count));
+  std::string text =
+      absl::StrFormat("  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %7.1f %%", absl::StrFormat("%g - %s", begin, end),
+                      band.count, Mean(band.thu.sum, band.count), band.thu.greatest, Mean(band.tvu.sum, band.count),
+                      band.tvu.greatest, ThuLimit(order(), begin), TvuLimit(order(), begin),
+                      100 * Mean(static_cast<double>(band.Within(order())), band.count));
   if (style_.standard_errors) {
     absl::StrAppend(&text, absl::StrFormat(" %9.2g %9.2g", Mean(band.thu.standard_error_sum, band.count),
                                            Mean(band.tvu.standard_error_sum, band.count)));
@@ -233,33 +227,28 @@ std::string UncertaintySummary::BandText(std::size_t index) const {
 std::string UncertaintySummary::Text(std::string_view without_azimuth) const {
   std::string text = outcomes_.Text(without_azimuth);
   if (outcomes_.interpolated() == 0) return text;
-  absl::StrAppend(
-      &text,
-      absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only; limits are those at the shallow end",
-                      min_depth_, max_depth_));
+  absl::StrAppend(&text,
+                  absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only; limits are those at the shallow end",
+                                  min_depth_, max_depth_));
   const std::string coverage = CoverageText(style_.coverage);
   const std::string order_name = std::string(Name(order()));
   absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %17s %17s %27s", "depth", "points", "THU, " + coverage,
                                          "TVU, " + coverage, "S-44 " + order_name + " limits, 95 %"));
-  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %9s%s", "m", "", "mean m",
-                                         "max m", "mean m", "max m", "THU m", "TVU m", "within",
+  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %9s%s", "m", "", "mean m", "max m",
+                                         "mean m", "max m", "THU m", "TVU m", "within",
                                          style_.standard_errors ? "  s.e. THU  s.e. TVU" : ""));
-  for (std::size_t i = 0; i < bands_.size(); ++i) {
+  for (std::size_t i = 0; i < bands_.size(); ++i)
     if (bands_[i].count > 0) absl::StrAppend(&text, "\n", BandText(i));
-  }
   return text;
 }
 
 ordered_json UncertaintySummary::BandJson(std::size_t index) const {
   const Band& band = bands_[index];
-  ordered_json json = {
-      {"from", index == 0 ? 0 : kBandEnds[index - 1]}, {"to", nullptr}, {"pulses", band.count}};
+  ordered_json json = {{"from", index == 0 ? 0 : kBandEnds[index - 1]}, {"to", nullptr}, {"pulses", band.count}};
   if (index < kBandEnds.size()) json["to"] = kBandEnds[index];
   json["thu"] = band.thu.Json(band.count, style_.standard_errors);
   json["tvu"] = band.tvu.Json(band.count, style_.standard_errors);
-  for (const S44Order order : kS44Orders) {
-    json["s44_left_open"][std::string(Name(order))] = band.Within(order);
-  }
+  for (const S44Order order : kS44Orders) json["s44_left_open"][std::string(Name(order))] = band.Within(order);
   return json;
 }
 
@@ -291,9 +280,8 @@ ordered_json UncertaintySummary::Json() const {
   if (all.count == 0) return json;
   json["depth"] = {{"least", formats::JsonNumber(min_depth_)}, {"greatest", formats::JsonNumber(max_depth_)}};
   ordered_json& orders = json["s44_best_order"];
-  for (const S44Order order : kS44Orders) {
+  for (const S44Order order : kS44Orders)
     orders[std::string(Name(order))] = all.best_orders[static_cast<std::size_t>(order) + 1];
-  }
   orders["none"] = all.best_orders[0];
   json["depth_bands"] = std::move(bands);
   return json;

@@ -107,25 +107,21 @@ ordered_json NamesAndSizes(const Files& files) {
 
 bool BeamPlan::has_direction() const {
   if (const auto* scan = std::get_if<AcrossTrackScan>(&source)) return scan->flight_direction.has_value();
-  if (const auto* constant = std::get_if<ConstantIncidence>(&source))
-    return constant->beam_azimuth.has_value();
+  if (const auto* constant = std::get_if<ConstantIncidence>(&source)) return constant->beam_azimuth.has_value();
   return true;
 }
 
 std::vector<std::string> FilesOf(const BeamPlan& plan) {
   std::vector<std::string> files;
-  if (plan.trajectories != nullptr) {
+  if (plan.trajectories != nullptr)
     for (const auto& trajectory : *plan.trajectories) files.push_back(trajectory->name());
-  }
   for (const auto& errors : plan.trajectory_errors) files.push_back(errors->name());
   if (plan.water_level_file.has_value()) files.push_back(*plan.water_level_file);
   return files;
 }
 
 ordered_json Parameters(const BeamPlan& plan) {
-  const auto or_null = [](const auto& value) {
-    return value.has_value() ? ordered_json(*value) : ordered_json();
-  };
+  const auto or_null = [](const auto& value) { return value.has_value() ? ordered_json(*value) : ordered_json(); };
   ordered_json json = {{"incidence_from", kIncidenceSources[plan.source.index()]}};
   if (const auto* constant = std::get_if<ConstantIncidence>(&plan.source)) {
     json["incidence"] = constant->incidence;
@@ -196,8 +192,7 @@ std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
   const std::optional<formats::TrajectoryRecord> record = timeline_.RecordAt(time);
   if (!record.has_value()) return std::nullopt;
   SensorMotion motion;
-  motion.velocity = {Or(record->velocity_north, 0), Or(record->velocity_east, 0),
-                     -Or(record->velocity_up, 0)};
+  motion.velocity = {Or(record->velocity_north, 0), Or(record->velocity_east, 0), -Or(record->velocity_up, 0)};
   motion.roll = DegreesOfRadians(Or(record->roll, 0));
   motion.pitch = DegreesOfRadians(Or(record->pitch, 0));
   motion.heading = std::isfinite(record->heading) ? DegreesOfRadians(record->heading)
@@ -213,8 +208,7 @@ std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
 }
 
 std::optional<SensorMotion> CourseMotions::At(double time) const {
-  constexpr double kStep =
-      0.1;  // s, over which the velocity is taken: twice as far where the track begins or ends.
+  constexpr double kStep = 0.1;  // s, over which the velocity is taken: twice as far where the track begins or ends.
   const std::array<double, 3> times = {time - kStep, time, time + kStep};
   std::array<SensorPosition, 3> positions;
   std::array<TrackOutcome, 3> outcomes;
@@ -224,8 +218,7 @@ std::optional<SensorMotion> CourseMotions::At(double time) const {
   if (first == last || outcomes[1] != TrackOutcome::kKnown) return std::nullopt;
   const SensorPosition &from = positions[first], &to = positions[last];
   const double seconds = times[last] - times[first];
-  const double x = (to.x - from.x) * from.metres_per_x / seconds,
-               y = (to.y - from.y) * from.metres_per_y / seconds;
+  const double x = (to.x - from.x) * from.metres_per_x / seconds, y = (to.y - from.y) * from.metres_per_y / seconds;
   // True azimuth = grid azimuth + convergence.
   const double c = std::cos(from.convergence), s = std::sin(from.convergence);
   SensorMotion motion;

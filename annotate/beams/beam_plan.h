@@ -66,8 +66,7 @@ struct TrajectoryFromReturns {
   std::optional<std::string> crs;
 };
 
-using BeamSource =
-    std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
+using BeamSource = std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
 
 // The alternatives of BeamSource, as summaries name them in `incidence_from`.
 inline constexpr std::array<std::string_view, std::variant_size_v<BeamSource>> kIncidenceSources = {
@@ -105,8 +104,7 @@ struct BeamPlan {
   std::optional<double> metres_per_unit;        // Of heights; absent: as the coordinate system states.
 
   bool has_track() const {
-    return std::holds_alternative<TrajectoryFromFiles>(source) ||
-           std::holds_alternative<TrajectoryFromReturns>(source);
+    return std::holds_alternative<TrajectoryFromFiles>(source) || std::holds_alternative<TrajectoryFromReturns>(source);
   }
   // Whether the true direction of each beam is known.
   bool has_direction() const;

@@ -36,11 +36,10 @@ std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<con
     if (estimate.has_value()) sigmas.push_back(estimate->incidence_sigma);
   }
   if (sigmas.empty()) return std::nullopt;
-  const RaySegment& longest = *std::max_element(
-      track.segments().begin(), track.segments().end(),
-      [](const RaySegment& a, const RaySegment& b) { return a.end - a.start < b.end - b.start; });
-  return TrackStatistics{.middle = *track.At((longest.start + longest.end) / 2),
-                         .sigma = Median(std::move(sigmas))};
+  const RaySegment& longest =
+      *std::max_element(track.segments().begin(), track.segments().end(),
+                        [](const RaySegment& a, const RaySegment& b) { return a.end - a.start < b.end - b.start; });
+  return TrackStatistics{.middle = *track.At((longest.start + longest.end) / 2), .sigma = Median(std::move(sigmas))};
 }
 
 // Positions of `track` in the local frame, `shift` [s] after the given times.
@@ -51,18 +50,16 @@ TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame,
     std::vector<SensorPosition> sensors(times.size());
     std::vector<TrackOutcome> outcomes(times.size());
     track.PositionsAt(shifted, sensors, outcomes);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (outcomes[i] == TrackOutcome::kKnown) {
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (outcomes[i] == TrackOutcome::kKnown)
         positions[i] = {frame.X(sensors[i].x), frame.Y(sensors[i].y), sensors[i].z};
-      } else {
+      else
         positions[i].setConstant(std::numeric_limits<double>::quiet_NaN());
-      }
-    }
   };
 }
 
-absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan,
-                            const formats::TrajectoryTimeline& timeline, FileTrack& found) {
+absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan, const formats::TrajectoryTimeline& timeline,
+                            FileTrack& found) {
   const std::optional<TrajectoryPrecision> precision = PrecisionOf(plan.trajectory_errors, timeline);
   if (!precision.has_value()) {
     return absl::FailedPreconditionError(
@@ -78,16 +75,14 @@ absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan,
 }
 
 // If the track agrees with the rays on the other time scale, a hint with the flag that selects it; otherwise empty.
-std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const SensorTrack& track, bool utc,
-                                            double index) {
+std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const SensorTrack& track, bool utc, double index) {
   // GPS - UTC since July 2012. Times in UTC that are taken for GPS put a position so many seconds too early.
   for (const int seconds : {18, 17, 16}) {
     const double shift = utc ? seconds : -seconds;
-    const TrackCheck check =
-        CheckTrack(file.rays, LocalPositions(track, file.frame, shift), {.index = index});
+    const TrackCheck check = CheckTrack(file.rays, LocalPositions(track, file.frame, shift), {.index = index});
     if (check.verdict != TrackVerdict::kAgrees) continue;
-    return absl::StrCat("its times are ", utc ? "GPS" : "UTC", ", ", seconds, " s ",
-                        utc ? "after UTC" : "behind GPS", "); give --trajectory-time ", utc ? "gps" : "utc");
+    return absl::StrCat("its times are ", utc ? "GPS" : "UTC", ", ", seconds, " s ", utc ? "after UTC" : "behind GPS",
+                        "); give --trajectory-time ", utc ? "gps" : "utc");
   }
   return std::nullopt;
 }
@@ -99,8 +94,7 @@ std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const Senso
 std::string OrWaterLevel(const TrackCheck& check, const BeamPlan& plan) {
   if (check.verdict != TrackVerdict::kHeightOffset || !plan.water_classes.empty()) return "";
   const double error = check.up.value / (1 - 1 / plan.refractive_index);
-  return absl::StrFormat(", or --water-level is about %.2g m too %s", std::abs(error),
-                         error < 0 ? "low" : "high");
+  return absl::StrFormat(", or --water-level is about %.2g m too %s", std::abs(error), error < 0 ? "low" : "high");
 }
 
 // Compares the track with the rays of pairs of returns.
@@ -120,11 +114,11 @@ absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, 
     const std::string problem = absl::StrCat(file.name, ": its returns contradict the trajectory (");
     const std::optional<std::string> flag = FlagOfOtherClock(file, *found.track, utc, index);
     if (flag.has_value()) return absl::FailedPreconditionError(absl::StrCat(problem, *flag));
-    return absl::FailedPreconditionError(absl::StrCat(
-        problem, Describe(check), OrWaterLevel(check, plan), "; the median angle between beams is ",
-        absl::StrFormat("%.2g", DegreesOfRadians(check.median_angle)),
-        " degrees); correct the flags that say how to read the trajectory, or give the right one if this "
-        "is that of another flight"));
+    return absl::FailedPreconditionError(
+        absl::StrCat(problem, Describe(check), OrWaterLevel(check, plan), "; the median angle between beams is ",
+                     absl::StrFormat("%.2g", DegreesOfRadians(check.median_angle)),
+                     " degrees); correct the flags that say how to read the trajectory, or give the right one if this "
+                     "is that of another flight"));
   }
   const double difference = DegreesOfRadians(check.mean_difference.value);
   const double sigma = DegreesOfRadians(check.mean_difference.sigma);
@@ -144,8 +138,7 @@ absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, 
 absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan) {
   const TrajectoryFromFiles& source = std::get<TrajectoryFromFiles>(plan.source);
   absl::StatusOr<formats::TrajectoryTimeline> timeline = formats::TrajectoryTimeline::Create(
-      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps,
-      file.times);
+      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps, file.times);
   if (!timeline.ok()) {
     return absl::Status(timeline.status().code(),
                         absl::StrCat(file.name, ": ", std::string(timeline.status().message())));
@@ -169,10 +162,10 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
 
 absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index) {
   const auto too_few = [&](const std::string& why) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        file.name, ": the position of the sensor cannot be derived from its returns (", why,
-        file.remark.empty() ? "" : "; ", file.remark,
-        "); check --water-level or --water-classes and --classes, or give a trajectory by --trajectory"));
+    return absl::FailedPreconditionError(
+        absl::StrCat(file.name, ": the position of the sensor cannot be derived from its returns (", why,
+                     file.remark.empty() ? "" : "; ", file.remark,
+                     "); check --water-level or --water-classes and --classes, or give a trajectory by --trajectory"));
   };
   if (file.rays.empty()) {
     return too_few(absl::StrCat(file.pairs,
@@ -191,16 +184,13 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index
   FileTrack found;
   const double height = statistics->middle.height, speed = statistics->middle.velocity.norm();
   const double sigma = DegreesOfRadians(statistics->sigma);
-  *found.json = {
-      {"pairs", file.pairs},          {"rays", file.rays.size()}, {"segments", track.segments().size()},
-      {"height_above_water", height}, {"speed", speed},           {"incidence_sigma", sigma}};
+  *found.json = {{"pairs", file.pairs},          {"rays", file.rays.size()}, {"segments", track.segments().size()},
+                 {"height_above_water", height}, {"speed", speed},           {"incidence_sigma", sigma}};
   found.notes.push_back(
       absl::StrFormat("trajectory from %d pulses with two returns under water: in the middle of its longest "
                       "part %.1f m above the water at %.1f m/s; incidence known to %.2g degrees (1 sigma)",
                       file.rays.size(), height, speed, sigma));
-  if (file.map == nullptr) {
-    found.notes.push_back("coordinate system not known: directions are from grid north");
-  }
+  if (file.map == nullptr) found.notes.push_back("coordinate system not known: directions are from grid north");
   found.track = std::make_unique<FittedTrack>(std::move(track), file.frame, file.map.get());
   found.motions = std::make_unique<CourseMotions>(*found.track);
   return found;
@@ -216,8 +206,8 @@ FittedTrack::FittedTrack(RayTrack track, const LocalFrame& frame, const formats:
     : track_(std::move(track)), frame_(frame) {
   if (map == nullptr) return;
   const auto convergence_at = [&](double east, double north) -> std::optional<double> {
-    const std::optional<formats::GeographicPosition> position = map->GeographicAt(
-        {frame.origin_x + east / frame.metres_per_x, frame.origin_y + north / frame.metres_per_y});
+    const std::optional<formats::GeographicPosition> position =
+        map->GeographicAt({frame.origin_x + east / frame.metres_per_x, frame.origin_y + north / frame.metres_per_y});
     if (!position.has_value()) return std::nullopt;
     return map->MetricAt(*position).convergence;
   };

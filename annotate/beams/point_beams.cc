@@ -38,23 +38,20 @@ double AcrossTrackAzimuth(double flight_direction, double scan_angle) {
 
 void BeamGeometry::Compute(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const {
   const std::size_t count = points.size();
-  for (std::vector<float>* column : {&beams.incidence, &beams.beam_azimuth, &beams.azimuth, &beams.footprint,
-                                     &beams.depth, &beams.slant_range}) {
+  for (std::vector<float>* column :
+       {&beams.incidence, &beams.beam_azimuth, &beams.azimuth, &beams.footprint, &beams.depth, &beams.slant_range})
     column->assign(count, kNan);
-  }
   beams.why_not.assign(count, std::nullopt);
   beams.surface = {};
   Locate(points, scratch, beams);
-  if (plan_.has_track()) {
+  if (plan_.has_track())
     FromTrack(points, scratch, beams);
-  } else {
+  else
     FromAngles(points, beams);
-  }
   if (plan_.any_aircraft) FindAircraft(points, scratch, beams);
 }
 
-void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& scratch,
-                                PointBeams& beams) const {
+void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const {
   const std::size_t count = points.size();
   AircraftColumns& aircraft = beams.aircraft;
   std::vector<float>& altitudes = aircraft[BudgetInput::kAltitude];
@@ -77,9 +74,7 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
   }
   if (motions_ == nullptr) return;
   ForEachMotion(*motions_, points.times, [&](std::size_t i, const SensorMotion& motion) {
-    const auto put = [&](BudgetInput input, double number) {
-      aircraft[input][i] = static_cast<float>(number);
-    };
+    const auto put = [&](BudgetInput input, double number) { aircraft[input][i] = static_cast<float>(number); };
     put(BudgetInput::kRoll, motion.roll);
     put(BudgetInput::kPitch, motion.pitch);
     put(BudgetInput::kHeading, motion.heading);
@@ -98,11 +93,10 @@ void BeamGeometry::Locate(const SurveyPoints& points, BeamScratch& scratch, Poin
   for (std::size_t i = 0; i < points.size(); ++i) {
     scratch.depth[i] = scratch.heights[i] - frame_.Z(points.z[i]);
     beams.depth[i] = static_cast<float>(scratch.depth[i]);
-    if (!std::isfinite(scratch.heights[i])) {
+    if (!std::isfinite(scratch.heights[i]))
       beams.why_not[i] = NoPulse::kNoSurface;
-    } else if (scratch.depth[i] < 0) {
+    else if (scratch.depth[i] < 0)
       beams.why_not[i] = NoPulse::kAboveWater;
-    }
   }
 }
 
@@ -112,9 +106,8 @@ void BeamGeometry::FromTrack(const SurveyPoints& points, BeamScratch& scratch, P
   scratch.outcomes.resize(count);
   if (count > 0) track_->PositionsAt(points.times, scratch.positions, scratch.outcomes);
   for (std::vector<double>* column : {&scratch.east, &scratch.north, &scratch.height, &scratch.convergence,
-                                      &scratch.incidence, &scratch.azimuth, &scratch.slant_range}) {
+                                      &scratch.incidence, &scratch.azimuth, &scratch.slant_range})
     column->resize(count);
-  }
   for (std::size_t i = 0; i < count; ++i) {
     const SensorPosition& sensor = scratch.positions[i];
     scratch.east[i] = (points.x[i] - sensor.x) * sensor.metres_per_x;
@@ -135,17 +128,15 @@ void BeamGeometry::FromTrack(const SurveyPoints& points, BeamScratch& scratch, P
   const double wind_from = RadiansOfDegrees(FullCircle(plan_.wind_from.value_or(0)));
   for (std::size_t i = 0; i < count; ++i) {
     if (scratch.outcomes[i] != TrackOutcome::kKnown) {
-      beams.why_not[i] = scratch.outcomes[i] == TrackOutcome::kOutside ? NoPulse::kNoTrajectory
-                                                                       : NoPulse::kUncertainTrajectory;
+      beams.why_not[i] =
+          scratch.outcomes[i] == TrackOutcome::kOutside ? NoPulse::kNoTrajectory : NoPulse::kUncertainTrajectory;
       continue;
     }
     if (beams.why_not[i] == NoPulse::kNoSurface) continue;
     beams.incidence[i] = static_cast<float>(DegreesOfRadians(scratch.incidence[i]));
     beams.beam_azimuth[i] = Direction(DegreesOfRadians(scratch.azimuth[i]));
-    if (plan_.wind_from.has_value()) {
-      beams.azimuth[i] =
-          static_cast<float>(DegreesOfRadians(AzimuthFromDownwind(scratch.azimuth[i], wind_from)));
-    }
+    if (plan_.wind_from.has_value())
+      beams.azimuth[i] = static_cast<float>(DegreesOfRadians(AzimuthFromDownwind(scratch.azimuth[i], wind_from)));
     beams.slant_range[i] = static_cast<float>(scratch.slant_range[i]);
     beams.footprint[i] = static_cast<float>(FootprintOf(plan_, scratch.slant_range[i]));
   }
@@ -159,29 +150,25 @@ void BeamGeometry::FromAngles(const SurveyPoints& points, PointBeams& beams) con
     const double incidence = scan != nullptr ? std::abs(points.scan_angles[i]) : constant->incidence;
     beams.incidence[i] = static_cast<float>(incidence);
     std::optional<double> direction;
-    if (scan == nullptr) {
+    if (scan == nullptr)
       direction = constant->beam_azimuth;
-    } else if (scan->flight_direction.has_value()) {
+    else if (scan->flight_direction.has_value())
       direction = AcrossTrackAzimuth(*scan->flight_direction, points.scan_angles[i]);
-    }
     if (direction.has_value()) beams.beam_azimuth[i] = Direction(*direction);
     if (direction.has_value() && plan_.wind_from.has_value()) {
       const double downwind = *plan_.wind_from + 180;
       beams.azimuth[i] = static_cast<float>(*direction - downwind);
     }
-    const double slant_range =
-        altitude.has_value() ? *altitude / std::cos(RadiansOfDegrees(incidence)) : kNan;
+    const double slant_range = altitude.has_value() ? *altitude / std::cos(RadiansOfDegrees(incidence)) : kNan;
     beams.slant_range[i] = static_cast<float>(slant_range);
     beams.footprint[i] = static_cast<float>(FootprintOf(plan_, slant_range));
   }
 }
 
-void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows,
-                PulseBatch& pulses) {
+void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows, PulseBatch& pulses) {
   rows.clear();
-  for (std::size_t i = 0; i < beams.why_not.size(); ++i) {
+  for (std::size_t i = 0; i < beams.why_not.size(); ++i)
     if (!beams.why_not[i].has_value()) rows.push_back(static_cast<std::uint32_t>(i));
-  }
   const auto column = [&](const std::vector<float>& values, std::vector<float>& selected) {
     selected.resize(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) selected[i] = values[rows[i]];
@@ -191,19 +178,17 @@ void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::
   pulses[AxisId::kFetch].assign(plan.fetch.has_value() ? 1 : 0, plan.fetch.value_or(0));
   column(beams.incidence, pulses[AxisId::kIncidence]);
   column(beams.depth, pulses[AxisId::kDepth]);
-  if (const auto* footprint = std::get_if<float>(&plan.footprint)) {
+  if (const auto* footprint = std::get_if<float>(&plan.footprint))
     pulses[AxisId::kFootprint].assign(1, *footprint);
-  } else {
+  else
     column(beams.footprint, pulses[AxisId::kFootprint]);
-  }
   pulses[AxisId::kAzimuth].clear();
-  if (plan.azimuth.has_value()) {
+  if (plan.azimuth.has_value())
     pulses[AxisId::kAzimuth].assign(1, *plan.azimuth);
-  } else if (plan.any_sea && plan.has_direction()) {
+  else if (plan.any_sea && plan.has_direction())
     column(beams.beam_azimuth, pulses[AxisId::kAzimuth]);
-  } else if (plan.wind_from.has_value()) {
+  else if (plan.wind_from.has_value())
     column(beams.azimuth, pulses[AxisId::kAzimuth]);
-  }
   pulses.azimuths_from_north = plan.any_sea && !plan.azimuth.has_value();
 }
 

@@ -50,8 +50,8 @@ double AcrossTrackAzimuth(double flight_direction, double scan_angle);
 class BeamGeometry {
  public:
   // `track` may be null if the plan needs none or there are no points; so may `motions`.
-  BeamGeometry(const BeamPlan& plan, const LocalFrame& frame, const WaterHeights& water,
-               const SensorTrack* track, const SensorMotions* motions = nullptr)
+  BeamGeometry(const BeamPlan& plan, const LocalFrame& frame, const WaterHeights& water, const SensorTrack* track,
+               const SensorMotions* motions = nullptr)
       : plan_(plan), frame_(frame), water_(water), track_(track), motions_(motions) {}
 
   // The beams of `points`, each of which depends on its point alone.
@@ -72,7 +72,6 @@ class BeamGeometry {
 
 // The pulses of the points that have one; `rows` says which points these are. A coordinate that is the same for all
 // pulses has one number.
-void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows,
-                PulseBatch& pulses);
+void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows, PulseBatch& pulses);
 
 }  // namespace albtpu::annotate

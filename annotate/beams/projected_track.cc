@@ -45,8 +45,7 @@ NorthEastDown Turned(const LeverArm& arm, double roll, double pitch, double head
           -arm.forward * std::sin(pitch) + down * std::cos(pitch)};
 }
 
-ProjectedTrack::ProjectedTrack(formats::TrajectoryTimeline timeline,
-                               std::shared_ptr<const formats::MapFrame> frame,
+ProjectedTrack::ProjectedTrack(formats::TrajectoryTimeline timeline, std::shared_ptr<const formats::MapFrame> frame,
                                const ProjectedTrackOptions& options)
     : timeline_(std::move(timeline)), frame_(std::move(frame)), options_(options) {
   const std::vector<formats::TimelineRun>& runs = timeline_.runs();
@@ -73,9 +72,9 @@ ProjectedTrack::ProjectedTrack(formats::TrajectoryTimeline timeline,
 
 ProjectedTrack::~ProjectedTrack() = default;
 
-absl::StatusOr<std::unique_ptr<ProjectedTrack>> ProjectedTrack::Create(
-    formats::TrajectoryTimeline timeline, std::shared_ptr<const formats::MapFrame> frame,
-    const ProjectedTrackOptions& options) {
+absl::StatusOr<std::unique_ptr<ProjectedTrack>> ProjectedTrack::Create(formats::TrajectoryTimeline timeline,
+                                                                       std::shared_ptr<const formats::MapFrame> frame,
+                                                                       const ProjectedTrackOptions& options) {
   if (!options.lever_arm.is_zero()) {
     for (const formats::TimelineRun& run : timeline.runs()) {
       const formats::TrajectoryRecord record = run.trajectory->Record(run.begin);
@@ -89,16 +88,14 @@ absl::StatusOr<std::unique_ptr<ProjectedTrack>> ProjectedTrack::Create(
   return std::unique_ptr<ProjectedTrack>(new ProjectedTrack(std::move(timeline), std::move(frame), options));
 }
 
-formats::GeographicPosition ProjectedTrack::SensorOf(const formats::TrajectoryRecord& record,
-                                                     double& height) const {
+formats::GeographicPosition ProjectedTrack::SensorOf(const formats::TrajectoryRecord& record, double& height) const {
   height = record.height;
   if (options_.lever_arm.is_zero()) return {record.latitude, record.longitude};
   const NorthEastDown arm = Turned(options_.lever_arm, record.roll, record.pitch, record.heading);
   height = record.height - arm.down;
   const formats::Ellipsoid& ellipsoid = frame_->ellipsoid();
   const double meridian = ellipsoid.MeridianRadius(record.latitude) + record.height;
-  const double parallel =
-      (ellipsoid.PrimeVerticalRadius(record.latitude) + record.height) * std::cos(record.latitude);
+  const double parallel = (ellipsoid.PrimeVerticalRadius(record.latitude) + record.height) * std::cos(record.latitude);
   return {record.latitude + arm.north / meridian, record.longitude + arm.east / parallel};
 }
 
@@ -107,13 +104,8 @@ SensorPosition ProjectedTrack::PositionOf(const formats::TrajectoryRecord& recor
   const formats::GeographicPosition sensor = SensorOf(record, height);
   const formats::MapPosition position = frame_->Project(sensor);
   const formats::MapMetric metric = frame_->MetricAt(sensor);
-  return {position.x,
-          position.y,
-          height - options_.geoid_separation,
-          metric.metres_per_x,
-          metric.metres_per_y,
-          metric.convergence,
-          0};
+  return {position.x,         position.y, height - options_.geoid_separation, metric.metres_per_x, metric.metres_per_y,
+          metric.convergence, 0};
 }
 
 std::vector<ProjectedTrack::Row> ProjectedTrack::Project(const Block& block) const {
@@ -137,8 +129,7 @@ std::vector<ProjectedTrack::Row> ProjectedTrack::Project(const Block& block) con
   for (std::size_t i = 0; i + 1 < count; i += kMetricStep) {
     const std::size_t end = std::min(i + kMetricStep, count - 1);
     formats::MapMetric last = frame_->MetricAt(sensors[end]);
-    last.convergence =
-        first.convergence + std::remainder(last.convergence - first.convergence, 2 * std::numbers::pi);
+    last.convergence = first.convergence + std::remainder(last.convergence - first.convergence, 2 * std::numbers::pi);
     for (std::size_t j = i; j <= end; ++j) {
       const double fraction = (rows[j].time - rows[i].time) / (rows[end].time - rows[i].time);
       rows[j].metres_per_x = static_cast<float>(std::lerp(first.metres_per_x, last.metres_per_x, fraction));
@@ -215,11 +206,10 @@ class ProjectedTrack::Cursor {
     }
     while (low < high) {
       const std::size_t middle = low + (high - low + 1) / 2;
-      if (rows[middle].time <= time) {
+      if (rows[middle].time <= time)
         low = middle;
-      } else {
+      else
         high = middle - 1;
-      }
     }
     step_ = low;
   }
@@ -236,9 +226,8 @@ void ProjectedTrack::PositionsAt(std::span<const double> times, std::span<Sensor
   Cursor cursor(*this), cursor_of_next_week(*this);
   for (std::size_t i = 0; i < times.size(); ++i) {
     outcomes[i] = cursor(times[i], positions[i]);
-    if (starts_again_ && outcomes[i] == TrackOutcome::kOutside && times[i] < formats::kSecondsPerWeek) {
+    if (starts_again_ && outcomes[i] == TrackOutcome::kOutside && times[i] < formats::kSecondsPerWeek)
       outcomes[i] = cursor_of_next_week(times[i] + formats::kSecondsPerWeek, positions[i]);
-    }
   }
 }
 

@@ -39,9 +39,9 @@ struct ProjectedTrackOptions {
 class ProjectedTrack : public SensorTrack {
  public:
   // Fails when there is a lever arm, and a trajectory states no attitude.
-  static absl::StatusOr<std::unique_ptr<ProjectedTrack>> Create(
-      formats::TrajectoryTimeline timeline, std::shared_ptr<const formats::MapFrame> frame,
-      const ProjectedTrackOptions& options);
+  static absl::StatusOr<std::unique_ptr<ProjectedTrack>> Create(formats::TrajectoryTimeline timeline,
+                                                                std::shared_ptr<const formats::MapFrame> frame,
+                                                                const ProjectedTrackOptions& options);
   ~ProjectedTrack() override;
 
   void PositionsAt(std::span<const double> times, std::span<SensorPosition> positions,

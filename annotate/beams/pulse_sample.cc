@@ -44,9 +44,8 @@ void PairSample::Thin(std::size_t most) {
   std::vector<Rank> ranks(pairs_.size());
   std::vector<bool> is_kept(pairs_.size());
   while (true) {
-    for (std::size_t i = 0; i < ranks.size(); ++i) {
+    for (std::size_t i = 0; i < ranks.size(); ++i)
       ranks[i] = {std::floor(pairs_[i].time / size_.bin), HashOfTime(pairs_[i].time), i};
-    }
     std::sort(ranks.begin(), ranks.end(), [&](const Rank& a, const Rank& b) { return order(a) < order(b); });
     is_kept.assign(pairs_.size(), false);
     std::size_t kept = 0, in_bin = 0;
@@ -57,16 +56,14 @@ void PairSample::Thin(std::size_t most) {
       ++kept;
     }
     if (kept <= most) break;
-    if (size_.pairs_per_bin > 1) {
+    if (size_.pairs_per_bin > 1)
       size_.pairs_per_bin = (size_.pairs_per_bin + 1) / 2;
-    } else {
+    else
       size_.bin *= 2;
-    }
   }
   std::size_t end = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (is_kept[i]) pairs_[end++] = pairs_[i];
-  }
   pairs_.resize(end);
 }
 
@@ -105,8 +102,8 @@ std::vector<std::vector<PulseReturn>> PulseSample::Take() {
   });
   std::vector<std::vector<PulseReturn>> pulses;
   for (auto first = returns_.begin(); first != returns_.end();) {
-    const auto last = std::find_if(
-        first, returns_.end(), [&](const PulseReturn& other) { return PulseOf(other) != PulseOf(*first); });
+    const auto last = std::find_if(first, returns_.end(),
+                                   [&](const PulseReturn& other) { return PulseOf(other) != PulseOf(*first); });
     std::vector<PulseReturn> pulse(first, last);
     if (IsOnePulse(pulse)) pulses.push_back(std::move(pulse));
     first = last;

@@ -114,22 +114,20 @@ std::vector<Change> Changes(const formats::MapFrame& frame) {
   for (int degrees = 3; degrees <= 180; degrees += 3) {
     for (const int sign : {-1, 1}) {
       const double turn = RadiansOfDegrees(sign * degrees);
-      changes.push_back(
-          {absl::StrFormat("another zone: the points fit a central meridian %d degrees further %s%s", degrees,
-                           sign > 0 ? "east" : "west",
-                           degrees % 6 == 0 ? NameOfZone(frame.crs_name(), sign * degrees / 6) : ""),
-           [turn](formats::GeographicPosition p) {
-             return formats::GeographicPosition{p.latitude, p.longitude - turn};
-           },
-           same});
+      changes.push_back({absl::StrFormat("another zone: the points fit a central meridian %d degrees further %s%s",
+                                         degrees, sign > 0 ? "east" : "west",
+                                         degrees % 6 == 0 ? NameOfZone(frame.crs_name(), sign * degrees / 6) : ""),
+                         [turn](formats::GeographicPosition p) {
+                           return formats::GeographicPosition{p.latitude, p.longitude - turn};
+                         },
+                         same});
     }
   }
   return changes;
 }
 
 double DistanceAfter(const Change& change, const std::vector<formats::GeographicPosition>& samples,
-                     const formats::MapFrame& frame, const formats::MapMetric& metric,
-                     const PointExtent& extent) {
+                     const formats::MapFrame& frame, const formats::MapMetric& metric, const PointExtent& extent) {
   std::vector<formats::GeographicPosition> positions;
   for (const formats::GeographicPosition& sample : samples) {
     const formats::GeographicPosition changed = change.before(sample);
@@ -148,8 +146,8 @@ absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTi
   const std::vector<formats::GeographicPosition> samples = SamplePositions(timeline);
   std::vector<formats::MapPosition> projected(samples.size());
   frame.Project(samples, projected);
-  const formats::MapMetric metric = frame.is_geographic() ? frame.MetricAt(samples.front())
-                                                          : formats::MapMetric{frame.unit(), frame.unit(), 0};
+  const formats::MapMetric metric =
+      frame.is_geographic() ? frame.MetricAt(samples.front()) : formats::MapMetric{frame.unit(), frame.unit(), 0};
   const double distance = MinDistance(projected, metric, extent);
   if (distance <= kFarthestFromPoints) return absl::OkStatus();
   double least = kFarthestFromPoints;
@@ -163,9 +161,8 @@ absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTi
     }
   }
   const std::string remedy =
-      cause.empty()
-          ? "give the trajectory of this flight, or name the coordinate system of the points by --crs"
-          : "correct it, or name the coordinate system of the points by --crs";
+      cause.empty() ? "give the trajectory of this flight, or name the coordinate system of the points by --crs"
+                    : "correct it, or name the coordinate system of the points by --crs";
   if (cause.empty()) {
     cause =
         "another flight, such as one at the same hours of another week, which an SBET does not name, or "

@@ -26,8 +26,8 @@ nlohmann::ordered_json SurfaceCounts::Json() const {
 
 std::string SurfaceCounts::Text() const {
   return absl::StrCat("from a return of the same pulse at ", (*this)[SurfaceFrom::kPulse],
-                      " points, from returns nearby at ", (*this)[SurfaceFrom::kLocal],
-                      ", from the level at ", (*this)[SurfaceFrom::kLevel]);
+                      " points, from returns nearby at ", (*this)[SurfaceFrom::kLocal], ", from the level at ",
+                      (*this)[SurfaceFrom::kLevel]);
 }
 
 void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
@@ -44,10 +44,10 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
       counts.Add(SurfaceFrom::kPulse);
       continue;
     }
-    const std::optional<double> local = surface == nullptr
-                                            ? std::nullopt
-                                            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
-                                                                points.times.empty() ? 0 : points.times[i]);
+    const std::optional<double> local =
+        surface == nullptr
+            ? std::nullopt
+            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]), points.times.empty() ? 0 : points.times[i]);
     if (local.has_value()) {
       heights[i] = *local;
       counts.Add(SurfaceFrom::kLocal);
@@ -57,8 +57,8 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
   }
 }
 
-std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water,
-                                const LocalFrame& frame, double index) {
+std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
+                                double index) {
   SurveyPoints upper;
   for (const ReturnPair& pair : pairs) {
     upper.x.push_back(frame.origin_x + pair.upper.x() / frame.metres_per_x);
@@ -74,11 +74,10 @@ std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHe
     if (!std::isfinite(heights[i])) continue;
     const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index);
     if (!ray.has_value()) continue;
-    if (rays.empty() || rays.back().time != ray->time) {
+    if (rays.empty() || rays.back().time != ray->time)
       rays.push_back(*ray);
-    } else if (ray->separation > rays.back().separation) {
+    else if (ray->separation > rays.back().separation)
       rays.back() = *ray;
-    }
   }
   return rays;
 }

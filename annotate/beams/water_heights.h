@@ -21,12 +21,11 @@ namespace albtpu::annotate {
 
 // Element i of each column belongs to point i. Columns that the source of the incidence does not need may be empty.
 struct SurveyPoints {
-  std::vector<double> x, y;         // In the horizontal unit of the file: metres, feet or degrees.
-  std::vector<double> z;            // In the vertical unit.
-  std::vector<double> times;        // GPS time as the file states it.
-  std::vector<double> scan_angles;  // degree, positive to the right of the flight direction.
-  std::vector<double>
-      pulse_surface;  // z of the return from the water surface of the same pulse; NaN if there is none.
+  std::vector<double> x, y;           // In the horizontal unit of the file: metres, feet or degrees.
+  std::vector<double> z;              // In the vertical unit.
+  std::vector<double> times;          // GPS time as the file states it.
+  std::vector<double> scan_angles;    // degree, positive to the right of the flight direction.
+  std::vector<double> pulse_surface;  // z of the return from the water surface of the same pulse; NaN if there is none.
 
   std::size_t size() const { return z.size(); }
 };
@@ -68,7 +67,7 @@ struct WaterHeights {
 
 // `pairs` are in order of time and in the local frame. Of the pairs of one pulse, the longest that makes a ray counts.
 // `index` is that of the water.
-std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water,
-                                const LocalFrame& frame, double index);
+std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
+                                double index);
 
 }  // namespace albtpu::annotate

@@ -42,9 +42,8 @@ struct Chunk {
 class BlockWork {
  public:
   // `total` and `aircraft` are null without a total.
-  BlockWork(const formats::CsvReader& reader, const CsvPulses& columns, AnswerStyle style,
-            std::string default_ending, const AnswerSource& source, const CsvTotal* total,
-            const CsvAircraft* aircraft)
+  BlockWork(const formats::CsvReader& reader, const CsvPulses& columns, AnswerStyle style, std::string default_ending,
+            const AnswerSource& source, const CsvTotal* total, const CsvAircraft* aircraft)
       : total_(total),
         aircraft_(aircraft),
         name_(reader.name()),
@@ -61,15 +60,15 @@ class BlockWork {
   absl::Status operator()(Chunk& chunk) const {
     if (absl::Status status = Decode(chunk); !status.ok()) return status;
     chunk.summary = UncertaintySummary(style_);
-    absl::Status status = QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth,
-                                      chunk.totals_with_azimuth.water, chunk.summary);
+    absl::Status status =
+        QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.totals_with_azimuth.water, chunk.summary);
     if (status.ok())
-      status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth,
-                           chunk.totals_without_azimuth.water, chunk.summary);
+      status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.totals_without_azimuth.water,
+                           chunk.summary);
     if (status.ok() && total_ != nullptr) {
       chunk.totals = {};
-      FindTotals(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.aircraft_with_azimuth,
-                 chunk.totals_with_azimuth, chunk.totals);
+      FindTotals(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.aircraft_with_azimuth, chunk.totals_with_azimuth,
+                 chunk.totals);
       FindTotals(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.aircraft_without_azimuth,
                  chunk.totals_without_azimuth, chunk.totals);
     }
@@ -97,14 +96,13 @@ class BlockWork {
         if (!appended.ok()) return appended.status();
         has_azimuth = *appended;
         if (aircraft_ != nullptr) {
-          absl::Status status = aircraft_->Append(
-              record, has_azimuth ? chunk.aircraft_with_azimuth : chunk.aircraft_without_azimuth);
+          absl::Status status =
+              aircraft_->Append(record, has_azimuth ? chunk.aircraft_with_azimuth : chunk.aircraft_without_azimuth);
           if (!status.ok()) return status;
         }
       }
       chunk.rows.push_back({static_cast<std::uint32_t>(record.text.size()),
-                            static_cast<std::uint32_t>(record.line_ending.size()), record.blank(),
-                            has_azimuth});
+                            static_cast<std::uint32_t>(record.line_ending.size()), record.blank(), has_azimuth});
     }
     chunk.pulse_count = chunk.pulses.with_azimuth.size + chunk.pulses.without_azimuth.size;
     return absl::OkStatus();
@@ -118,13 +116,12 @@ class BlockWork {
     return status;
   }
 
-  void FindTotals(const PulseBatch& pulses, AnswerBatch& answers, CsvAircraftBatch& aircraft,
-                  TotalBatch& totals, TotalSummary& summary) const {
+  void FindTotals(const PulseBatch& pulses, AnswerBatch& answers, CsvAircraftBatch& aircraft, TotalBatch& totals,
+                  TotalSummary& summary) const {
     if (pulses.size == 0) return;
     if (!total_->wind_spectrum.empty()) {
       answers.sea_axes = aircraft.sea_axes;
-      if (total_->plan.waves_unseen())
-        WaveHeightsOfWinds(pulses, total_->wind_spectrum, answers.wave_heights);
+      if (total_->plan.waves_unseen()) WaveHeightsOfWinds(pulses, total_->wind_spectrum, answers.wave_heights);
     }
     ComputeTotals(total_->plan, pulses, answers, aircraft.columns, totals);
     for (std::size_t i = 0; i < pulses.size; ++i) {
@@ -134,8 +131,7 @@ class BlockWork {
     summary.Add(pulses, answers, totals);
   }
 
-  void AppendTotal(const AnswerBatch& answers, const TotalBatch& totals, std::size_t i,
-                   std::string& to) const {
+  void AppendTotal(const AnswerBatch& answers, const TotalBatch& totals, std::size_t i, std::string& to) const {
     const auto number = [&to](float value) {
       to += ',';
       if (std::isfinite(value)) formats::AppendFloat(value, to);
@@ -171,8 +167,7 @@ class BlockWork {
         const AnswerBatch& answers = row.has_azimuth ? chunk.with_azimuth : chunk.without_azimuth;
         const std::size_t i = row.has_azimuth ? with++ : without++;
         if (total_ != nullptr) {
-          AppendTotal(answers, row.has_azimuth ? chunk.totals_with_azimuth : chunk.totals_without_azimuth, i,
-                      to);
+          AppendTotal(answers, row.has_azimuth ? chunk.totals_with_azimuth : chunk.totals_without_azimuth, i, to);
         } else {
           cells_.Visit(
               answers, i,
@@ -202,8 +197,7 @@ class BlockWork {
 
 // The flags of a total. A flag determines an axis only together with the other input of its way. The divergence of the
 // sensor is used where a file has neither footprints nor divergences.
-FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const formats::CsvRecord& header,
-                    bool& took_divergence) {
+FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const formats::CsvRecord& header, bool& took_divergence) {
   const auto is_known = [&](PulseInput input) {
     if (fixed[input].has_value()) return true;
     for (std::size_t i = 0; i < header.cell_count(); ++i) {
@@ -213,11 +207,10 @@ FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const formats::Csv
     }
     return false;
   };
-  took_divergence = total.plan.divergence.has_value() && !is_known(PulseInput::kDivergence) &&
-                    !is_known(PulseInput::kFootprint);
+  took_divergence =
+      total.plan.divergence.has_value() && !is_known(PulseInput::kDivergence) && !is_known(PulseInput::kFootprint);
   if (took_divergence) fixed[PulseInput::kDivergence] = static_cast<float>(*total.plan.divergence);
-  if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint))
-    fixed[PulseInput::kAltitude].reset();
+  if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint)) fixed[PulseInput::kAltitude].reset();
   if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();
   return fixed;
 }
@@ -265,11 +258,9 @@ std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& st
   return names;
 }
 
-absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
-                                         const std::filesystem::path& output, Existing existing,
-                                         const FixedInputs& fixed, AnswerStyle style,
-                                         const AnswerSource& source, FileProgress& progress,
-                                         const CsvTotal* total) {
+absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, const std::filesystem::path& output,
+                                         Existing existing, const FixedInputs& fixed, AnswerStyle style,
+                                         const AnswerSource& source, FileProgress& progress, const CsvTotal* total) {
   if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
   absl::StatusOr<formats::CsvReader> reader = formats::CsvReader::Open(input);
   if (!reader.ok()) return reader.status();
@@ -279,15 +270,13 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
   const absl::StatusOr<bool> has_header = formats::CsvRecords(reader->name(), *header_block).Next(header);
   if (!has_header.ok()) return has_header.status();
   if (!*has_header || header.blank()) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        input.string(), " line 1: is empty; begin the file with a header that names the columns"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(input.string(), " line 1: is empty; begin the file with a header that names the columns"));
   }
-  const std::vector<std::string> appended =
-      total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
+  const std::vector<std::string> appended = total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
   bool took_divergence = false;
-  const absl::StatusOr<CsvPulses> columns =
-      CsvPulses::Bind(input.string(), header,
-                      total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended);
+  const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind(
+      input.string(), header, total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended);
   if (!columns.ok()) return columns.status();
   std::optional<CsvAircraft> aircraft;
   if (total != nullptr) {
@@ -306,8 +295,7 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
   FileProgress::File file_progress(progress, input.filename().string());
   const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);
   absl::Status status = annotated.file.Write(AnnotatedHeader(header, ending, appended));
-  const BlockWork work(*reader, *columns, style, ending, source, total,
-                       aircraft.has_value() ? &*aircraft : nullptr);
+  const BlockWork work(*reader, *columns, style, ending, source, total, aircraft.has_value() ? &*aircraft : nullptr);
   if (status.ok()) status = AnnotateRecords(*reader, work, style, file_progress, annotated);
   if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
   if (!status.ok()) return status;

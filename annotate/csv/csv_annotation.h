@@ -42,9 +42,8 @@ struct CsvTotal {
 // (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be
 // appended; when the number of cells in a record differs from the header; when a coordinate is not a number; or when
 // the input is modified meanwhile. Messages name line and column.
-absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
-                                         const std::filesystem::path& output, Existing existing,
-                                         const FixedInputs& fixed, AnswerStyle style,
+absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, const std::filesystem::path& output,
+                                         Existing existing, const FixedInputs& fixed, AnswerStyle style,
                                          const AnswerSource& source, FileProgress& progress,
                                          const CsvTotal* total = nullptr);
 

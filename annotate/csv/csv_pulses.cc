@@ -32,16 +32,15 @@ absl::Status CheckUnique(const std::string& file, const std::vector<std::string>
   std::set<std::string> seen;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!names[i].empty() && !seen.insert(names[i]).second) {
-      return absl::InvalidArgumentError(absl::StrCat(file, " line 1, column ", i + 1, ": '", names[i],
-                                                     "' occurs twice; rename one of the columns"));
+      return absl::InvalidArgumentError(
+          absl::StrCat(file, " line 1, column ", i + 1, ": '", names[i], "' occurs twice; rename one of the columns"));
     }
   }
   for (const std::string& name : appended) {
     if (seen.count(name) > 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(file, " line 1: column '", name,
-                       "' exists already and would be appended again; rename it, "
-                       "or start from the file without results"));
+      return absl::InvalidArgumentError(absl::StrCat(file, " line 1: column '", name,
+                                                     "' exists already and would be appended again; rename it, "
+                                                     "or start from the file without results"));
     }
   }
   return absl::OkStatus();
@@ -51,10 +50,8 @@ std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
   for (const OtherWay& way : kOtherWays) {
     if (way.axis != axis) continue;
     const std::string first(Name(way.first)), second(Name(way.second));
-    if (origins[Index(way.first)] != InputOrigin::kNone)
-      return absl::StrCat(", or add ", second, " to ", first);
-    if (origins[Index(way.second)] != InputOrigin::kNone)
-      return absl::StrCat(", or add ", first, " to ", second);
+    if (origins[Index(way.first)] != InputOrigin::kNone) return absl::StrCat(", or add ", second, " to ", first);
+    if (origins[Index(way.second)] != InputOrigin::kNone) return absl::StrCat(", or add ", first, " to ", second);
     return absl::StrCat(", or give ", first, " and ", second);
   }
   return "";
@@ -63,12 +60,12 @@ std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
 absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names,
                            const InputOrigins& origins) {
   const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
-  return absl::InvalidArgumentError(
-      absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name),
-                   "' (columns found: ", absl::StrJoin(names, ", "), "); ",
-                   other_separator ? std::string("separate the columns by commas")
-                                   : absl::StrCat("add it, or give one value for all pulses by ",
-                                                  FlagName(axis), MissingAdvice(axis, origins))));
+  return absl::InvalidArgumentError(absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name),
+                                                 "' (columns found: ", absl::StrJoin(names, ", "), "); ",
+                                                 other_separator
+                                                     ? std::string("separate the columns by commas")
+                                                     : absl::StrCat("add it, or give one value for all pulses by ",
+                                                                    FlagName(axis), MissingAdvice(axis, origins))));
 }
 
 bool MayBeEmpty(PulseInput input) {
@@ -80,15 +77,13 @@ bool MayBeEmpty(PulseInput input) {
 
 PulseBatch OnePulse(const FixedCoordinates& fixed) {
   PulseBatch pulse{.size = 1, .axis = {}};
-  for (const AxisId axis : kAxes) {
+  for (const AxisId axis : kAxes)
     if (fixed[Index(axis)].has_value()) pulse[axis].assign(1, *fixed[Index(axis)]);
-  }
   return pulse;
 }
 
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats::CsvRecord& header,
-                                          const FixedInputs& fixed,
-                                          const std::vector<std::string>& appended) {
+                                          const FixedInputs& fixed, const std::vector<std::string>& appended) {
   const std::vector<std::string> names = ColumnNames(header);
   if (absl::Status status = CheckUnique(name, names, appended); !status.ok()) return status;
   CsvPulses pulses;
@@ -100,10 +95,9 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
     const std::optional<PulseInput> input = FindInput(names[i]);
     if (!input.has_value()) continue;
     if (fixed.any_sea && IsOfSea(*input)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(name, " line 1: column '", names[i],
-                       "' contradicts the given sea (which has a wind of its own); leave "
-                       "out the column, or the sea"));
+      return absl::InvalidArgumentError(absl::StrCat(name, " line 1: column '", names[i],
+                                                     "' contradicts the given sea (which has a wind of its own); leave "
+                                                     "out the column, or the sea"));
     }
     column_of[Index(*input)] = i;
     origins[Index(*input)] = InputOrigin::kColumn;
@@ -133,11 +127,8 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
     if (IsGivenByOtherWay(way.axis, origins)) continue;
     origins[Index(way.first)] = origins[Index(way.second)] = InputOrigin::kNone;
   }
-  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
-    if (origins[i] == InputOrigin::kColumn) {
-      pulses.columns_.push_back({static_cast<PulseInput>(i), column_of[i]});
-    }
-  }
+  for (std::size_t i = 0; i < kPulseInputCount; ++i)
+    if (origins[i] == InputOrigin::kColumn) pulses.columns_.push_back({static_cast<PulseInput>(i), column_of[i]});
   pulses.FindCoordinates(fixed, origins);
   return pulses;
 }
@@ -145,9 +136,8 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
 void CsvPulses::FindCoordinates(const FixedInputs& fixed, const InputOrigins& origins) {
   const auto is_column = [&](PulseInput input) { return origins[Index(input)] == InputOrigin::kColumn; };
   constant_ = fixed.coordinates;
-  for (const AxisId axis : kAxes) {
+  for (const AxisId axis : kAxes)
     if (is_column(InputOf(axis))) varying_.push_back(axis);
-  }
   for (const OtherWay& way : kOtherWays) {
     if (!IsGivenByOtherWay(way.axis, origins)) continue;
     const bool of_incidence = way.axis == AxisId::kFootprint && is_column(PulseInput::kIncidence);
@@ -174,20 +164,20 @@ void CsvPulses::Clear(CsvPulseBatches& batches) const {
 }
 
 absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const formats::CsvRecord& record,
-                                              std::size_t index, std::string_view column,
-                                              std::string_view units, bool may_be_empty) {
+                                              std::size_t index, std::string_view column, std::string_view units,
+                                              bool may_be_empty) {
   const std::string_view raw = record.RawCell(index);
   const bool quoted = !raw.empty() && raw.front() == '"';
   const std::string unquoted = quoted ? record.Cell(index) : "";
-  const absl::string_view cell = absl::StripAsciiWhitespace(
-      quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
+  const absl::string_view cell =
+      absl::StripAsciiWhitespace(quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
   if (cell.empty() && may_be_empty) return std::nullopt;
   const std::optional<float> value = formats::ParseFloat(std::string_view(cell.data(), cell.size()));
   if (value.has_value()) return value;
-  return absl::InvalidArgumentError(absl::StrCat(
-      file, " line ", record.line, ", column '", std::string(column),
-      "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-      "; write a number in ", std::string(units), ", such as 12.5"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(file, " line ", record.line, ", column '", std::string(column),
+                   "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
+                   "; write a number in ", std::string(units), ", such as 12.5"));
 }
 
 absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPulseBatches& batches) const {
@@ -199,8 +189,8 @@ absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPuls
   bool has_azimuth = may_have_azimuth_;
   PulseNumbers numbers = fixed_;
   for (const Column& column : columns_) {
-    const absl::StatusOr<std::optional<float>> number = NumberOf(
-        name_, record, column.index, Name(column.input), Units(column.input), MayBeEmpty(column.input));
+    const absl::StatusOr<std::optional<float>> number =
+        NumberOf(name_, record, column.index, Name(column.input), Units(column.input), MayBeEmpty(column.input));
     if (!number.ok()) return number.status();
     // An absent fetch; of the other inputs that may be empty, each makes the azimuth absent.
     numbers[Index(column.input)] = number->value_or(std::numeric_limits<float>::infinity());
@@ -209,19 +199,17 @@ absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPuls
   for (const AxisId axis : from_other_way_) numbers[Index(axis)] = FromOtherWay(axis, numbers);
   PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
   ++batch.size;
-  for (const AxisId axis : varying_) {
+  for (const AxisId axis : varying_)
     if (axis != AxisId::kAzimuth || has_azimuth) batch[axis].push_back(numbers[Index(axis)]);
-  }
   return has_azimuth;
 }
 
 namespace {
 
-constexpr BudgetInput kInputs[] = {
-    BudgetInput::kAltitude,     BudgetInput::kBeamAzimuth,  BudgetInput::kRoll,
-    BudgetInput::kPitch,        BudgetInput::kHeading,      BudgetInput::kVelocityNorth,
-    BudgetInput::kVelocityEast, BudgetInput::kVelocityDown, BudgetInput::kRollRate,
-    BudgetInput::kPitchRate,    BudgetInput::kYawRate};
+constexpr BudgetInput kInputs[] = {BudgetInput::kAltitude,     BudgetInput::kBeamAzimuth,  BudgetInput::kRoll,
+                                   BudgetInput::kPitch,        BudgetInput::kHeading,      BudgetInput::kVelocityNorth,
+                                   BudgetInput::kVelocityEast, BudgetInput::kVelocityDown, BudgetInput::kRollRate,
+                                   BudgetInput::kPitchRate,    BudgetInput::kYawRate};
 
 std::string_view NameOf(BudgetInput input) { return kBudgetInputNames[static_cast<std::size_t>(input)]; }
 
@@ -255,10 +243,10 @@ absl::StatusOr<CsvAircraft> CsvAircraft::Bind(const std::string& name, const for
     }
   }
   if (has_altitude) return aircraft;
-  return absl::InvalidArgumentError(absl::StrCat(
-      name,
-      " line 1: no column 'altitude' (a total needs the height of the sensor above the water); add it, "
-      "or give one value for all pulses by --altitude"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(name,
+                   " line 1: no column 'altitude' (a total needs the height of the sensor above the water); add it, "
+                   "or give one value for all pulses by --altitude"));
 }
 
 void CsvAircraft::Clear(CsvAircraftBatch& batch) const {
@@ -298,8 +286,8 @@ void WaveHeightsOfWinds(const PulseBatch& pulses, const std::string& spectrum, s
     const float wind = winds.empty() ? 0 : winds[winds.size() == 1 ? 0 : i];
     const float fetch = fetches.empty() ? INFINITY : fetches[fetches.size() == 1 ? 0 : i];
     // Winds that differ little use one spectrum: the height grows with the square of the wind.
-    const std::pair<float, float> key = {
-        std::round(wind * 50) / 50, std::isfinite(fetch) && fetch > 0 ? std::round(std::log(fetch) * 50) : 0};
+    const std::pair<float, float> key = {std::round(wind * 50) / 50,
+                                         std::isfinite(fetch) && fetch > 0 ? std::round(std::log(fetch) * 50) : 0};
     const auto [at, is_new] = known.try_emplace(key, 0.0f);
     if (is_new && std::isfinite(wind) && fetch > 0) {
       const bool developed = !std::isfinite(fetch);

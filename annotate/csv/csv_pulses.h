@@ -24,8 +24,8 @@ struct CsvPulseBatches {
 
 // The number in a cell of `record`; none if it is empty and may be. Messages name file, line and column.
 absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const formats::CsvRecord& record,
-                                              std::size_t index, std::string_view column,
-                                              std::string_view units, bool may_be_empty);
+                                              std::size_t index, std::string_view column, std::string_view units,
+                                              bool may_be_empty);
 
 class CsvPulses {
  public:

@@ -23,8 +23,7 @@ float Rounded(double number) {
 }
 
 std::string OriginText(PulseInput input, InputOrigin origin) {
-  return origin == InputOrigin::kFlag ? FlagName(input)
-                                      : absl::StrCat("column '", std::string(Name(input)), "'");
+  return origin == InputOrigin::kFlag ? FlagName(input) : absl::StrCat("column '", std::string(Name(input)), "'");
 }
 
 absl::Status CheckWay(const OtherWay& way, const InputOrigins& origins, const std::string& where) {
@@ -40,11 +39,10 @@ absl::Status CheckWay(const OtherWay& way, const InputOrigins& origins, const st
       if (origin == InputOrigin::kNone) continue;
       absl::StrAppend(&others, others.empty() ? "" : " and ", OriginText(input, origin));
     }
-    const std::string message =
-        absl::StrCat(where, ": ", OriginText(direct, of_direct), " gives the ", std::string(Name(direct)),
-                     by_other_way ? absl::StrCat(", and so do ", others)
-                                  : absl::StrCat(", which ", others, " is for, too"),
-                     "; leave out one of the two ways");
+    const std::string message = absl::StrCat(
+        where, ": ", OriginText(direct, of_direct), " gives the ", std::string(Name(direct)),
+        by_other_way ? absl::StrCat(", and so do ", others) : absl::StrCat(", which ", others, " is for, too"),
+        "; leave out one of the two ways");
     const bool any_flag = other_flag || of_direct == InputOrigin::kFlag;
     return any_flag ? formats::UsageError(message) : absl::InvalidArgumentError(message);
   }
@@ -81,17 +79,15 @@ std::string FlagName(AxisId axis) { return FlagName(InputOf(axis)); }
 
 std::optional<PulseInput> FindInput(std::string_view name) {
   if (const std::optional<AxisId> axis = FindAxis(name)) return InputOf(*axis);
-  for (const PulseInput input : kBeamInputs) {
+  for (const PulseInput input : kBeamInputs)
     if (Name(input) == name) return input;
-  }
   return std::nullopt;
 }
 
 float FromOtherWay(AxisId axis, const PulseNumbers& numbers) {
   const auto number = [&](PulseInput input) -> double { return numbers[Index(input)]; };
-  if (axis == AxisId::kAzimuth) {
+  if (axis == AxisId::kAzimuth)
     return Rounded(AzimuthFromDownwind(number(PulseInput::kBeamAzimuth), number(PulseInput::kWindFrom)));
-  }
   return Rounded(FootprintDiameter(number(PulseInput::kAltitude), number(PulseInput::kDivergence),
                                    number(PulseInput::kIncidence)));
 }
@@ -99,22 +95,19 @@ float FromOtherWay(AxisId axis, const PulseNumbers& numbers) {
 bool IsGivenByOtherWay(AxisId axis, const InputOrigins& origins) {
   for (const OtherWay& way : kOtherWays) {
     if (way.axis != axis) continue;
-    return origins[Index(way.first)] != InputOrigin::kNone &&
-           origins[Index(way.second)] != InputOrigin::kNone;
+    return origins[Index(way.first)] != InputOrigin::kNone && origins[Index(way.second)] != InputOrigin::kNone;
   }
   return false;
 }
 
 absl::Status CheckWays(const InputOrigins& origins, const std::string& where) {
-  for (const OtherWay& way : kOtherWays) {
+  for (const OtherWay& way : kOtherWays)
     if (absl::Status status = CheckWay(way, origins, where); !status.ok()) return status;
-  }
   return absl::OkStatus();
 }
 
 absl::StatusOr<FixedCoordinates> CoordinatesOf(FixedInputs fixed) {
-  if (fixed.any_sea && fixed[PulseInput::kBeamAzimuth].has_value())
-    fixed[PulseInput::kWindFrom] = kWindForNorth;
+  if (fixed.any_sea && fixed[PulseInput::kBeamAzimuth].has_value()) fixed[PulseInput::kWindFrom] = kWindForNorth;
   InputOrigins origins;
   PulseNumbers numbers = {};
   for (std::size_t i = 0; i < kPulseInputCount; ++i) {
@@ -129,9 +122,9 @@ absl::StatusOr<FixedCoordinates> CoordinatesOf(FixedInputs fixed) {
     if (IsGivenByOtherWay(axis, origins)) {
       coordinates[Index(axis)] = FromOtherWay(axis, numbers);
     } else if (!MayBeAbsent(axis) && !(fixed.any_sea && IsOfSea(InputOf(axis)))) {
-      return formats::UsageError(absl::StrCat(
-          "pulse: ", FlagName(axis), " is missing; give it in ", std::string(Describe(axis).units),
-          axis == AxisId::kFootprint ? ", or --altitude and --divergence" : ""));
+      return formats::UsageError(absl::StrCat("pulse: ", FlagName(axis), " is missing; give it in ",
+                                              std::string(Describe(axis).units),
+                                              axis == AxisId::kFootprint ? ", or --altitude and --divergence" : ""));
     }
   }
   return coordinates;

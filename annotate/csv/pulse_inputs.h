@@ -65,9 +65,8 @@ struct OtherWay {
   AxisId axis;
   PulseInput first, second;
 };
-inline constexpr OtherWay kOtherWays[] = {
-    {AxisId::kAzimuth, PulseInput::kBeamAzimuth, PulseInput::kWindFrom},
-    {AxisId::kFootprint, PulseInput::kAltitude, PulseInput::kDivergence}};
+inline constexpr OtherWay kOtherWays[] = {{AxisId::kAzimuth, PulseInput::kBeamAzimuth, PulseInput::kWindFrom},
+                                          {AxisId::kFootprint, PulseInput::kAltitude, PulseInput::kDivergence}};
 
 // The numbers of one pulse, by PulseInput.
 using PulseNumbers = std::array<float, kPulseInputCount>;

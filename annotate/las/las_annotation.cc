@@ -62,20 +62,18 @@ std::uint64_t BytesOf(const formats::LasReader& reader, std::uint64_t points) {
 
 // Copies the file of `reader` to that of `annotated`, with the uncertainty of its points.
 absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::LasHead& head,
-                            const LasAnnotation& annotation, const LasBeams& beams,
-                            const AnswerSource& source, FileProgress::File& progress,
-                            AnnotatedLas& annotated) {
+                            const LasAnnotation& annotation, const LasBeams& beams, const AnswerSource& source,
+                            FileProgress::File& progress, AnnotatedLas& annotated) {
   const formats::LasHeader& header = reader.header();
   const std::uint64_t max_records =
-      head.record.has_value()
-          ? head.record->chunk_size
-          : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
+      head.record.has_value() ? head.record->chunk_size
+                              : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
   formats::LasWriter writer(reader, head, annotated.file);
   absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach);
   if (!runs.ok()) return runs.status();
   if (absl::Status status = writer.Begin(); !status.ok()) return status;
-  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(),
-                          beams.has_surface_returns(), source);
+  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(), beams.has_surface_returns(),
+                          source);
   std::uint64_t written_records = 0;
   const absl::Status status = formats::RunOrderedPipeline(
       [&] {
@@ -86,9 +84,8 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
       [&](Passing& passing) { return runs->Next(max_records, passing.chunk); },
       [&](Passing& passing) {
         absl::Status worked = work(passing.chunk);
-        if (worked.ok() && passing.encoder != nullptr) {
+        if (worked.ok() && passing.encoder != nullptr)
           passing.encoder->Encode(passing.chunk.annotated, passing.compressed);
-        }
         return worked;
       },
       [&](Passing& passing) {
@@ -96,8 +93,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
         annotated.classes.Merge(chunk.classes);
         annotated.summary.Merge(chunk.summary);
         annotated.totals.Merge(chunk.totals);
-        for (const auto& [line, summary] : chunk.totals_by_line)
-          annotated.totals_by_line[line].Merge(summary);
+        for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
         annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
@@ -110,16 +106,15 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
 
 }  // namespace
 
-absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
-                                         const std::filesystem::path& output, Existing existing,
-                                         const LasAnnotation& annotation, const AnswerSource& source,
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
+                                         Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<formats::LasKind> kind) {
   if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
   const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(input);
   if (!reader.ok()) return reader.status();
   const formats::LasKind output_kind = kind.value_or(reader->kind());
-  const absl::StatusOr<formats::LasHead> head = formats::AnnotatedHead(
-      *reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace);
+  const absl::StatusOr<formats::LasHead> head =
+      formats::AnnotatedHead(*reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace);
   if (!head.ok()) return head.status();
   FileProgress::File file_progress(progress, input.filename().string());
   const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
@@ -148,13 +143,11 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                          .sea = {},
                          .notes = {},
                          .file = *std::move(file)};
-  const absl::Status status =
-      AnnotatePoints(*reader, *head, annotation, **beams, source, file_progress, annotated);
+  const absl::Status status = AnnotatePoints(*reader, *head, annotation, **beams, source, file_progress, annotated);
   if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
   if (!status.ok()) return status;
-  if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok()) {
+  if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok())
     return plausible;
-  }
   annotated.geometry = (*beams)->Json();
   annotated.notes = (*beams)->Notes();
   if (annotated.incidence.count() > 0) {
@@ -169,8 +162,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   }
   if (annotated.sigmas_assumed > 0) {
     annotated.notes.push_back(absl::StrCat("no error file states the errors of the trajectory at ",
-                                           annotated.sigmas_assumed,
-                                           " points; those of a good one are assumed"));
+                                           annotated.sigmas_assumed, " points; those of a good one are assumed"));
   }
   if (annotation.seas != nullptr) {
     const auto [first, last] = (*beams)->records();

@@ -43,10 +43,8 @@ struct AnnotatedLas {
 // `kind` is that of the output; absent: that of the input. Reading, querying and writing overlap; memory does not grow
 // with the file. Fails and leaves no output when LasReader, PlaceOf, the track, AnnotatedHead or the source fails, when
 // the output is the input, and when the input is modified meanwhile.
-absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
-                                         const std::filesystem::path& output, Existing existing,
-                                         const LasAnnotation& annotation, const AnswerSource& source,
-                                         FileProgress& progress,
-                                         std::optional<formats::LasKind> kind = std::nullopt);
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
+                                         Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
+                                         FileProgress& progress, std::optional<formats::LasKind> kind = std::nullopt);
 
 }  // namespace albtpu::annotate

@@ -16,8 +16,7 @@ namespace albtpu::annotate {
 namespace {
 
 // The coordinate system; null if it is not known.
-absl::StatusOr<std::shared_ptr<const formats::MapFrame>> MapOf(const formats::LasReader& reader,
-                                                               const BeamPlan& plan) {
+absl::StatusOr<std::shared_ptr<const formats::MapFrame>> MapOf(const formats::LasReader& reader, const BeamPlan& plan) {
   absl::StatusOr<formats::CrsDescription> description = formats::DescribeCrs(reader);
   if (!description.ok()) return description.status();
   bool required = false;
@@ -29,8 +28,7 @@ absl::StatusOr<std::shared_ptr<const formats::MapFrame>> MapOf(const formats::La
     required = returns->crs.has_value();
   }
   if (description->empty() && !required) return nullptr;
-  absl::StatusOr<std::shared_ptr<const formats::MapFrame>> map =
-      formats::MapFrame::Create(reader.name(), *description);
+  absl::StatusOr<std::shared_ptr<const formats::MapFrame>> map = formats::MapFrame::Create(reader.name(), *description);
   if (!map.ok() && !required) return nullptr;
   return map;
 }
@@ -42,9 +40,8 @@ absl::StatusOr<double> MetresPerHeightUnit(const formats::LasReader& reader, con
   const absl::StatusOr<std::optional<std::string>> feet = formats::FindFeet(reader);
   if (!feet.ok()) return feet.status();
   std::string what = feet->value_or("");
-  if (what.empty() && map != nullptr && !map->is_geographic() && map->unit() > 0.3 && map->unit() < 0.31) {
+  if (what.empty() && map != nullptr && !map->is_geographic() && map->unit() > 0.3 && map->unit() < 0.31)
     what = map->crs_name();
-  }
   if (what.empty()) return 1.0;
   return absl::FailedPreconditionError(
       absl::StrCat(reader.name(), ": its coordinate system is in feet (", what,
@@ -66,8 +63,7 @@ absl::StatusOr<formats::MapPosition> MiddleOf(const formats::LasReader& reader) 
     return header.least[axis] - tolerance <= value && value <= header.greatest[axis] + tolerance;
   };
   if (!is_inside(first.x, 0) || !is_inside(first.y, 1)) return first;
-  return formats::MapPosition{(header.least[0] + header.greatest[0]) / 2,
-                              (header.least[1] + header.greatest[1]) / 2};
+  return formats::MapPosition{(header.least[0] + header.greatest[0]) / 2, (header.least[1] + header.greatest[1]) / 2};
 }
 
 // Coordinates that are within the range of longitudes and latitudes, in steps of at most half a metre if they were
@@ -105,9 +101,9 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   const std::optional<formats::GeographicPosition> position = place.map->GeographicAt(*middle);
   if (!position.has_value()) {
     if (!plan.has_track()) return place;
-    return absl::InvalidArgumentError(
-        absl::StrCat(reader.name(), ": its points lie where its coordinate system, ", place.map->crs_name(),
-                     ", is not defined (x ", middle->x, ", y ", middle->y, "); give the right one by --crs"));
+    return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": its points lie where its coordinate system, ",
+                                                   place.map->crs_name(), ", is not defined (x ", middle->x, ", y ",
+                                                   middle->y, "); give the right one by --crs"));
   }
   const formats::MapMetric metric = place.map->MetricAt(*position);
   place.frame.metres_per_x = metric.metres_per_x;
@@ -117,9 +113,7 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
 
 namespace {
 
-bool GoesByTime(const LasAnnotation& annotation) {
-  return annotation.seas != nullptr && annotation.seas->by_time();
-}
+bool GoesByTime(const LasAnnotation& annotation) { return annotation.seas != nullptr && annotation.seas->by_time(); }
 
 formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
   return {.span = {prescan.first_time, prescan.last_time},
@@ -132,15 +126,15 @@ absl::Status CheckTimes(const formats::LasReader& reader, const LasAnnotation& a
   if (formats::HasGpsTime(reader.header().point_format)) return absl::OkStatus();
   const BeamPlan& plan = annotation.plan;
   if (GoesByTime(annotation)) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
-        "), so that no record of the sea can be assigned to them; choose one of them by --sea-time"));
+    return absl::FailedPreconditionError(
+        absl::StrCat(reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+                     "), so that no record of the sea can be assigned to them; choose one of them by --sea-time"));
   }
   if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat(
-      reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
-      "), so neither a trajectory nor water levels by time can be used; give --scanner or --incidence and "
-      "one --water-level, or a file of another point format"));
+  return absl::FailedPreconditionError(
+      absl::StrCat(reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+                   "), so neither a trajectory nor water levels by time can be used; give --scanner or --incidence and "
+                   "one --water-level, or a file of another point format"));
 }
 
 // The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
@@ -174,8 +168,7 @@ LasBeams::LasBeams() : json_(std::make_unique<nlohmann::ordered_json>(nlohmann::
 
 LasBeams::~LasBeams() = default;
 
-absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
-                                 const WaterHeights& water) {
+absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   const bool all_zero = file.times.span.first == 0 && file.times.span.last == 0;
@@ -207,8 +200,8 @@ absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimel
     return absl::OkStatus();
   }
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
-  const absl::StatusOr<double> utc = formats::UtcOffset(reader.name(), TimesOf(reader, prescan_),
-                                                        {seas.start(), seas.end()}, *seas.settings().file);
+  const absl::StatusOr<double> utc =
+      formats::UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
   if (!utc.ok()) return utc.status();
   utc_ = *utc;
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
@@ -256,10 +249,9 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   if (annotation.seas != nullptr) {
     if (absl::Status status = beams->FindSeas(reader, *annotation.seas); !status.ok()) return status;
   }
-  const WaterHeights water = {
-      .surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
-      .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
-      .level = plan.water_level};
+  const WaterHeights water = {.surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
+                              .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
+                              .level = plan.water_level};
   if (plan.has_track()) {
     if (absl::Status status = beams->FindTrack(reader, plan, water); !status.ok()) return status;
   }

@@ -23,10 +23,9 @@ namespace albtpu::annotate {
 // The place of a LAS file: its coordinate system, its units, and the local frame in which its points are compared.
 
 struct LasPlace {
-  LocalFrame frame;  // Around the middle of the file.
-  std::shared_ptr<const formats::MapFrame>
-      map;             // Null if the coordinate system is not known and need not be.
-  std::string remark;  // For the user, about the coordinate system; may be empty.
+  LocalFrame frame;                              // Around the middle of the file.
+  std::shared_ptr<const formats::MapFrame> map;  // Null if the coordinate system is not known and need not be.
+  std::string remark;                            // For the user, about the coordinate system; may be empty.
 };
 
 // The vertical unit is that of the plan, or that of the coordinate system, or metres. Fails when the coordinate system

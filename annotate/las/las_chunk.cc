@@ -22,8 +22,8 @@ AnswerStyle LasAnnotation::style_of_sea() const {
 }
 
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
-                           const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams,
-                           double utc, bool pulse_surface, const AnswerSource& source)
+                           const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
+                           bool pulse_surface, const AnswerSource& source)
     : fields_(header),
       record_length_(header.record_length),
       plan_(annotation.plan),
@@ -37,8 +37,7 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
       style_(annotation.style_of_sea()),
       total_(annotation.total.has_value() ? &*annotation.total : nullptr),
       source_(source) {
-  for (const formats::AppendedFloat& each : formats::AppendedFloats(appended_))
-    no_data_.push_back(each.no_data);
+  for (const formats::AppendedFloat& each : formats::AppendedFloats(appended_)) no_data_.push_back(each.no_data);
   UncertaintySummary::Select(selection_);
   if (total_ != nullptr) SelectForTotals(selection_);
   selection_.standard_errors = style_.standard_errors;
@@ -91,18 +90,15 @@ void LasChunkWork::Decode(Chunk& chunk) const {
   column([this](std::string_view record) { return fields_.Z(record); }, points.z);
   column([this](std::string_view record) { return fields_.ScanAngle(record); }, points.scan_angles);
   points.times.clear();
-  if (fields_.has_gps_time()) {
-    column([this](std::string_view record) { return fields_.GpsTime(record); }, points.times);
-  }
+  if (fields_.has_gps_time()) column([this](std::string_view record) { return fields_.GpsTime(record); }, points.times);
   points.pulse_surface.clear();
 }
 
 void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
   chunk.water.clear();
   const std::size_t count = chunk.records.size() / record_length_;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     if (is_water_[fields_.Class(Record(chunk, i))]) chunk.water.push_back(static_cast<std::uint32_t>(i));
-  }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
   std::size_t first = 0;  // The first return from the surface that is within reach.
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
@@ -161,11 +157,10 @@ void LasChunkWork::Summarize(Chunk& chunk) const {
     if (std::isfinite(chunk.beams.incidence[i])) chunk.incidence.Add(chunk.beams.incidence[i]);
     const std::optional<NoPulse>& why = chunk.beams.why_not[i];
     if (!why.has_value()) continue;
-    if (*why == NoPulse::kAboveWater) {
+    if (*why == NoPulse::kAboveWater)
       chunk.summary.AddAboveWater(chunk.beams.depth[i]);
-    } else {
+    else
       chunk.summary.Add(*why);
-    }
   }
 }
 
@@ -180,11 +175,10 @@ void LasChunkWork::Replace(Chunk& chunk) const {
       float value;
       std::memcpy(&value, values + replaced.appended * sizeof(float), sizeof(float));
       char* const place = record + extra_bytes_begin_ + replaced.offset;
-      if (replaced.is_double) {
+      if (replaced.is_double)
         Store(static_cast<double>(value), place);
-      } else {
+      else
         Store(value, place);
-      }
     }
     // The new values close up, and the record moves to its place among the shorter records.
     char* end = values;
@@ -226,9 +220,7 @@ void LasChunkWork::Encode(Chunk& chunk) const {
     }
   }
   if (!appended_.details) return;
-  const auto length_or_none = [](float value) {
-    return value >= 0 ? value : formats::kNoNumber;
-  };  // Also for NaN.
+  const auto length_or_none = [](float value) { return value >= 0 ? value : formats::kNoNumber; };  // Also for NaN.
   const PointBeams& beams = chunk.beams;
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     char* values = appended_to(i) + appended - formats::kGeometryCount * sizeof(float);
@@ -250,8 +242,7 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
   put(total.thu[i]);
   put(total.tvu[i]);
   if (!appended_.details) return;
-  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea})
-    put((*column)[i]);
+  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea}) put((*column)[i]);
   for (const auto* column : {&total.thu_water, &total.tvu_water})
     put(total_->water.share != nullptr ? (*column)[i] : formats::kNoNumber);
   const double factor = VerticalFactor(total_->options.coverage);
@@ -259,8 +250,7 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
     put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);
   put(chunk.answers[Quantity::kBiasVertical][i]);
-  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[chunk.rows[i]]))
-    put(entry);
+  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[chunk.rows[i]])) put(entry);
 }
 
 }  // namespace albtpu::annotate

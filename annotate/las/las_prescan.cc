@@ -45,9 +45,8 @@ class PrescanWork {
                                                  : std::numeric_limits<double>::infinity()) {
     for (const int point_class : options.classes) is_chosen_[point_class] = true;
     for (const int point_class : options.water_classes) is_water_[point_class] = true;
-    if (options.water_level.has_value()) {
+    if (options.water_level.has_value())
       for (const int point_class : options.level_classes) is_at_level_[point_class] = true;
-    }
   }
 
   // Two returns of one pulse, of classes that may belong to a pair.
@@ -155,8 +154,7 @@ class PrescanWork {
   // the chunk before; what they seem to miss is found twice then, and counts once.
   void AddReturnOfSeveral(Part& part, std::size_t i, std::size_t after) const {
     std::size_t equal = after;
-    for (std::size_t j = i > kPulseReach ? i - kPulseReach : 0; j < i; ++j)
-      equal += part.times[j] == part.times[i];
+    for (std::size_t j = i > kPulseReach ? i - kPulseReach : 0; j < i; ++j) equal += part.times[j] == part.times[i];
     ++part.of_several;
     part.alone += equal == 0;
     const bool complete = equal + 1 >= static_cast<std::size_t>(fields_.ReturnCount(Record(part, i)));

@@ -126,8 +126,7 @@ class Run {
 
 }  // namespace
 
-absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run,
-                           const client::TableSummary& table) {
+absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run, const client::TableSummary& table) {
   Note(absl::StrCat("table ", table.id, " ", table.version, ", digest ", table.digest));
   return Run(run, table, jobs)();
 }

@@ -23,9 +23,9 @@ struct AnnotatedFile {
 };
 
 struct AnnotationRun {
-  std::string command;          // "las"
-  std::string records, record;  // What the files contain, for the user: "points", "chosen point".
-  JsonBox parameters;           // Everything that determines the output, apart from input and table.
+  std::string command;                            // "las"
+  std::string records, record;                    // What the files contain, for the user: "points", "chosen point".
+  JsonBox parameters;                             // Everything that determines the output, apart from input and table.
   std::vector<std::filesystem::path> files = {};  // Read beside the inputs.
   bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
@@ -36,7 +36,6 @@ struct AnnotationRun {
 // Annotates every file with `table`, the table of the source, and writes a summary beside each output. When one file
 // fails, the others are still annotated. When the source fails, no further file can be annotated: the run ends, and
 // the message says how many files are done. Afterwards the run fails by its RunVerdict, and prints its notes.
-absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run,
-                           const client::TableSummary& table);
+absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run, const client::TableSummary& table);
 
 }  // namespace albtpu::annotate

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 using Extensions = std::vector<std::string>;
 
 bool HasOneOf(const fs::path& path, const Extensions& extensions) {
-  return std::ranges::any_of(extensions, [&](const std::string& each) { return HasExtension(path, each); });
+  return std::ranges::any_of(
+      extensions, [&](const std::string& each) { return HasExtension(path, each); });
 }
 
 bool IsFolder(const fs::path& path) {
@@ -39,13 +40,10 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const Exte
                                               const FileOptions& options) {
   std::error_code error;
   std::vector<fs::path> files;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;  // An entry that disappeared is not annotated.
     if (entry->is_directory(ignored)) {
-      if (!options.recursive || IsSame(entry->path(), options.output_folder)) {
-        entry.disable_recursion_pending();
-      }
+      if (!options.recursive || IsSame(entry->path(), options.output_folder)) entry.disable_recursion_pending();
     } else if (entry->is_regular_file(ignored) && HasOneOf(entry->path(), extensions)) {
       files.push_back(entry->path());
     }
@@ -57,8 +55,8 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const Exte
   if (files.empty()) {
     return absl::NotFoundError(
         absl::StrCat(folder.string(), ": no ", absl::StrJoin(extensions, " or "), " file in this folder",
-                     options.recursive ? "" : " (subfolders were not searched)",
-                     "; give a folder that has some", options.recursive ? "" : ", or add --recursive"));
+                     options.recursive ? "" : " (subfolders were not searched)", "; give a folder that has some",
+                     options.recursive ? "" : ", or add --recursive"));
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -84,9 +82,8 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
   const std::string& extension = extensions.front();
   if (options.output_folder.empty()) {
     if (files.size() != 2 || options.recursive) {
-      return formats::UsageError(absl::StrCat(command, ": ", files.size(), " files; give IN", extension,
-                                              " OUT", extension,
-                                              ", or --output-dir DIR and any number of inputs"));
+      return formats::UsageError(absl::StrCat(command, ": ", files.size(), " files; give IN", extension, " OUT",
+                                              extension, ", or --output-dir DIR and any number of inputs"));
     }
     return std::vector<Job>{{files[0], files[1]}};
   }
@@ -99,12 +96,11 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
   const auto add = [&](const fs::path& input, const fs::path& input_name) -> absl::Status {
     const fs::path name = OutputName(input_name, extensions, options.output_extension);
     const auto [other, is_new] = input_of.emplace(name.lexically_normal(), input);
-    if (!is_new) {
-      return formats::UsageError(absl::StrCat(
-          "--output-dir: two ", options.output_extension.empty() ? "inputs are" : "outputs would be",
-          " called ", name.string(), " (", other->second.string(), ", ", input.string(),
-          "); annotate them one at a time, as IN", extension, " OUT", extension));
-    }
+    if (!is_new)
+      return formats::UsageError(
+          absl::StrCat("--output-dir: two ", options.output_extension.empty() ? "inputs are" : "outputs would be",
+                       " called ", name.string(), " (", other->second.string(), ", ", input.string(),
+                       "); annotate them one at a time, as IN", extension, " OUT", extension));
     jobs.push_back({input, options.output_folder / name, name.has_parent_path()});
     return absl::OkStatus();
   };
@@ -115,9 +111,8 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
     }
     const absl::StatusOr<std::vector<fs::path>> inputs = FilesIn(file, extensions, options);
     if (!inputs.ok()) return inputs.status();
-    for (const fs::path& input : *inputs) {
+    for (const fs::path& input : *inputs)
       if (absl::Status status = add(input, input.lexically_relative(file)); !status.ok()) return status;
-    }
   }
   return jobs;
 }
@@ -144,9 +139,8 @@ std::uint64_t SizeOf(const fs::path& path) {
 // "parameters.water_level is 0 there, 1 here" for the first value in `here` that differs in `there`; empty if none
 // does.
 std::string Difference(const Json& there, const Json& here, const std::string& name) {
-  if (!here.is_object()) {
+  if (!here.is_object())
     return there == here ? "" : absl::StrCat(name, " is ", there.dump(), " there, ", here.dump(), " here");
-  }
   for (const auto& [key, value] : here.items()) {
     const bool is_there = there.is_object() && there.contains(key);
     const std::string inner = name.empty() ? key : absl::StrCat(name, ".", key);
@@ -194,11 +188,9 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
   std::vector<fs::path> read = {job.input};
   read.insert(read.end(), settings.files.begin(), settings.files.end());
-  for (const fs::path& file : read) {
-    if (fs::last_write_time(file, error) > fs::last_write_time(job.output, error) || error) {
+  for (const fs::path& file : read)
+    if (fs::last_write_time(file, error) > fs::last_write_time(job.output, error) || error)
       return differs(absl::StrCat(file.string(), " is newer"));
-    }
-  }
   return absl::OkStatus();
 }
 
@@ -219,16 +211,14 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
   std::error_code error;
   if (existing == Existing::kReplace || !fs::exists(summary, error)) return absl::OkStatus();
   // A run that was killed may leave a summary without its output; such a summary is of no use and may be replaced.
-  if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram) {
+  if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram)
     return absl::OkStatus();
-  }
   const fs::path& existing_file = fs::exists(job.output, error) ? job.output : summary;
   return absl::AlreadyExistsError(
       absl::StrCat(existing_file.string(), ": already exists; choose another name, or add --overwrite"));
 }
 
-absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,
-                               Existing existing) {
+absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing) {
   const fs::path summary_path = SummaryPath(job.output);
   if (absl::Status status = CheckSummaryCanBeWritten(job, existing); !status.ok()) return status;
   absl::StatusOr<OutputFile> file = OutputFile::Create(summary_path, Existing::kReplace);

@@ -37,8 +37,7 @@ bool HasExtension(const std::filesystem::path& path, const std::string& extensio
 // (".las"), ordered by name; with --recursive also for those in its subfolders, which are recreated in the output
 // folder. Files inside the output folder are never inputs. Fails with IsUsageError when the arguments are neither of
 // the two, or when two outputs would have the same name.
-absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command,
-                                          const std::vector<std::string>& extensions,
+absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::vector<std::string>& extensions,
                                           const FileOptions& options);
 
 // The summary beside each output, OUT.json: what was read, the parameters of the run and a summary of the answers. A
@@ -85,7 +84,6 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing);
 
 // Gives the output and the summary their names, both or neither: a summary never lies beside an output that it does
 // not describe. `existing` applies to both.
-absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,
-                               Existing existing);
+absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing);
 
 }  // namespace albtpu::annotate

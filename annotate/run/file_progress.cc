@@ -18,8 +18,7 @@
 namespace albtpu::annotate {
 std::string MessageWithDetails(const absl::Status& status) {
   std::string message(status.message());
-  const auto payload =
-      status.GetPayload(absl::string_view(client::kErrorDetails.data(), client::kErrorDetails.size()));
+  const auto payload = status.GetPayload(absl::string_view(client::kErrorDetails.data(), client::kErrorDetails.size()));
   google::rpc::Status details;
   if (!payload.has_value() || !details.ParseFromString(std::string(*payload))) return message;
   for (const google::protobuf::Any& detail : details.details()) {
@@ -72,8 +71,7 @@ double FileProgress::seconds() const { return std::chrono::duration<double>(Cloc
 void FileProgress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t records) {
   const Clock::time_point now = Clock::now();
   if (total_bytes_ == 0 || bytes == 0) return;
-  if (now - last_shown_ < (terminal_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval)))
-    return;
+  if (now - last_shown_ < (terminal_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval))) return;
   last_shown_ = now;
   const double fraction = std::min(1.0, static_cast<double>(bytes) / static_cast<double>(total_bytes_));
   const std::string state =

@@ -46,11 +46,10 @@ absl::StatusOr<std::shared_ptr<client::UncertaintySource>> OpenSeas::Get(std::si
 void OpenSeas::Compile(Sea& sea) {
   if (!sea.source.ok() || *sea.source != nullptr) return;
   absl::StatusOr<std::unique_ptr<client::UncertaintySource>> source = sources_->Open(seas_.sea(sea.record));
-  if (source.ok()) {
+  if (source.ok())
     sea.source = std::shared_ptr<client::UncertaintySource>(*std::move(source));
-  } else {
+  else
     sea.source = source.status();
-  }
 }
 
 namespace {
@@ -58,24 +57,21 @@ namespace {
 // Interpolates `answers`, those of the first sea, towards `others`; `weights` are those of the others.
 void Blend(const AnswerBatch& others, const std::vector<float>& weights, AnswerBatch& answers) {
   for (const Quantity quantity : kQuantities) {
-    const std::span<float> values = answers.values[Index(quantity)],
-                           errors = answers.standard_errors[Index(quantity)];
+    const std::span<float> values = answers.values[Index(quantity)], errors = answers.standard_errors[Index(quantity)];
     const std::span<const float> other_values = others.values[Index(quantity)],
                                  other_errors = others.standard_errors[Index(quantity)];
     const auto linear = [](float a, float b, float weight) { return a + weight * (b - a); };
     if (Describe(quantity).is_bias) {
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = linear(values[i], other_values[i], weights[i]);
-      for (std::size_t i = 0; i < errors.size(); ++i)
-        errors[i] = linear(errors[i], other_errors[i], weights[i]);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = linear(values[i], other_values[i], weights[i]);
+      for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = linear(errors[i], other_errors[i], weights[i]);
       continue;
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
       const float weight = weights[i], a = (1 - weight) * values[i], b = weight * other_values[i];
       const float value = std::sqrt(a * values[i] + b * other_values[i]);
       if (!errors.empty()) {
-        errors[i] = value > 0 ? (a * errors[i] + b * other_errors[i]) / value
-                              : linear(errors[i], other_errors[i], weight);
+        errors[i] =
+            value > 0 ? (a * errors[i] + b * other_errors[i]) / value : linear(errors[i], other_errors[i], weight);
       }
       values[i] = value;
     }
@@ -100,8 +96,7 @@ void CompareWithS44(const PulseBatch& pulses, std::optional<S44Order> order, con
     const bool known = answers.interpolated(i);
     if (selection.best_s44_orders) {
       const std::optional<S44Order> best = known ? BestOrder(thu[i], tvu[i], depth) : std::nullopt;
-      answers.best_s44_orders[i] =
-          best.has_value() ? static_cast<std::uint8_t>(static_cast<int>(*best) + 1) : 0;
+      answers.best_s44_orders[i] = best.has_value() ? static_cast<std::uint8_t>(static_cast<int>(*best) + 1) : 0;
     }
     if (!selection.s44_remaining) continue;
     const auto remaining = [&](double limit, double ours) {
@@ -129,8 +124,7 @@ PulseBatch Rows(const PulseBatch& pulses, const std::vector<std::uint32_t>& rows
 }
 
 template <typename Number>
-void Scatter(const std::vector<Number>& part, const std::vector<std::uint32_t>& rows,
-             std::vector<Number>& all) {
+void Scatter(const std::vector<Number>& part, const std::vector<std::uint32_t>& rows, std::vector<Number>& all) {
   if (all.empty()) return;
   for (std::size_t i = 0; i < rows.size(); ++i) all[rows[i]] = part[i];
 }
@@ -172,12 +166,12 @@ absl::StatusOr<client::TableSummary> SeaAnswers::Summary(std::size_t record) {
   return (*sea)->table();
 }
 
-absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
-                                const AnswerSelection& selection, AnswerBatch& answers) {
+absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
+                                AnswerBatch& answers) {
   if (!seas_->by_time())
     return AnswerBetween(query, pulses, seas_->fixed(),
-                         std::vector<float>(pulses.size, static_cast<float>(seas_->fixed().weight)),
-                         selection, answers);
+                         std::vector<float>(pulses.size, static_cast<float>(seas_->fixed().weight)), selection,
+                         answers);
   assert(pulses.times.size() == pulses.size);
   // The pulses between each two records. Mostly all lie between the same two.
   struct Group {
@@ -188,16 +182,14 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
   std::map<std::size_t, Group> groups;  // By the first record.
   Group* last = nullptr;
   for (std::size_t i = 0; i < pulses.size; ++i) {
-    const std::optional<BetweenRecords> between =
-        seas_->At(pulses.times[i], last == nullptr ? 0 : last->between.first);
+    const std::optional<BetweenRecords> between = seas_->At(pulses.times[i], last == nullptr ? 0 : last->between.first);
     assert(between.has_value());
     if (last == nullptr || last->between.first != between->first) last = &groups[between->first];
     if (last->rows.empty() || between->second != between->first) last->between = *between;
     last->rows.push_back(static_cast<std::uint32_t>(i));
     last->weights.push_back(static_cast<float>(between->weight));
   }
-  if (groups.size() == 1)
-    return AnswerBetween(query, pulses, last->between, last->weights, selection, answers);
+  if (groups.size() == 1) return AnswerBetween(query, pulses, last->between, last->weights, selection, answers);
   answers.Resize(pulses.size, selection);
   answers.sea_axes.resize(selection.sea_frame ? pulses.size : 0);
   answers.wave_heights.resize(answers.sea_axes.size());
@@ -211,9 +203,9 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
   return absl::OkStatus();
 }
 
-absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pulses,
-                                       const BetweenRecords& between, const std::vector<float>& weights,
-                                       const AnswerSelection& selection, AnswerBatch& answers) {
+absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
+                                       const std::vector<float>& weights, const AnswerSelection& selection,
+                                       AnswerBatch& answers) {
   const absl::StatusOr<std::shared_ptr<client::UncertaintySource>> first = open_.Get(between.first);
   if (!first.ok()) return first.status();
   if (between.second == between.first) return AnswerPulses(**first, query, pulses, selection, answers);

@@ -79,8 +79,7 @@ class SeaAnswers {
                       AnswerBatch& answers);
   // Of pulses between the same two records; the weights are those of the second.
   absl::Status AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
-                             const std::vector<float>& weights, const AnswerSelection& selection,
-                             AnswerBatch& answers);
+                             const std::vector<float>& weights, const AnswerSelection& selection, AnswerBatch& answers);
 
   std::shared_ptr<const SeaTimeline> seas_;
   OpenSeas open_;

@@ -111,9 +111,9 @@ SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
   facts.time = state.time;
   facts.sea = Describe(state, settings.description());
   const auto* components = std::get_if<WaveComponents>(&state.waves);
-  facts.significant_wave_height =
-      components != nullptr ? JonswapSpectrum(**components, facts.sea.water_depth).significant_wave_height()
-                            : state.significant_wave_height();
+  facts.significant_wave_height = components != nullptr
+                                      ? JonswapSpectrum(**components, facts.sea.water_depth).significant_wave_height()
+                                      : state.significant_wave_height();
   facts.peak_period = PeakPeriod(state, facts.sea.water_depth);
   facts.axis = Axis(facts.sea);
   facts.wind_speed_of = settings.wind_speed.has_value()           ? "user"
@@ -149,9 +149,8 @@ ordered_json Json(const SeaFacts& facts) {
   json["share_measured"] = facts.share_measured;
   json["relative_standard_error"] = nullptr;  // Of 2 sigma: half of that of the slope variance.
   if (facts.error.has_value()) {
-    json["relative_standard_error"] = {{"sampling", facts.error->sampling / 2},
-                                       {"tail", facts.error->tail / 2},
-                                       {"total", facts.error->total / 2}};
+    json["relative_standard_error"] = {
+        {"sampling", facts.error->sampling / 2}, {"tail", facts.error->tail / 2}, {"total", facts.error->total / 2}};
   }
   json["assumed"] = Sentences(facts.sea.assumed);
   return json;
@@ -223,8 +222,7 @@ ordered_json Json(const SlopeFacts& facts) {
 ordered_json SeasHeadJson(const SeaTimeline& seas) {
   ordered_json json;
   const std::optional<std::string>& file = seas.settings().file;
-  json["file"] =
-      file.has_value() ? ordered_json(std::filesystem::path(*file).filename().string()) : ordered_json();
+  json["file"] = file.has_value() ? ordered_json(std::filesystem::path(*file).filename().string()) : ordered_json();
   json["format"] = file.has_value() ? ordered_json(seas.series().format) : ordered_json();
   json["place"] = seas.place().empty() ? ordered_json() : ordered_json(seas.place());
   json["by_time"] = seas.by_time();
@@ -248,8 +246,8 @@ std::vector<std::string> SeasNotes(const SeaTimeline& seas, std::size_t first, s
   const SeaFacts facts = FactsOf(seas, first);
   std::vector<std::string> notes = {absl::StrCat(where, ", ", Text(facts))};
   if (last != first)
-    notes.push_back(absl::StrCat("  interpolated in time, over ", last - first + 1, " records, to ",
-                                 Text(FactsOf(seas, last))));
+    notes.push_back(
+        absl::StrCat("  interpolated in time, over ", last - first + 1, " records, to ", Text(FactsOf(seas, last))));
   std::vector<std::string> assumed = Sentences(facts.sea.assumed);
   assumed.insert(assumed.end(), seas.series().assumed.begin(), seas.series().assumed.end());
   if (!assumed.empty()) notes.push_back(absl::StrCat("  assumed: ", absl::StrJoin(assumed, "; ")));

@@ -18,7 +18,7 @@ struct SeaFacts {
   std::optional<double> time;          // s since 1970
   double significant_wave_height = 0;  // m, of the given or measured waves, without the tail
   double peak_period = 0;              // s; 0 without waves
-  double axis = 0;  // degree from north, 0 to 180: along it most of the energy travels, either way
+  double axis = 0;                     // degree from north, 0 to 180: along it most of the energy travels, either way
   DescribedSea sea;
   std::string_view wind_speed_of;      // "user", "file", "waves" (derived), "unknown" (taken as calm)
   std::string_view wind_direction_of;  // "user", "file", "waves"; "none" in a calm

@@ -35,16 +35,14 @@ std::string PlaceNames(const std::vector<SeaPoint>& points) {
   constexpr std::size_t kMaxNamed = 12;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < points.size() && i < kMaxNamed; ++i) names.push_back(PlaceName(points[i]));
-  return absl::StrCat(
-      absl::StrJoin(names, "; "),
-      points.size() > kMaxNamed ? absl::StrCat("; and ", points.size() - kMaxNamed, " more") : "");
+  return absl::StrCat(absl::StrJoin(names, "; "),
+                      points.size() > kMaxNamed ? absl::StrCat("; and ", points.size() - kMaxNamed, " more") : "");
 }
 
 std::optional<std::pair<double, double>> LatitudeAndLongitude(const std::string& text) {
   const std::vector<std::string> parts = absl::StrSplit(text, ',');
   if (parts.size() != 2) return std::nullopt;
-  const std::optional<double> latitude = formats::ParseDouble(parts[0]),
-                              longitude = formats::ParseDouble(parts[1]);
+  const std::optional<double> latitude = formats::ParseDouble(parts[0]), longitude = formats::ParseDouble(parts[1]);
   if (!latitude.has_value() || !longitude.has_value()) return std::nullopt;
   if (!(std::abs(*latitude) <= 90) || !(std::abs(*longitude) <= 360)) return std::nullopt;
   return std::pair(*latitude, *longitude);
@@ -73,22 +71,19 @@ std::optional<std::size_t> Nearest(double latitude, double longitude, const std:
   return nearest;
 }
 
-absl::StatusOr<std::size_t> ChoosePlace(const std::optional<std::string>& wanted,
-                                        const std::vector<SeaPoint>& points) {
+absl::StatusOr<std::size_t> ChoosePlace(const std::optional<std::string>& wanted, const std::vector<SeaPoint>& points) {
   if (!wanted.has_value()) {
     if (points.size() == 1) return 0;
-    return absl::InvalidArgumentError(
-        absl::StrCat("has ", points.size(), " places (", PlaceNames(points),
-                     "); name one by --sea-place, or give LAT,LON for the nearest"));
+    return absl::InvalidArgumentError(absl::StrCat("has ", points.size(), " places (", PlaceNames(points),
+                                                   "); name one by --sea-place, or give LAT,LON for the nearest"));
   }
   for (std::size_t i = 0; i < points.size(); ++i)
     if (PlaceName(points[i]) == *wanted) return i;
   const auto at = LatitudeAndLongitude(*wanted);
-  const std::optional<std::size_t> nearest =
-      at.has_value() ? Nearest(at->first, at->second, points) : std::nullopt;
+  const std::optional<std::size_t> nearest = at.has_value() ? Nearest(at->first, at->second, points) : std::nullopt;
   if (nearest.has_value()) return *nearest;
-  return absl::InvalidArgumentError(absl::StrCat("has no place '", *wanted, "' (it has ", PlaceNames(points),
-                                                 "); name one of them by --sea-place"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("has no place '", *wanted, "' (it has ", PlaceNames(points), "); name one of them by --sea-place"));
 }
 
 double LongestGap(const config::SeaSettings& settings, const std::vector<double>& times) {
@@ -150,8 +145,7 @@ absl::Status SeaTimeline::TakeTime() {
     if (records_.size() == 1) fixed_ = BetweenRecords{};
     return absl::OkStatus();
   }
-  if (!timed)
-    return absl::InvalidArgumentError("its sea has no time, so that --sea-time has no effect; leave it out");
+  if (!timed) return absl::InvalidArgumentError("its sea has no time, so that --sea-time has no effect; leave it out");
   fixed_ = At(*ParseSeaTime(*settings_.time));
   if (fixed_.has_value()) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -164,8 +158,7 @@ std::optional<BetweenRecords> SeaTimeline::At(double time, std::size_t guess) co
   if (!(time >= start() && time <= end())) return std::nullopt;
   std::size_t first = guess;
   if (!(guess + 1 < times_.size() && times_[guess] <= time && time < times_[guess + 1]))
-    first =
-        static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
+    first = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
   if (time == times_[first]) return BetweenRecords{first, first, 0};
   const std::size_t second = first + 1;
   const double step = times_[second] - times_[first];

@@ -30,9 +30,7 @@ class SeaTimeline {
   // The records of one place.
   std::size_t size() const { return records_.size(); }
   const SeaRecord& record(std::size_t i) const { return records_[i]; }
-  KnownSea sea(std::size_t i) const {
-    return KnownSeaOf(records_[i], settings_.description(), series_.record_length);
-  }
+  KnownSea sea(std::size_t i) const { return KnownSeaOf(records_[i], settings_.description(), series_.record_length); }
 
   // Whether the sea depends on the time of a pulse. If not, fixed() holds for all.
   bool by_time() const { return !fixed_.has_value(); }

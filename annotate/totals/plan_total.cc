@@ -24,17 +24,14 @@ nlohmann::ordered_json Parameters(const TotalPlan& plan) {
   nlohmann::ordered_json json;
   json["located"] = std::string(kSurfaceLocationNames[static_cast<std::size_t>(plan.options.located)]);
   for (const StatedNumber& number : plan.numbers)
-    json["numbers"][number.name] = {
-        {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}};
+    json["numbers"][number.name] = {{"value", number.value}, {"source", number.source}, {"assumed", number.assumed}};
   return json;
 }
 
 std::vector<std::string> Assumptions(const TotalPlan& plan) {
   std::vector<std::string> lines;
-  for (const StatedNumber& number : plan.numbers) {
-    if (number.assumed)
-      lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
-  }
+  for (const StatedNumber& number : plan.numbers)
+    if (number.assumed) lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
   return lines;
 }
 
@@ -44,8 +41,7 @@ namespace {
 constexpr double kIndexOfState = 0.0002;
 
 std::string Text(std::span<const double> numbers, std::string_view unit) {
-  return absl::StrCat(absl::StrJoin(numbers, ", "), unit == "1" ? "" : " ",
-                      unit == "1" ? "" : std::string(unit));
+  return absl::StrCat(absl::StrJoin(numbers, ", "), unit == "1" ? "" : " ", unit == "1" ? "" : std::string(unit));
 }
 
 // Takes each standard deviation from the user, else from the trajectory pulse by pulse, else from the sensor, else what
@@ -73,13 +69,12 @@ class ErrorPlan {
     const bool own_return = located == SurfaceLocation::kPulse && !height_given;
     for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
       const ErrorSource& source = kErrorSources[i];
-      if (source.Is(&AirErrors::surface_range) ? own_return
-                                               : !own_return || !source.Is(&AirErrors::surface_height))
+      if (source.Is(&AirErrors::surface_range) ? own_return : !own_return || !source.Is(&AirErrors::surface_height))
         Take(i);
     }
     if (missing_.empty()) return absl::OkStatus();
-    return formats::UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ",
-                                            sensor_.title, "; state it under [sigma] in the survey file"));
+    return formats::UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ", sensor_.title,
+                                            "; state it under [sigma] in the survey file"));
   }
 
  private:
@@ -87,8 +82,7 @@ class ErrorPlan {
     const ErrorSource& source = kErrorSources[i];
     const auto take = [&](const AirErrors& from, const std::string& origin, bool assumed) {
       std::ranges::copy(source.In(from), source.In(plan_.options.errors).begin());
-      plan_.numbers.push_back(
-          {std::string(source.name), Text(source.In(from), source.unit), origin, assumed});
+      plan_.numbers.push_back({std::string(source.name), Text(source.In(from), source.unit), origin, assumed});
     };
     const auto [assumed, why] = Assumed(source);
     bool* const by_pulse = source.Is(&AirErrors::position)   ? &plan_.position_by_pulse
@@ -111,10 +105,9 @@ class ErrorPlan {
   std::pair<AirErrors, std::string> Assumed(const ErrorSource& source) const {
     AirErrors assumed;
     std::copy_n(source.assumed.begin(), source.size(), source.In(assumed).begin());
-    const double one_return = given_.Has(&AirErrors::surface_range) ? given_.values.surface_range
-                              : sensor_.errors.Has(&AirErrors::surface_range)
-                                  ? sensor_.errors.values.surface_range
-                                  : plan_.options.errors.bottom_range;
+    const double one_return = given_.Has(&AirErrors::surface_range)           ? given_.values.surface_range
+                              : sensor_.errors.Has(&AirErrors::surface_range) ? sensor_.errors.values.surface_range
+                                                                              : plan_.options.errors.bottom_range;
     if (source.Is(&AirErrors::surface_range)) assumed.surface_range = one_return;
     if (source.Is(&AirErrors::surface_height) && plan_.options.located != SurfaceLocation::kLevel) {
       assumed.surface_height = one_return;
@@ -135,14 +128,11 @@ class ErrorPlan {
   std::vector<std::string> missing_;
 };
 
-absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface,
-                                           const TotalContext& context) {
+absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface, const TotalContext& context) {
   if (surface.located.has_value()) {
-    const auto found =
-        std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
+    const auto found = std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
     const auto located = static_cast<SurfaceLocation>(found - kSurfaceLocationNames.begin());
-    if (located == SurfaceLocation::kLevel || context.has_surface_returns || !context.has_level)
-      return located;
+    if (located == SurfaceLocation::kLevel || context.has_surface_returns || !context.has_level) return located;
     return formats::UsageError(
         absl::StrCat("[surface] located = \"", *surface.located,
                      "\" needs returns from the surface, but only a level is given; give their classes, or "
@@ -191,8 +181,7 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   BudgetOptions& options = plan.options;
   options.located = *located;
   options.coverage = context.coverage;
-  const auto state = [&](const char* name, const std::string& value, const std::string& source,
-                         bool assumed) {
+  const auto state = [&](const char* name, const std::string& value, const std::string& source, bool assumed) {
     plan.numbers.push_back({name, value, source, assumed});
   };
   state("sensor", sensor->title, sensor->name, false);
@@ -201,8 +190,7 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   const config::WaterSettings& water = survey.water;
   const std::optional<double> of_water = IndexOf(water);
   const bool by_state = of_water.has_value() && !water.index.has_value();
-  if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok())
-    return status;
+  if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok()) return status;
   options.index = of_water.value_or(options.index);
   state("refractive_index", absl::StrCat(options.index),
         !of_water.has_value() ? "assumed: sea water at 532 nm"

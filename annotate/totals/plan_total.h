@@ -43,10 +43,9 @@ std::vector<std::string> Assumptions(const TotalPlan& plan);
 // What is known beside the settings.
 struct TotalContext {
   Coverage coverage = Coverage::kTwoSigma;
-  bool has_surface_returns = false;  // Classes of returns from the surface are given.
-  bool has_level = false;            // A water level is given.
-  std::string trajectory_errors =
-      {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
+  bool has_surface_returns = false;    // Classes of returns from the surface are given.
+  bool has_level = false;              // A water level is given.
+  std::string trajectory_errors = {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
 };
 
 // That of a command without a surface of its own: what the settings say.

@@ -23,8 +23,7 @@ Json CovarianceJson(const TotalBatch::Covariance& covariance, bool directed) {
   Json json;
   for (std::size_t i = 0; i < covariance.size(); ++i) {
     const bool vertical = kCovarianceNames[i] == "DD";
-    json[std::string(kCovarianceNames[i])] =
-        directed || vertical ? formats::JsonNumber(covariance[i][0]) : Json();
+    json[std::string(kCovarianceNames[i])] = directed || vertical ? formats::JsonNumber(covariance[i][0]) : Json();
   }
   return json;
 }
@@ -33,8 +32,7 @@ Json NumberOrNull(float number) { return std::isfinite(number) ? formats::JsonNu
 
 void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
   const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& told) {
-    for (std::size_t i = 0; told.has_value() && i < 3; ++i)
-      aircraft[first + i] = {static_cast<float>((*told)[i])};
+    for (std::size_t i = 0; told.has_value() && i < 3; ++i) aircraft[first + i] = {static_cast<float>((*told)[i])};
   };
   set(BudgetInput::kRoll, motion.attitude);
   set(BudgetInput::kVelocityNorth, motion.velocity);
@@ -61,10 +59,9 @@ Json SourcesJson(const PulseTotal& total) {
   Json json;
   for (const AirSource& source : AirSources(pulse, total.plan.options.located, total.plan.options.errors)) {
     const Eigen::Matrix3d c = source.Covariance();
-    json[std::string(source.name)] = {
-        {"horizontal", c(0, 0) + c(1, 1)},
-        {"vertical", c(2, 2)},
-        {"group", std::string(kErrorGroupNames[static_cast<std::size_t>(source.group)])}};
+    json[std::string(source.name)] = {{"horizontal", c(0, 0) + c(1, 1)},
+                                      {"vertical", c(2, 2)},
+                                      {"group", std::string(kErrorGroupNames[static_cast<std::size_t>(source.group)])}};
   }
   return json;
 }
@@ -142,10 +139,10 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
                                 {"vertical", NumberOrNull(water.sigma_vertical[0] * water.sigma_vertical[0])},
                                 {"group", "survey"}};
     if (total.plan.water.photons.has_value())
-      json["sources"]["photons"] = {{"horizontal", totals.of_water[0][0] + totals.of_water[1][0] -
-                                                       water.sigma_along[0] * water.sigma_along[0]},
-                                    {"vertical", noise},
-                                    {"group", "pulse"}};
+      json["sources"]["photons"] = {
+          {"horizontal", totals.of_water[0][0] + totals.of_water[1][0] - water.sigma_along[0] * water.sigma_along[0]},
+          {"vertical", noise},
+          {"group", "pulse"}};
     json["water"] = WaterJson(total.plan.water, total.pulse);
   }
   for (std::size_t g = 0; g < kErrorGroups; ++g)
@@ -164,24 +161,23 @@ std::string TotalText(const Json& total) {
   const auto number = [](const Json& value) {
     return value.is_number() ? absl::StrFormat("%.4g", value.get<double>()) : std::string("no number");
   };
-  std::string text = absl::StrFormat("total THU %s m, TVU %s m, %s; outcome %s\n", number(total["thu"]),
-                                     number(total["tvu"]), total["coverage"].get<std::string>(),
-                                     total["outcome"].get<std::string>());
+  std::string text =
+      absl::StrFormat("total THU %s m, TVU %s m, %s; outcome %s\n", number(total["thu"]), number(total["tvu"]),
+                      total["coverage"].get<std::string>(), total["outcome"].get<std::string>());
   absl::StrAppend(&text, "order of S-44 met: ",
                   total["s44_order_met"].is_string() ? total["s44_order_met"].get<std::string>() : "none",
                   " (at 95 %, biases added)\n");
-  absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n",
-                                         number(total["bias_along_beam"]), number(total["bias_vertical"])));
+  absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n", number(total["bias_along_beam"]),
+                                         number(total["bias_vertical"])));
   if (const auto water = total.find("water"); water != total.end() && water->contains("spot")) {
     absl::StrAppend(
-        &text,
-        absl::StrFormat(
-            "water column: bias vertical %s m, %s to %s m with 95 %%; along the beam %s m\n",
-            number((*water)["water_bias_vertical"]), number((*water)["water_bias_vertical_interval"][0]),
-            number((*water)["water_bias_vertical_interval"][1]), number((*water)["water_bias_along_beam"])));
+        &text, absl::StrFormat(
+                   "water column: bias vertical %s m, %s to %s m with 95 %%; along the beam %s m\n",
+                   number((*water)["water_bias_vertical"]), number((*water)["water_bias_vertical_interval"][0]),
+                   number((*water)["water_bias_vertical_interval"][1]), number((*water)["water_bias_along_beam"])));
   }
-  absl::StrAppend(&text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m",
-                                         "vertical, m (1 sigma)"));
+  absl::StrAppend(
+      &text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m", "vertical, m (1 sigma)"));
   for (const auto& [name, source] : total["sources"].items()) {
     const auto root = [&](const char* axis) {
       return source[axis].is_number() ? absl::StrFormat("%.4f", std::sqrt(source[axis].get<double>()))

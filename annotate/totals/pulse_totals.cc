@@ -31,8 +31,8 @@ void SelectForTotals(AnswerSelection& selection) {
   selection.sea_frame = true;
 }
 
-void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
-                   AircraftColumns& aircraft, TotalBatch& totals) {
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
+                   TotalBatch& totals) {
   totals.sigmas_assumed = TakeSigmas(plan, aircraft);
   BudgetPulses asked{.pulses = pulses.columns(), .aircraft = {.size = pulses.size}, .sea_axis = {}};
   for (const BudgetInput input : kAircraftInputs) asked.aircraft[input] = aircraft[input];
@@ -71,8 +71,7 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
   covariance(totals.covariance, outputs.total, true);
   covariance(totals.air, outputs.air, totals.whole);
   covariance(totals.sea, outputs.sea, totals.whole);
-  for (std::size_t g = 0; g < kErrorGroups; ++g)
-    covariance(totals.groups[g], outputs.groups[g], totals.whole);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) covariance(totals.groups[g], outputs.groups[g], totals.whole);
   outputs.best_orders = column(totals.best_orders);
   ComputePulseBudget(asked, share, plan.options, outputs);
   if (!aircraft[BudgetInput::kBeamAzimuth].empty()) return;

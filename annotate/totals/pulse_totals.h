@@ -14,7 +14,7 @@ namespace albtpu::annotate {
 
 // Element i of each column belongs to pulse i; NaN where the sea has no answer.
 struct TotalBatch {
-  std::vector<float> thu, tvu;  // m, at the coverage of the plan.
+  std::vector<float> thu, tvu;                                                  // m, at the coverage of the plan.
   std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea, thu_water, tvu_water;  // The same of shares.
   // m^2, 1 sigma, the entries kCovarianceNames: of the total, of shares and of groups. Of shares and groups only the
   // variances (NN EE DD), unless they are wanted whole.
@@ -23,9 +23,8 @@ struct TotalBatch {
   std::array<Covariance, kErrorGroups> groups;
   bool whole = false;
   std::vector<std::uint8_t> best_orders;
-  WaterBatch water;  // By AddWater, before all else. Empty: the water column is left out.
-  std::uint64_t sigmas_assumed =
-      0;  // Pulses at whose time no error file states how well the trajectory is known.
+  WaterBatch water;                  // By AddWater, before all else. Empty: the water column is left out.
+  std::uint64_t sigmas_assumed = 0;  // Pulses at whose time no error file states how well the trajectory is known.
 
   std::size_t size() const { return thu.size(); }
 };
@@ -35,8 +34,8 @@ void SelectForTotals(AnswerSelection& selection);
 
 // `aircraft` has altitudes, azimuths (none: not known) and motions. It is changed: sigmas that are not known, or not
 // wanted by pulse, become those of the plan. `totals.water` is taken, and `sea` has its biases.
-void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
-                   AircraftColumns& aircraft, TotalBatch& totals);
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
+                   TotalBatch& totals);
 
 // The covariance of pulse i, whose columns are NN EE DD NE ND ED, on the axes of a map grid: XX YY ZZ XY XZ YZ, z up.
 // `convergence` [rad] is the true azimuth of its y axis.

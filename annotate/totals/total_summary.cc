@@ -57,8 +57,7 @@ void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const T
   for (std::size_t i = 0; i < totals.size(); ++i) Add(pulses, sea, totals, i);
 }
 
-void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals,
-                       std::size_t i) {
+void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals, std::size_t i) {
   if (!std::isfinite(totals.thu[i]) || !std::isfinite(totals.tvu[i])) return;
   const float depth = pulses.coordinate(AxisId::kDepth, i);
   std::size_t index = 0;
@@ -119,8 +118,7 @@ std::uint64_t TotalSummary::count() const {
 }
 
 ordered_json TotalSummary::Band::Json() const {
-  ordered_json json = {
-      {"pulses", thu.count()}, {"total_thu", annotate::Json(thu)}, {"total_tvu", annotate::Json(tvu)}};
+  ordered_json json = {{"pulses", thu.count()}, {"total_thu", annotate::Json(thu)}, {"total_tvu", annotate::Json(tvu)}};
   // Of the sums of variances over all pulses.
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   const auto shares = [&](double Sums::*axis) {
@@ -132,13 +130,10 @@ ordered_json TotalSummary::Band::Json() const {
   };
   json["shares_horizontal"] = shares(&Sums::horizontal);
   json["shares_vertical"] = shares(&Sums::vertical);
-  for (std::size_t g = 0; g < kErrorGroups; ++g) {
-    json["groups_horizontal"][std::string(kErrorGroupNames[g])] =
-        share(groups[g].horizontal, total.horizontal);
-  }
-  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
+    json["groups_horizontal"][std::string(kErrorGroupNames[g])] = share(groups[g].horizontal, total.horizontal);
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
     json["groups_vertical"][std::string(kErrorGroupNames[g])] = share(groups[g].vertical, total.vertical);
-  }
   const auto pulses = static_cast<double>(thu.count());
   json["mean_bias_along_beam"] = bias_along_beam / pulses;
   json["mean_bias_vertical"] = bias_vertical / pulses;
@@ -168,21 +163,19 @@ std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
   std::string text = absl::StrFormat("\n  %11s %9s %26s %26s %27s %12s", "depth", "points",
                                      absl::StrCat("total THU, ", at), absl::StrCat("total TVU, ", at),
                                      "vertical variance", absl::StrCat("S-44 ", std::string(Name(order))));
-  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %12s", "m", "",
-                                         "median m", "95 % m", "max m", "median m", "95 % m", "max m", "air",
-                                         "sea", "water", "datum", "met"));
+  absl::StrAppend(
+      &text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %12s", "m", "", "median m", "95 % m",
+                             "max m", "median m", "95 % m", "max m", "air", "sea", "water", "datum", "met"));
   const auto line = [&](const std::string& name, const Band& band) {
     const double whole = band.total.vertical > 0 ? band.total.vertical : 1;
-    const double air = band.air.vertical / whole, sea = band.sea.vertical / whole,
-                 water = band.water.vertical / whole;
+    const double air = band.air.vertical / whole, sea = band.sea.vertical / whole, water = band.water.vertical / whole;
     absl::StrAppend(
-        &text,
-        absl::StrFormat(
-            "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %% %10.1f %%",
-            name, band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
-            band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea,
-            100 * water, 100 * std::max(0.0, 1 - air - sea - water),
-            100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
+        &text, absl::StrFormat(
+                   "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %% %10.1f %%",
+                   name, band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
+                   band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea,
+                   100 * water, 100 * std::max(0.0, 1 - air - sea - water),
+                   100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
   };
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     if (bands_[i].thu.count() == 0) continue;

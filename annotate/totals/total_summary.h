@@ -85,7 +85,7 @@ class TotalSummary {
 
 // `answers`, which are those of the sea alone (UncertaintySummary), with the total beside them. What the sea has by
 // depth moves to `sea_surface`. `total` has TotalSummary::Json(), `coverage`, `assumed` and, of each line, the same.
-nlohmann::ordered_json WithTotal(nlohmann::ordered_json answers, const TotalPlan& plan,
-                                 const TotalSummary& totals, const std::map<int, TotalSummary>& lines = {});
+nlohmann::ordered_json WithTotal(nlohmann::ordered_json answers, const TotalPlan& plan, const TotalSummary& totals,
+                                 const std::map<int, TotalSummary>& lines = {});
 
 }  // namespace albtpu::annotate

@@ -40,8 +40,7 @@ OpticsInput OpticsGiven(const config::WaterSettings& settings) {
                      .omega0 = settings.omega0,
                      .omega0_sigma = settings.omega0_sigma,
                      .backscatter_fraction = settings.backscatter_fraction};
-  if (settings.kd_kind.has_value())
-    optics.kd_kind = static_cast<KdKind>(PlaceOf(kKdKindNames, *settings.kd_kind));
+  if (settings.kd_kind.has_value()) optics.kd_kind = static_cast<KdKind>(PlaceOf(kKdKindNames, *settings.kd_kind));
   if (settings.jerlov.has_value()) optics.jerlov = *settings.jerlov;
   return optics;
 }
@@ -50,17 +49,14 @@ absl::StatusOr<BiasTreatment> TreatmentOf(const config::WaterSettings& settings)
   BiasTreatment treatment{.handling = static_cast<BiasHandling>(PlaceOf(kBiasHandlingNames, *settings.bias))};
   const auto needs = [&](BiasHandling handling, bool has, const char* key, const char* what) -> absl::Status {
     if ((treatment.handling == handling) == has) return absl::OkStatus();
-    if (has) {
-      return formats::UsageError(
-          absl::StrCat("[water] ", key, " has no effect with bias = \"", *settings.bias,
-                       "\"; leave it out, or give bias = \"",
-                       std::string(kBiasHandlingNames[static_cast<std::size_t>(handling)]), "\""));
-    }
-    return formats::UsageError(
-        absl::StrCat("[water] bias = \"", *settings.bias, "\" needs ", key, "; give ", what));
+    if (has)
+      return formats::UsageError(absl::StrCat(
+          "[water] ", key, " has no effect with bias = \"", *settings.bias, "\"; leave it out, or give bias = \"",
+          std::string(kBiasHandlingNames[static_cast<std::size_t>(handling)]), "\""));
+    return formats::UsageError(absl::StrCat("[water] bias = \"", *settings.bias, "\" needs ", key, "; give ", what));
   };
-  if (absl::Status status = needs(BiasHandling::kVendor, settings.residual_fraction.has_value(),
-                                  "residual_fraction", "the fraction of the bias that remains, 0 to 1");
+  if (absl::Status status = needs(BiasHandling::kVendor, settings.residual_fraction.has_value(), "residual_fraction",
+                                  "the fraction of the bias that remains, 0 to 1");
       !status.ok())
     return status;
   const char* const kCalibration = "calibration = {depth = 5, offset = -0.04, sigma = 0.01}, in m";
@@ -88,9 +84,8 @@ absl::Status CheckReceiver(const config::WaterSettings& settings) {
   need(settings.field_of_view.has_value(), "field_of_view (m)");
   need(settings.pulse_length.has_value(), "pulse_length (ns)");
   if (missing.empty()) return absl::OkStatus();
-  return formats::UsageError(
-      absl::StrCat("[water] lacks ", missing,
-                   " (the bias of the water column depends on it); give it, or column = \"none\""));
+  return formats::UsageError(absl::StrCat(
+      "[water] lacks ", missing, " (the bias of the water column depends on it); give it, or column = \"none\""));
 }
 
 absl::StatusOr<WaterColumnTable> ReadWaterTable() {
@@ -104,19 +99,17 @@ absl::StatusOr<WaterColumnTable> ReadWaterTable() {
 }
 
 // What was taken of the optics, and whose numbers they are.
-void StateOptics(const config::WaterSettings& settings, const WaterOptics& optics,
-                 std::vector<StatedNumber>& numbers) {
+void StateOptics(const config::WaterSettings& settings, const WaterOptics& optics, std::vector<StatedNumber>& numbers) {
   const std::string way = settings.kd.has_value()       ? absl::StrCat("kd of kind ", *settings.kd_kind)
                           : settings.secchi.has_value() ? "the Secchi depth"
                           : settings.jerlov.has_value() ? absl::StrCat("Jerlov type ", *settings.jerlov)
                                                         : "absorption and scattering";
-  numbers.push_back({"water_attenuation", absl::StrFormat("%.4g 1/m", optics.attenuation),
-                     absl::StrCat("[water] ", way), false});
-  numbers.push_back({"water_attenuation_sigma",
-                     absl::StrFormat("%.3g %%", 100 * optics.attenuation_log_sigma),
-                     settings.kd_sigma.has_value() ? "[water] kd_sigma"
-                                                   : absl::StrCat("assumed: what ", way, " is good for"),
-                     !settings.kd_sigma.has_value()});
+  numbers.push_back(
+      {"water_attenuation", absl::StrFormat("%.4g 1/m", optics.attenuation), absl::StrCat("[water] ", way), false});
+  numbers.push_back(
+      {"water_attenuation_sigma", absl::StrFormat("%.3g %%", 100 * optics.attenuation_log_sigma),
+       settings.kd_sigma.has_value() ? "[water] kd_sigma" : absl::StrCat("assumed: what ", way, " is good for"),
+       !settings.kd_sigma.has_value()});
   const bool albedo_told = settings.omega0.has_value() || settings.absorption.has_value();
   const double ratio = optics.scattering_over_absorption;
   numbers.push_back({"water_albedo", absl::StrFormat("%.3g", ratio / (1 + ratio)),
@@ -152,8 +145,7 @@ std::filesystem::path WaterTablePath() {
 }
 
 std::optional<double> IndexOf(const config::WaterSettings& water) {
-  if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value())
-    return water.index;
+  if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value()) return water.index;
   return SeaWaterIndex(*water.temperature, *water.salinity).phase;
 }
 
@@ -188,24 +180,22 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   if (!optics.ok()) return InWater(optics.status());
   const absl::StatusOr<WaterColumnTable> table = ReadWaterTable();
   if (!table.ok()) return table.status();
-  const WaterReceiver receiver{
-      .detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
-      .field_of_view = *settings.field_of_view,
-      .pulse_length = *settings.pulse_length,
-      .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
+  const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
+                               .field_of_view = *settings.field_of_view,
+                               .pulse_length = *settings.pulse_length,
+                               .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
   absl::StatusOr<WaterShare> share = WaterShare::Create(*table, *optics, receiver, *treatment);
   if (!share.ok()) return InWater(share.status());
   if (!settings.processed_with.has_value())
-    numbers.push_back({"processed_with", "the group index of the water",
-                       "assumed: ranges in water were computed with it", true});
+    numbers.push_back(
+        {"processed_with", "the group index of the water", "assumed: ranges in water were computed with it", true});
   StateOptics(settings, *optics, numbers);
   numbers.push_back({"water_detector", *settings.detector, "[water]", false});
   numbers.push_back({"water_field_of_view", absl::StrCat(*settings.field_of_view, " m"), "[water]", false});
   numbers.push_back({"water_pulse_length", absl::StrCat(*settings.pulse_length, " ns"), "[water]", false});
   numbers.push_back(
       {"water_bias", *settings.bias, absl::StrCat("[water]: ", HandlingText(treatment->handling)), false});
-  numbers.push_back({"water_table",
-                     absl::StrCat(table->table().provenance().id, " ", table->table().digest()),
+  numbers.push_back({"water_table", absl::StrCat(table->table().provenance().id, " ", table->table().digest()),
                      WaterTablePath().string(), false});
   plan.share = std::make_shared<WaterShare>(*std::move(share));
   return plan;
@@ -214,22 +204,20 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
 void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
   const std::span<const float> incidence = pulses.axis[Index(AxisId::kIncidence)];
   const std::span<const float> depth = pulses.axis[Index(AxisId::kDepth)];
-  const auto add = [](float& bias, double more) {
-    bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more);
-  };
+  const auto add = [](float& bias, double more) { bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more); };
   std::vector<float>& along = answers.values[Index(Quantity::kBiasAlongBeam)];
   std::vector<float>& vertical = answers.values[Index(Quantity::kBiasVertical)];
   if (plan.of_water.has_value()) {
     for (std::size_t i = 0; i < pulses.size; ++i) {
-      const IndexBias bias = BiasOfIndex(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)),
-                                         *plan.of_water, plan.processed_with);
+      const IndexBias bias =
+          BiasOfIndex(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), *plan.of_water, plan.processed_with);
       const float z = pulses.coordinate(AxisId::kDepth, i);
       add(along[i], bias.along * z);
       add(vertical[i], bias.vertical * z);
     }
   }
-  for (std::vector<float>* column : {&water.sigma_along, &water.sigma_vertical, &water.correlation,
-                                     &water.noise, &water.bias_along, &water.bias_vertical, &water.stretch})
+  for (std::vector<float>* column : {&water.sigma_along, &water.sigma_vertical, &water.correlation, &water.noise,
+                                     &water.bias_along, &water.bias_vertical, &water.stretch})
     column->resize(plan.share != nullptr ? pulses.size : 0);
   if (plan.share == nullptr || pulses.size == 0) return;
   const WaterShare& share = *plan.share;
@@ -253,8 +241,7 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
     water.noise[i] = 0;
     if (!plan.photons.has_value()) continue;
     const double sine = std::sin(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i))) / plan.index;
-    water.noise[i] =
-        static_cast<float>(share.PhotonNoise(*plan.photons, water.stretch[i], std::sqrt(1 - sine * sine)));
+    water.noise[i] = static_cast<float>(share.PhotonNoise(*plan.photons, water.stretch[i], std::sqrt(1 - sine * sine)));
   }
 }
 

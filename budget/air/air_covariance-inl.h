@@ -38,13 +38,11 @@ HWY_INLINE SineAndCosine SineAndCosineOfDegrees(F degrees) {
   const F x = (degrees - quarter * Constant(90)) * Constant(0.017453292519943295f);
   const F x2 = x * x, one = Constant(1);
   // Taylor's series; what is left out is below 4e-9 and 3e-8.
-  const F s =
-      x + x * x2 *
-              (Constant(-1.0f / 6) +
-               x2 * (Constant(1.0f / 120) + x2 * (Constant(-1.0f / 5040) + x2 * Constant(1.0f / 362880))));
-  const F c =
-      one + x2 * (Constant(-0.5f) +
-                  x2 * (Constant(1.0f / 24) + x2 * (Constant(-1.0f / 720) + x2 * Constant(1.0f / 40320))));
+  const F s = x + x * x2 *
+                      (Constant(-1.0f / 6) +
+                       x2 * (Constant(1.0f / 120) + x2 * (Constant(-1.0f / 5040) + x2 * Constant(1.0f / 362880))));
+  const F c = one + x2 * (Constant(-0.5f) +
+                          x2 * (Constant(1.0f / 24) + x2 * (Constant(-1.0f / 720) + x2 * Constant(1.0f / 40320))));
   const F turn = quarter - Constant(4) * hn::Floor(quarter * Constant(0.25f));  // 0, 1, 2 or 3.
   const auto first = turn == one, third = turn == Constant(3), back = turn >= Constant(2);
   const auto swapped = hn::Or(first, third);
@@ -146,13 +144,13 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
                       heading = SineAndCosineOfDegrees(pulse.heading);
   const Ned forward = {heading.cosine * pitch.cosine, heading.sine * pitch.cosine, hn::Neg(pitch.sine)};
   const F cp = heading.cosine * pitch.sine, sp = heading.sine * pitch.sine;
-  const Ned right = {cp * roll.sine - heading.sine * roll.cosine,
-                     sp * roll.sine + heading.cosine * roll.cosine, pitch.cosine * roll.sine};
-  const Ned below = {cp * roll.cosine + heading.sine * roll.sine,
-                     sp * roll.cosine - heading.cosine * roll.sine, pitch.cosine * roll.cosine};
+  const Ned right = {cp * roll.sine - heading.sine * roll.cosine, sp * roll.sine + heading.cosine * roll.cosine,
+                     pitch.cosine * roll.sine};
+  const Ned below = {cp * roll.cosine + heading.sine * roll.sine, sp * roll.cosine - heading.cosine * roll.sine,
+                     pitch.cosine * roll.cosine};
   const Ned lever = Constant(is.forward) * forward + Constant(is.right) * right + Constant(is.down) * below;
-  const Ned rates = (radian * pulse.roll_rate) * forward + (radian * pulse.pitch_rate) * right +
-                    (radian * pulse.yaw_rate) * below;
+  const Ned rates =
+      (radian * pulse.roll_rate) * forward + (radian * pulse.pitch_rate) * right + (radian * pulse.yaw_rate) * below;
   const Ned by_down = point.ByPosition({zero, zero, one}, given);
 
   AirShare share;
@@ -176,9 +174,8 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
   survey.Add(Constant(is.Sigma<&AirErrors::boresight>(0)) * point.ByDirection(Cross(forward, u), given));
   survey.Add(Constant(is.Sigma<&AirErrors::boresight>(1)) * point.ByDirection(Cross(right, u), given));
   survey.Add(Constant(is.Sigma<&AirErrors::boresight>(2)) * point.ByDirection(Cross(below, u), given));
-  survey.Add(Constant(is.Sigma<&AirErrors::time>()) *
-             (point.ByPosition(pulse.velocity + Cross(rates, lever), given) +
-              point.ByDirection(Cross(rates, u), given)));
+  survey.Add(Constant(is.Sigma<&AirErrors::time>()) * (point.ByPosition(pulse.velocity + Cross(rates, lever), given) +
+                                                       point.ByDirection(Cross(rates, u), given)));
   survey.Add(Constant(is.Sigma<&AirErrors::range_offset>()) * (given * w_over_n + (one - given) * u));
   survey.Add((Constant(is.Sigma<&AirErrors::index>()) * water_path) *
              Ned{Constant(-2) * w_over_n.n, Constant(-2) * w_over_n.e,

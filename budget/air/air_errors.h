@@ -144,7 +144,6 @@ inline constexpr std::size_t kErrorNumberCount = [] {
   for (const ErrorSource& source : kErrorSources) count += source.size();
   return count;
 }();
-static_assert(sizeof(AirErrors) == kErrorNumberCount * sizeof(double),
-              "a member of AirErrors is not in the list");
+static_assert(sizeof(AirErrors) == kErrorNumberCount * sizeof(double), "a member of AirErrors is not in the list");
 
 }  // namespace albtpu

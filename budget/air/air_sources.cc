@@ -17,8 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 struct Rays {
   explicit Rays(const AirPulse& pulse) : n(pulse.index) {
     const double incidence = pulse.incidence * kDegree, azimuth = pulse.beam_azimuth * kDegree;
-    u << std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
-        std::cos(incidence);
+    u << std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth), std::cos(incidence);
     const double horizontal = u.x() * u.x() + u.y() * u.y();
     const double down = std::sqrt(1 - horizontal / (n * n));
     w << u.x() / n, u.y() / n, down;
@@ -87,8 +86,8 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
   add(&AirErrors::boresight, turns * (kDegree * Vector3d(errors.boresight.data())).asDiagonal());
   add(&AirErrors::lever_arm, errors.lever_arm * by_position * attitude);
   add(&AirErrors::scan, errors.scan * kDegree * scan_by_direction * rays.across);
-  add(&AirErrors::time, errors.time * (by_position * (pulse.velocity + rates.cross(lever_arm)) +
-                                       by_direction * rates.cross(rays.u)));
+  add(&AirErrors::time,
+      errors.time * (by_position * (pulse.velocity + rates.cross(lever_arm)) + by_direction * rates.cross(rays.u)));
   add(&AirErrors::range_offset, errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
   add(&AirErrors::bottom_range, errors.bottom_range / rays.n * rays.w);
   if (located == SurfaceLocation::kPulse) add(&AirErrors::surface_range, errors.surface_range * rays.k);

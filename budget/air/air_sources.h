@@ -19,11 +19,10 @@ struct AirPulse {
   double altitude = 0;      // Of the sensor above the water: above 0.
   double depth = 0;         // Of the point below the water: 0 or more.
   double roll = 0, pitch = 0, heading = 0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s; north, east, down.
-  Eigen::Vector3d rates = Eigen::Vector3d::Zero();     // degree/s; about the axes of the aircraft.
-  Eigen::Vector3d lever_arm =
-      Eigen::Vector3d::Zero();  // m; from the trajectory's point to the sensor, aircraft axes.
-  double index = 1.34;          // Refractive index of the water: 1 or more.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   // m/s; north, east, down.
+  Eigen::Vector3d rates = Eigen::Vector3d::Zero();      // degree/s; about the axes of the aircraft.
+  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  // m; from the trajectory's point to the sensor, aircraft axes.
+  double index = 1.34;                                  // Refractive index of the water: 1 or more.
 };
 
 // What a source contributes: the reported point errs by `columns` times independent standard normal numbers.
@@ -59,8 +58,7 @@ Eigen::Vector3d ErrorOfSurfaceHeight(const AirPulse& pulse);
 // AirErrors in single precision, with angles in radians, and constants made of them.
 struct AirConstants {
   // `lever_arm`: m; forward, right, down.
-  AirConstants(const AirErrors& errors, SurfaceLocation located, double index,
-               const std::array<double, 3>& lever_arm);
+  AirConstants(const AirErrors& errors, SurfaceLocation located, double index, const std::array<double, 3>& lever_arm);
 
   // A standard deviation. That of the range to the surface is 0 unless the pulse's own return located it.
   template <auto source>

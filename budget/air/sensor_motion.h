@@ -10,8 +10,8 @@
 namespace albtpu {
 
 struct SensorMotion {
-  double roll = 0, pitch = 0;  // degree; 0 where a trajectory does not state them.
-  double heading = 0;          // degree, clockwise from true north; the course where it is not stated.
+  double roll = 0, pitch = 0;           // degree; 0 where a trajectory does not state them.
+  double heading = 0;                   // degree, clockwise from true north; the course where it is not stated.
   std::array<double, 3> velocity = {};  // m/s; north, east, down.
   std::array<double, 3> rates = {};     // degree/s, about the forward, right and down axes of the aircraft.
   // One standard deviation; NaN where nothing states it.

@@ -63,11 +63,9 @@ void ComputeBlock(const StillWater& water, Block& block) {
     least[i] = MinTangent(distance[i], height[i], depth[i], water);
     tangent[i] = least[i];
   }
-  for (int step = 0; step < kRefractionSteps; ++step) {
-    for (std::size_t i = 0; i < kBlock; ++i) {
+  for (int step = 0; step < kRefractionSteps; ++step)
+    for (std::size_t i = 0; i < kBlock; ++i)
       tangent[i] = NextTangent(tangent[i], least[i], distance[i], height[i], depth[i], water);
-    }
-  }
   for (std::size_t i = 0; i < kBlock; ++i) {
     const double crossing = DistanceAt(tangent[i], distance[i], height[i]);
     const double r = block.depth[i] <= 0 ? distance[i] : crossing;
@@ -91,11 +89,10 @@ HWY_EXPORT(ComputeBlock);
 
 // The rows from `begin` on; a constant is repeated, and none is 0.
 void Read(std::span<const double> column, std::size_t begin, std::size_t count, Column& block) {
-  if (column.size() <= 1) {
+  if (column.size() <= 1)
     std::fill_n(block, count, column.empty() ? 0.0 : column[0]);
-  } else {
+  else
     std::copy_n(column.data() + begin, count, block);
-  }
 }
 
 void Write(const Column& block, std::size_t begin, std::size_t count, std::span<double> column) {

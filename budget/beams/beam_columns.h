@@ -9,8 +9,8 @@ namespace albtpu {
 
 // The places of points relative to the sensor: one element for each pulse in each column.
 struct PointColumns {
-  std::span<const double> east;   // m, point minus sensor, true horizontal metres along the axes of the grid.
-  std::span<const double> north;  // m, the same.
+  std::span<const double> east;    // m, point minus sensor, true horizontal metres along the axes of the grid.
+  std::span<const double> north;   // m, the same.
   std::span<const double> height;  // m, of the sensor above the water at this pulse; above 0.
   std::span<const double> depth;   // m, of the point below the water; 0 or less: not under water.
   // rad, in [-pi, pi]: true azimuth = grid azimuth + convergence. One element for each pulse, or one for all, or none,
@@ -25,8 +25,8 @@ struct PointColumns {
 // the distance from the sensor to the point, and the path in water is 0. Where the sensor is not above the water, or a
 // number is NaN that they depend on, incidence and slant range are NaN.
 struct BeamColumns {
-  std::span<double> incidence = {};  // rad, in air, from the vertical, where the beam meets the water.
-  std::span<double> azimuth = {};  // rad, in [0, 2 pi): where the beam travels to, clockwise from true north.
+  std::span<double> incidence = {};    // rad, in air, from the vertical, where the beam meets the water.
+  std::span<double> azimuth = {};      // rad, in [0, 2 pi): where the beam travels to, clockwise from true north.
   std::span<double> slant_range = {};  // m, in air: from the sensor to the water.
   std::span<double> water_path = {};   // m, in water: from the surface to the point.
 };

@@ -41,8 +41,7 @@ Derivative DerivativeOf(const TrackedRay& ray, Displacement displacement, const 
     return d;
   }
   d.leftCols<3>() = Axes(ray.velocity);
-  if (displacement == Displacement::kOffsetRotation)
-    d.col(3) = Eigen::Vector3d::UnitZ().cross(ray.position - centre);
+  if (displacement == Displacement::kOffsetRotation) d.col(3) = Eigen::Vector3d::UnitZ().cross(ray.position - centre);
   return d;
 }
 
@@ -64,8 +63,7 @@ Square LongRunCovariance(std::span<const double> times, int size, const Score& s
     if (cells[a].first - counted > lags) ++correlation_times, counted = cells[a].first;
     sum += cells[a].second * cells[a].second.transpose();
     for (std::size_t b = a + 1; b < cells.size() && cells[b].first - cells[a].first <= lags; ++b) {
-      const double bartlett =
-          1 - static_cast<double>(cells[b].first - cells[a].first) / static_cast<double>(lags + 1);
+      const double bartlett = 1 - static_cast<double>(cells[b].first - cells[a].first) / static_cast<double>(lags + 1);
       const Square product = bartlett * cells[a].second * cells[b].second.transpose();
       sum += product + product.transpose();
     }
@@ -98,16 +96,15 @@ std::vector<TrackedRay> FollowTrack(std::span<const AirRay> rays, const TrackPos
   return tracked;
 }
 
-Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement,
-                               const Eigen::VectorXd& values, const Eigen::Vector3d& centre) {
+Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement, const Eigen::VectorXd& values,
+                               const Eigen::Vector3d& centre) {
   return DerivativeOf(ray, displacement, centre) * values;
 }
 
 double MedianAngle(std::span<const TrackedRay> rays) {
   std::vector<double> angles;
   for (const TrackedRay& ray : rays)
-    angles.push_back(
-        AngleBetween((ray.ray.water_point - ray.position).normalized(), ray.ray.direction, 0).norm());
+    angles.push_back(AngleBetween((ray.ray.water_point - ray.position).normalized(), ray.ray.direction, 0).norm());
   return Median(std::move(angles));
 }
 
@@ -116,8 +113,8 @@ MeanOverTime WeightedMean(std::span<const double> times, std::span<const double>
   double sum = 0, weight = 0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * values[i], weight += weights[i];
   const double mean = sum / weight;
-  const Square variance = LongRunCovariance(
-      times, 1, [&](std::size_t i) { return Column::Constant(1, weights[i] * (values[i] - mean)); });
+  const Square variance =
+      LongRunCovariance(times, 1, [&](std::size_t i) { return Column::Constant(1, weights[i] * (values[i] - mean)); });
   return {mean, std::sqrt(variance(0, 0)) / weight};
 }
 
@@ -158,8 +155,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
       distances[i] = at.cross(rays[i].ray.direction).norm();
     }
     const double scale = std::max(Median(distances), 1e-6);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      weights[i] = 1 / (1 + distances[i] * distances[i] / (scale * scale));
+    for (std::size_t i = 0; i < rays.size(); ++i) weights[i] = 1 / (1 + distances[i] * distances[i] / (scale * scale));
   }
 
   // Then angles.
@@ -196,8 +192,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   for (int round = 0; round < kAngleRounds; ++round) {
     fit.noise = FitRayNoise(squares, separations, fit.noise, round == 0 ? 10 : 3);
     if (round >= 2)
-      fit.flattening =
-          std::pow(std::min(fit.noise.slopes, 0.1) / facing.gain, 2) * facing.bias / std::sin(incidence);
+      fit.flattening = std::pow(std::min(fit.noise.slopes, 0.1) / facing.gain, 2) * facing.bias / std::sin(incidence);
     assemble();
     Column right = Column::Zero(size);
     for (const Column& score : scores) right += score;
@@ -235,9 +230,7 @@ Eigen::Vector2d AngleBehind(double incidence, double index, const Eigen::Vector2
 // By central differences, whose error is some 1e-6 of the result.
 FacingSlopes FacingSlopesAt(double incidence, double index) {
   constexpr double kStep = 1e-3;
-  const auto f = [&](double x, double y) {
-    return AngleBehind(incidence, index, Eigen::Vector2d(x, y) * kStep);
-  };
+  const auto f = [&](double x, double y) { return AngleBehind(incidence, index, Eigen::Vector2d(x, y) * kStep); };
   const double along = (f(1, 0).x() - f(-1, 0).x()) / (2 * kStep);
   const double across = (f(0, 1).y() - f(0, -1).y()) / (2 * kStep);
   const double laplacian =

@@ -14,8 +14,7 @@ namespace albtpu {
 
 // Positions of a track at `times`, in the frame of the rays; NaN where they are not known. Times may come in any order
 // and lie outside of the track.
-using TrackPositions =
-    std::function<void(std::span<const double> times, std::span<Eigen::Vector3d> positions)>;
+using TrackPositions = std::function<void(std::span<const double> times, std::span<Eigen::Vector3d> positions)>;
 
 // A ray, and the position and velocity of the sensor at its time by the given track.
 struct TrackedRay {
@@ -44,8 +43,8 @@ struct DisplacementFit {
 DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement displacement, double index);
 
 // The displacement of one ray's position by `values`, about the mean position `centre`.
-Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement,
-                               const Eigen::VectorXd& values, const Eigen::Vector3d& centre);
+Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement, const Eigen::VectorXd& values,
+                               const Eigen::Vector3d& centre);
 
 // The median angle between rays and the directions from the track to their water points.
 double MedianAngle(std::span<const TrackedRay> rays);

@@ -40,14 +40,12 @@ std::vector<AirRay> ThinRays(std::span<const AirRay> rays, const RayThinning& th
   places.reserve(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (IsFinite(rays[i])) places.push_back({rays[i].time, static_cast<std::uint32_t>(i)});
-  tbb::parallel_sort(places, [](const Place& a, const Place& b) {
-    return a.time != b.time ? a.time < b.time : a.ray < b.ray;
-  });
+  tbb::parallel_sort(
+      places, [](const Place& a, const Place& b) { return a.time != b.time ? a.time < b.time : a.ray < b.ray; });
 
   const auto bin_of = [&](const Place& place) { return std::floor(place.time / thinning.bin); };
   std::size_t bins = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    bins += i == 0 || bin_of(places[i]) != bin_of(places[i - 1]);
+  for (std::size_t i = 0; i < places.size(); ++i) bins += i == 0 || bin_of(places[i]) != bin_of(places[i - 1]);
   const std::size_t cap =
       std::clamp<std::size_t>(thinning.max_rays / std::max<std::size_t>(bins, 1), 1, thinning.rays_per_bin);
 
@@ -63,8 +61,7 @@ std::vector<AirRay> ThinRays(std::span<const AirRay> rays, const RayThinning& th
       std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(cap), ranked.end(),
                        [](const auto& a, const auto& b) { return a > b; });
       ranked.resize(cap);
-      std::sort(ranked.begin(), ranked.end(),
-                [](const auto& a, const auto& b) { return a.second < b.second; });
+      std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     }
     for (const auto& [rank, i] : ranked) kept.push_back(rays[places[i].ray]);
   }

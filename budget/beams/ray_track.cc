@@ -89,17 +89,14 @@ void RayTrack::PositionsAt(std::span<const double> times, std::span<SensorPositi
     const KnotState& a = segment->knots.states[place.first];
     const KnotState& b = segment->knots.states[place.first + 1];
     const auto& w = place.position;
-    const Eigen::Vector3d x =
-        w[0] * a.head<3>() + w[1] * a.tail<3>() + w[2] * b.head<3>() + w[3] * b.tail<3>();
+    const Eigen::Vector3d x = w[0] * a.head<3>() + w[1] * a.tail<3>() + w[2] * b.head<3>() + w[3] * b.tail<3>();
     const std::vector<double>& sigma = tables_[static_cast<std::size_t>(segment - segments_.data())].sigma;
     const double part = kParts * (static_cast<double>(place.first) + place.fraction);
     const std::size_t before = std::min(static_cast<std::size_t>(part), sigma.size() - 2);
     const double rest = part - static_cast<double>(before);
-    const double incidence_sigma =
-        rest > 0 ? (1 - rest) * sigma[before] + rest * sigma[before + 1] : sigma[before];
+    const double incidence_sigma = rest > 0 ? (1 - rest) * sigma[before] + rest * sigma[before + 1] : sigma[before];
     positions[i] = {.x = x.x(), .y = x.y(), .z = x.z(), .incidence_sigma = incidence_sigma};
-    outcomes[i] =
-        incidence_sigma <= options_.largest_incidence_sigma ? TrackOutcome::kKnown : TrackOutcome::kUncertain;
+    outcomes[i] = incidence_sigma <= options_.largest_incidence_sigma ? TrackOutcome::kKnown : TrackOutcome::kUncertain;
   }
 }
 

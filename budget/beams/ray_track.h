@@ -35,7 +35,7 @@ struct TrackEstimate {
   Eigen::Vector3d position, velocity;  // m, m/s
   Eigen::Matrix3d covariance;          // m^2, of the position.
   double height = 0;                   // m above the water of the segment.
-  double incidence_sigma = 0;  // rad; that of a beam of the segment's median incidence, over all azimuths.
+  double incidence_sigma = 0;          // rad; that of a beam of the segment's median incidence, over all azimuths.
 };
 
 // The standard deviation [rad] of the incidence of a beam from `sensor` to `water_point` by the error of the position:

@@ -11,7 +11,7 @@ struct StillWater {
       : square(n * n), excess((n - 1) * (n + 1)), gentlest(1 / n), flattest(1 / std::sqrt(excess)) {}
   double square, excess;  // n^2, n^2 - 1
   double gentlest;        // 1/n: tangents in water and in air at the smallest angles.
-  double flattest;  // 1/sqrt(n^2 - 1): the tangent in water at an incidence of 90 degrees. Infinite if n = 1.
+  double flattest;        // 1/sqrt(n^2 - 1): the tangent in water at an incidence of 90 degrees. Infinite if n = 1.
 };
 
 // The iteration for r of DistanceToWater (refracted_path.h), for depth >= 0.
@@ -68,9 +68,7 @@ inline double DistanceAt(double t, double distance, double height) {
 inline double DistanceToStillWater(double distance, double height, double depth, const StillWater& water) {
   const double least = MinTangent(distance, height, depth, water);
   double t = least;
-  for (int step = 0; step < kRefractionSteps; ++step) {
-    t = NextTangent(t, least, distance, height, depth, water);
-  }
+  for (int step = 0; step < kRefractionSteps; ++step) t = NextTangent(t, least, distance, height, depth, water);
   return DistanceAt(t, distance, height);
 }
 

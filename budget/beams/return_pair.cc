@@ -51,21 +51,20 @@ void SolveVariances(const Sums& s, RayNoise& noise) {
 
 RayWeight WeightOf(const RayNoise& noise, double separation, double square) {
   const double good_variance = noise.Variance(separation);
-  const double bad_variance = std::max(noise.outlier_sigma * noise.outlier_sigma,
-                                       kMinOutlierRatio * kMinOutlierRatio * good_variance);
+  const double bad_variance =
+      std::max(noise.outlier_sigma * noise.outlier_sigma, kMinOutlierRatio * kMinOutlierRatio * good_variance);
   const double difference = 1 / good_variance - 1 / bad_variance;
   // The odds of an outlier: the ratio of the two densities times that of the fractions.
   const double odds = noise.outlier_share / (1 - noise.outlier_share) * good_variance / bad_variance *
                       std::exp(std::min(square * difference / 2, 700.0));
   const double good = 1 / (1 + odds);
   const double weight = good * difference + 1 / bad_variance;
-  return {.good = good,
-          .weight = weight,
-          .response = weight - square / 2 * good * (1 - good) * difference * difference};
+  return {
+      .good = good, .weight = weight, .response = weight - square / 2 * good * (1 - good) * difference * difference};
 }
 
-RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations,
-                     const RayNoise& start, int steps) {
+RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations, const RayNoise& start,
+                     int steps) {
   RayNoise noise = start;
   for (int step = 0; step < steps; ++step) {
     const Sums sums = tbb::parallel_deterministic_reduce(
@@ -111,8 +110,7 @@ RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double>
           .outlier_sigma = std::max(0.3, kMinOutlierRatio * std::sqrt(variance))};
 }
 
-std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index,
-                                double min_separation) {
+std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index, double min_separation) {
   if (!(pair.upper.z() < water_height) || !(pair.lower.z() < pair.upper.z())) return std::nullopt;
   const Eigen::Vector3d between = pair.lower - pair.upper;
   const double separation = between.norm();
@@ -151,8 +149,7 @@ std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time
     for (std::size_t i = 0; i < count; ++i) {
       const AirRay& ray = rays[i * stride];
       const double dt = ray.time - time;
-      const Eigen::Matrix3d q =
-          weights[i] * (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose());
+      const Eigen::Matrix3d q = weights[i] * (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose());
       const Eigen::Vector3d qs = q * (ray.water_point - centre);
       normal.topLeftCorner<3, 3>() += q;
       normal.topRightCorner<3, 3>() += dt * q;
@@ -167,8 +164,7 @@ std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time
     state = solver.eigenvectors() * (solver.eigenvectors().transpose() * right).cwiseQuotient(values);
     for (std::size_t i = 0; i < count; ++i) {
       const AirRay& ray = rays[i * stride];
-      const Eigen::Vector3d gap =
-          centre + state.head<3>() + (ray.time - time) * state.tail<3>() - ray.water_point;
+      const Eigen::Vector3d gap = centre + state.head<3>() + (ray.time - time) * state.tail<3>() - ray.water_point;
       distances[i] = gap.cross(ray.direction).norm();
     }
     const double scale = std::max(Median(distances), 1e-6);

@@ -51,8 +51,8 @@ RayWeight WeightOf(const RayNoise& noise, double separation, double square);
 
 // Fits the noise to residuals by expectation-maximization: `steps` steps, beginning with `start`. `squares` are the
 // squared residuals |r|^2 of both components together [rad^2].
-RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations,
-                     const RayNoise& start, int steps);
+RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations, const RayNoise& start,
+                     int steps);
 
 // A start for FitRayNoise from medians, which 30 % of outliers do not spoil.
 RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double> separations);
@@ -74,8 +74,7 @@ struct AirRay {
 // The ray of a pair over water at height `water_height`, of index `index`. None if a return lies above the water, if
 // the two are nearer than `min_separation` [m] or the lower one is not below the upper one, if no ray in air refracts
 // into their direction, or if a number is not finite.
-std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index,
-                                double min_separation = 1);
+std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index, double min_separation = 1);
 
 // The middle one of `values`, which are at least one; of an even number the upper one of the two in the middle.
 inline double Median(std::vector<double> values) {

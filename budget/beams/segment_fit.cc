@@ -70,8 +70,7 @@ SegmentFit::SegmentFit(std::span<const AirRay> rays, const RayTrackOptions& opti
     separations_[i] = rays[i].separation;
   }
   const double duration = rays.back().time - rays.front().time;
-  const auto steps =
-      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(duration / options.knot_step - 1e-9)));
+  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(duration / options.knot_step - 1e-9)));
   times_ = {.start = rays.front().time,
             .step = std::max(duration / static_cast<double>(steps), kShortestStep),
             .count = steps + 1};
@@ -93,8 +92,7 @@ bool SegmentFit::Start() {
   constexpr double kWidest = 4;
   const auto at = [&](double time) {
     return static_cast<std::size_t>(
-        std::lower_bound(rays_.begin(), rays_.end(), time,
-                         [](const AirRay& ray, double t) { return ray.time < t; }) -
+        std::lower_bound(rays_.begin(), rays_.end(), time, [](const AirRay& ray, double t) { return ray.time < t; }) -
         rays_.begin());
   };
   std::vector<std::optional<KnotState>> found(times_.count);
@@ -106,8 +104,7 @@ bool SegmentFit::Start() {
       if (window.size() < kEnoughRays && half < kWidest && window.size() < rays_.size()) continue;
       if (auto state = WhereRaysMeet(window, time)) {
         state->head<3>() -= centre_;
-        if (state->z() > 0 && state->z() < options_.max_height &&
-            state->tail<3>().norm() < options_.max_speed) {
+        if (state->z() > 0 && state->z() < options_.max_height && state->tail<3>().norm() < options_.max_speed) {
           found[k] = state;
           return;
         }
@@ -141,40 +138,44 @@ Eigen::Vector3d SegmentFit::Position(const KnotPlace& place) const {
 }
 
 void SegmentFit::ComputeResiduals() {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays_.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Eigen::Vector3d to = rays_[i].water_point - centre_ - Position(times_.Find(rays_[i].time));
-      squares_[i] = AngleBetween(to.normalized(), rays_[i].direction, flattening_).squaredNorm();
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, rays_.size(), 4096),
+      [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const Eigen::Vector3d to = rays_[i].water_point - centre_ - Position(times_.Find(rays_[i].time));
+          squares_[i] = AngleBetween(to.normalized(), rays_[i].direction, flattening_).squaredNorm();
+        }
+      });
 }
 
 void SegmentFit::FillBins() {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins_.size(), 16), [&](const auto& range) {
-    for (std::size_t b = range.begin(); b < range.end(); ++b) {
-      Bin bin{.first = bins_[b].first, .last = bins_[b].last};
-      for (std::size_t i = bin.first; i < bin.last; ++i) {
-        const AirRay& ray = rays_[i];
-        const KnotPlace place = times_.Find(ray.time);
-        const Eigen::Vector3d to = ray.water_point - centre_ - Position(place);
-        const double range_squared = to.squaredNorm(), distance = std::sqrt(range_squared);
-        const Eigen::Vector3d v = to / distance;
-        const Eigen::Vector3d residual = AngleBetween(v, ray.direction, flattening_);
-        const RayWeight w = WeightOf(noise_, ray.separation, residual.squaredNorm());
-        // The rays' directions turn towards +x when the sensor moves towards -x.
-        const Eigen::Vector3d score = -w.weight / distance * residual;
-        bin.information += w.weight / range_squared * (Eigen::Matrix3d::Identity() - v * v.transpose());
-        bin.score += score;
-        for (int j = 0; j < 4; ++j) bin.scores.col(j) += place.position[static_cast<std::size_t>(j)] * score;
-        bin.weight += w.weight;
-        bin.response += w.response;
-        bin.mean_time += ray.time - times_.start;
-      }
-      if (bin.last > bin.first) bin.mean_time /= static_cast<double>(bin.last - bin.first);
-      bin.mean_time += times_.start;
-      bins_[b] = bin;
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, bins_.size(), 16),
+      [&](const auto& range) {
+        for (std::size_t b = range.begin(); b < range.end(); ++b) {
+          Bin bin{.first = bins_[b].first, .last = bins_[b].last};
+          for (std::size_t i = bin.first; i < bin.last; ++i) {
+            const AirRay& ray = rays_[i];
+            const KnotPlace place = times_.Find(ray.time);
+            const Eigen::Vector3d to = ray.water_point - centre_ - Position(place);
+            const double range_squared = to.squaredNorm(), distance = std::sqrt(range_squared);
+            const Eigen::Vector3d v = to / distance;
+            const Eigen::Vector3d residual = AngleBetween(v, ray.direction, flattening_);
+            const RayWeight w = WeightOf(noise_, ray.separation, residual.squaredNorm());
+            // The rays' directions turn towards +x when the sensor moves towards -x.
+            const Eigen::Vector3d score = -w.weight / distance * residual;
+            bin.information += w.weight / range_squared * (Eigen::Matrix3d::Identity() - v * v.transpose());
+            bin.score += score;
+            for (int j = 0; j < 4; ++j) bin.scores.col(j) += place.position[static_cast<std::size_t>(j)] * score;
+            bin.weight += w.weight;
+            bin.response += w.response;
+            bin.mean_time += ray.time - times_.start;
+          }
+          if (bin.last > bin.first) bin.mean_time /= static_cast<double>(bin.last - bin.first);
+          bin.mean_time += times_.start;
+          bins_[b] = bin;
+        }
+      });
 }
 
 // Of the rays themselves, whose errors are small beside it.
@@ -186,8 +187,7 @@ double SegmentFit::MedianIncidence() const {
   return Median(std::move(incidences));
 }
 
-Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotSolution* solution,
-                                        double last) const {
+Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotSolution* solution, double last) const {
   const double width = times_.step / kBinsPerStep;
   const double duration = static_cast<double>(bins_.size()) * width;
   const auto whitened = [&](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
@@ -207,15 +207,14 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
   const double f_per_lag = whitened(fitted).trace() / (3 * last);
   // A lag of more than a tenth of a segment has too few pairs of bins, and the fraction that the fit takes is limited.
   constexpr double kMaxShare = 0.3;
-  const double longest = std::min(
-      {kLongestCorrelation / width, duration / 10 / width, kMaxShare / std::max(f_per_lag, 1e-9) - 1});
+  const double longest =
+      std::min({kLongestCorrelation / width, duration / 10 / width, kMaxShare / std::max(f_per_lag, 1e-9) - 1});
   const auto lags = static_cast<std::size_t>(std::max(longest, 0.0));
   const double f = std::min(static_cast<double>(lags + 1) * f_per_lag, 0.6);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t lag = 0; lag <= lags; ++lag) {
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (std::size_t b = lag; b < bins_.size(); ++b)
-      products += bins_[b - lag].score * bins_[b].score.transpose();
+    for (std::size_t b = lag; b < bins_.size(); ++b) products += bins_[b - lag].score * bins_[b].score.transpose();
     const double bartlett = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
     sum += lag == 0 ? products : (bartlett * (products + products.transpose())).eval();
   }
@@ -229,8 +228,7 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
   const double student = 1 + 1.2 / (freedom + kUsual);
   k = (freedom * k + kUsual * Eigen::Matrix3d::Identity()) * (student * student / (freedom + kUsual));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver((k + k.transpose()) / 2);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(kLeast).asDiagonal() *
-         solver.eigenvectors().transpose();
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(kLeast).asDiagonal() * solver.eigenvectors().transpose();
 }
 
 KnotEquations SegmentFit::Equations(const Eigen::Matrix3d& shaping, double scale) const {
@@ -263,8 +261,7 @@ void SegmentFit::Iterate() {
     if (iteration >= 2) {
       const double incidence = std::clamp(MedianIncidence(), 0.01, 1.2);
       const FacingSlopes slopes = FacingSlopesAt(incidence, options_.index);
-      flattening_ =
-          noise_.slopes * noise_.slopes / (slopes.gain * slopes.gain) * slopes.bias / std::sin(incidence);
+      flattening_ = noise_.slopes * noise_.slopes / (slopes.gain * slopes.gain) * slopes.bias / std::sin(incidence);
     }
     FillBins();
     sum_up();
@@ -281,9 +278,8 @@ void SegmentFit::Iterate() {
     if (iteration >= 2) {
       const double steps = static_cast<double>(times_.count - 1);
       const double before = density_;
-      density_ = std::clamp(
-          (MotionRoughness(times_.step, states_, solution_) + 6 * kUsualDensity) / (6 * (steps + 1)),
-          kMinDensity, kMaxDensity);
+      density_ = std::clamp((MotionRoughness(times_.step, states_, solution_) + 6 * kUsualDensity) / (6 * (steps + 1)),
+                            kMinDensity, kMaxDensity);
       if (std::abs(density_ / before - 1) > 0.1) greatest = std::max(greatest, 2 * kConverged);
     }
     if (iteration + 1 >= kMinIterations && greatest < kConverged) break;

@@ -14,11 +14,10 @@
 namespace albtpu {
 
 struct RayTrackOptions {
-  double longest_gap = 5;     // s without a ray; a longer one divides segments.
-  double knot_step = 1.5;     // s
-  std::size_t min_rays = 20;  // In a segment.
-  double largest_incidence_sigma =
-      0.3 * std::numbers::pi / 180;  // rad; above it, a position counts as uncertain.
+  double longest_gap = 5;                                         // s without a ray; a longer one divides segments.
+  double knot_step = 1.5;                                         // s
+  std::size_t min_rays = 20;                                      // In a segment.
+  double largest_incidence_sigma = 0.3 * std::numbers::pi / 180;  // rad; above it, a position counts as uncertain.
   double min_height = 20,
          max_height = 6000;       // m above the water; outside, the sensor is not on an aircraft.
   double max_speed = 200;         // m/s

@@ -14,10 +14,9 @@
 namespace albtpu {
 namespace {
 
-constexpr double kInternationalFoot =
-    0.3048;  // m, exact. The US survey foot differs by 2e-6, which no height shows.
-constexpr double kLargestLeverArm = 10;  // m forward; no survey aircraft mounts a laser farther off.
-constexpr double kNearby = 100;          // m; beyond it a displacement is no error of mounting.
+constexpr double kInternationalFoot = 0.3048;  // m, exact. The US survey foot differs by 2e-6, which no height shows.
+constexpr double kLargestLeverArm = 10;        // m forward; no survey aircraft mounts a laser farther off.
+constexpr double kNearby = 100;                // m; beyond it a displacement is no error of mounting.
 
 std::vector<AirRay> EvenlyThinned(std::span<const AirRay> rays, std::size_t most) {
   const std::vector<AirRay> sorted = ThinRays(rays, {.rays_per_bin = 4, .max_rays = 8 * most});
@@ -53,8 +52,7 @@ struct TimeSearch {
   double angle = std::numeric_limits<double>::infinity();
 };
 
-TimeSearch FindTimeOffset(std::span<const AirRay> rays, const TrackPositions& track,
-                          const TrackCheckOptions& options) {
+TimeSearch FindTimeOffset(std::span<const AirRay> rays, const TrackPositions& track, const TrackCheckOptions& options) {
   constexpr double kStep = 0.5;
   constexpr std::size_t kScanned = 1000;
   std::vector<AirRay> few;
@@ -98,9 +96,8 @@ void CompareIncidence(std::span<const TrackedRay> tracked, const DisplacementFit
     const double sine = v.head<2>().norm();
     // Outward in the vertical plane of v. The component of the angle in it is the difference of incidence, but it has
     // no kink at nadir, where the incidence of every erroneous ray is too great.
-    const Eigen::Vector3d outward = sine > 0
-                                        ? Eigen::Vector3d(-v.z() * v.x() / sine, -v.z() * v.y() / sine, sine)
-                                        : Eigen::Vector3d::UnitX().eval();
+    const Eigen::Vector3d outward = sine > 0 ? Eigen::Vector3d(-v.z() * v.x() / sine, -v.z() * v.y() / sine, sine)
+                                             : Eigen::Vector3d::UnitX().eval();
     const double square = AngleBetween(displaced.normalized(), u, fit.flattening).squaredNorm();
     times.push_back(ray.ray.time);
     differences.push_back(-AngleBetween(v, u, fit.flattening).dot(outward));
@@ -133,8 +130,7 @@ bool Disagrees(TrackVerdict verdict) {
   return verdict != TrackVerdict::kAgrees && verdict != TrackVerdict::kTooFewRays;
 }
 
-TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
-                      const TrackCheckOptions& options) {
+TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track, const TrackCheckOptions& options) {
   TrackCheck check;
   const std::vector<AirRay> kept = EvenlyThinned(rays, options.max_rays);
   const std::vector<TrackedRay> tracked = FollowTrack(kept, track, 0);
@@ -208,21 +204,19 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   // A correct track, once displaced, is as near to the rays as the rays are to each other. The tracks of single windows
   // have 6 parameters for as few as 12 rays of two components each, so they are too near by sqrt(24 / 18) = 1.15.
   const bool unexplained = best > 1.3 * among + RadiansOfDegrees(0.1);
-  if (!unexplained && moved > kLargestLeverArm && Significant(check.time, options) &&
-      explains(angle_with_both) && beside_time < std::max(kLargestLeverArm, 0.02 * moved)) {
+  if (!unexplained && moved > kLargestLeverArm && Significant(check.time, options) && explains(angle_with_both) &&
+      beside_time < std::max(kLargestLeverArm, 0.02 * moved))
     check.verdict = TrackVerdict::kTimeOffset;
-  } else if (unexplained || (explains(check.angle_with_offset) && horizontal > kNearby)) {
+  else if (unexplained || (explains(check.angle_with_offset) && horizontal > kNearby))
     check.verdict = TrackVerdict::kUnrelated;
-  } else if (rotates && !explains(check.angle_with_offset)) {
+  else if (rotates && !explains(check.angle_with_offset))
     check.verdict = TrackVerdict::kRotation;
-  } else if (std::abs(check.up.value) > kNearby / 2 &&
-             (near_ratio(kInternationalFoot) || near_ratio(inverse))) {
+  else if (std::abs(check.up.value) > kNearby / 2 && (near_ratio(kInternationalFoot) || near_ratio(inverse)))
     check.verdict = TrackVerdict::kHeightUnit;
-  } else if (std::abs(check.up.value) * per_up > horizontal * per_across) {
+  else if (std::abs(check.up.value) * per_up > horizontal * per_across)
     check.verdict = TrackVerdict::kHeightOffset;
-  } else {
+  else
     check.verdict = TrackVerdict::kHorizontalOffset;
-  }
   return check;
 }
 
@@ -243,8 +237,7 @@ std::string Describe(const TrackCheck& check) {
       return print("%zu pairs of returns below the water are too few to check the trajectory", check.rays);
     case TrackVerdict::kTimeOffset: {
       const double leap = std::round(check.time.value);
-      const bool is_leap =
-          std::abs(check.time.value - leap) < 0.3 && std::abs(leap) >= 16 && std::abs(leap) <= 18;
+      const bool is_leap = std::abs(check.time.value - leap) < 0.3 && std::abs(leap) >= 16 && std::abs(leap) <= 18;
       const std::string why = !is_leap   ? ""
                               : leap < 0 ? " (GPS - UTC: the trajectory is in UTC, the points in GPS time)"
                                          : " (GPS - UTC: the points are in UTC, the trajectory in GPS time)";
@@ -265,12 +258,11 @@ std::string Describe(const TrackCheck& check) {
       return print("the heights of the trajectory are %.4f times the true ones (%s)", 1 / check.height_ratio,
                    check.height_ratio < 1 ? "they are in feet, not in metres" : "metres were taken for feet");
     case TrackVerdict::kHorizontalOffset:
-      return print(
-          "the sensor was %.1f +- %.1f m forward and %.1f +- %.1f m to the right of the trajectory (%s)",
-          check.forward.value, check.forward.sigma, check.right.value, check.right.sigma,
-          std::hypot(check.forward.value, check.right.value) > kLargestLeverArm
-              ? "a datum, a coordinate system or another flight"
-              : "a lever arm, its sign or its axes, or times that are a fraction of a second off");
+      return print("the sensor was %.1f +- %.1f m forward and %.1f +- %.1f m to the right of the trajectory (%s)",
+                   check.forward.value, check.forward.sigma, check.right.value, check.right.sigma,
+                   std::hypot(check.forward.value, check.right.value) > kLargestLeverArm
+                       ? "a datum, a coordinate system or another flight"
+                       : "a lever arm, its sign or its axes, or times that are a fraction of a second off");
     case TrackVerdict::kRotation:
       return print(
           "the trajectory is rotated by %.2f degrees to the %s (a meridian convergence, a coordinate system "

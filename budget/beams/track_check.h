@@ -71,8 +71,7 @@ struct TrackCheck {
 
 // Compares the track with the rays. Both are in one local frame in metres whose heights are those of the points' datum
 // (not shifted: the ratio of feet is one of heights). Rays come in any order.
-TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
-                      const TrackCheckOptions& options = {});
+TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track, const TrackCheckOptions& options = {});
 
 // True for all verdicts that contradict the track.
 bool Disagrees(TrackVerdict verdict);

@@ -31,11 +31,11 @@ KnotPlace KnotTimes::Find(double time) const {
   const double steps = std::clamp((time - start) / step, 0.0, static_cast<double>(count - 1));
   const std::size_t first = std::min(static_cast<std::size_t>(steps), count - 2);
   const double s = steps - static_cast<double>(first);
-  return {.first = first,
-          .fraction = s,
-          .position = {1 - s * s * (3 - 2 * s), step * s * (1 - s) * (1 - s), s * s * (3 - 2 * s),
-                       -step * s * s * (1 - s)},
-          .rate = {-6 * s * (1 - s) / step, (1 - s) * (1 - 3 * s), 6 * s * (1 - s) / step, s * (3 * s - 2)}};
+  return {
+      .first = first,
+      .fraction = s,
+      .position = {1 - s * s * (3 - 2 * s), step * s * (1 - s) * (1 - s), s * s * (3 - 2 * s), -step * s * s * (1 - s)},
+      .rate = {-6 * s * (1 - s) / step, (1 - s) * (1 - 3 * s), 6 * s * (1 - s) / step, s * (3 * s - 2)}};
 }
 
 double KnotTimes::BridgeVariance(double fraction, double density) const {
@@ -44,9 +44,7 @@ double KnotTimes::BridgeVariance(double fraction, double density) const {
 }
 
 KnotEquations::KnotEquations(std::size_t knots)
-    : diagonal(knots, KnotMatrix::Zero()),
-      upper(knots - 1, KnotMatrix::Zero()),
-      right(knots, KnotState::Zero()) {}
+    : diagonal(knots, KnotMatrix::Zero()), upper(knots - 1, KnotMatrix::Zero()), right(knots, KnotState::Zero()) {}
 
 void KnotEquations::AddPosition(const KnotPlace& place, const Eigen::Matrix3d& information) {
   const auto& w = place.position;
@@ -103,8 +101,7 @@ KnotSolution Solve(const KnotEquations& equations) {
     inverse[k] = schur.ldlt().solve(KnotMatrix::Identity());
     inverse[k] = (inverse[k] + inverse[k].transpose()).eval() / 2;
   }
-  KnotSolution solution{std::vector<KnotState>(n), std::vector<KnotMatrix>(n),
-                        std::vector<KnotMatrix>(n - 1)};
+  KnotSolution solution{std::vector<KnotState>(n), std::vector<KnotMatrix>(n), std::vector<KnotMatrix>(n - 1)};
   solution.states[n - 1] = inverse[n - 1] * right[n - 1];
   solution.covariance[n - 1] = inverse[n - 1];
   for (std::size_t k = n - 1; k-- > 0;) {

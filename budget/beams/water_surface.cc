@@ -79,8 +79,7 @@ struct SurfaceReturns::Tiles {
   using Tile = std::array<Cell, kTile * kTile>;
 
   Tile& At(const Place& place) {
-    if (last != nullptr && place == last_place)
-      return *last;  // Returns that follow each other are neighbours.
+    if (last != nullptr && place == last_place) return *last;  // Returns that follow each other are neighbours.
     std::unique_ptr<Tile>& tile = map[place];
     if (tile == nullptr) {
       tile = std::make_unique<Tile>();
@@ -97,8 +96,7 @@ struct SurfaceReturns::Tiles {
   Neighbours Around(const Place& place) const {
     Neighbours neighbours{};
     for (int i = 0; i < 18; ++i) {
-      const auto found =
-          map.find(Place{place.x + i % 3 - 1, place.y + i / 3 % 3 - 1, place.time + i / 9 - 1});
+      const auto found = map.find(Place{place.x + i % 3 - 1, place.y + i / 3 % 3 - 1, place.time + i / 9 - 1});
       if (found != map.end()) neighbours[i] = found->second.get();
     }
     return neighbours;
@@ -107,8 +105,7 @@ struct SurfaceReturns::Tiles {
   // Reads the heights in the window around the lower left corner of the cell (x, y) of the tile in the middle; returns
   // their number.
   using Heights = std::array<float, 2 * kWindow * kWindow * kKept>;
-  static std::size_t ReadWindow(const Neighbours& neighbours, std::int32_t x, std::int32_t y,
-                                Heights& heights) {
+  static std::size_t ReadWindow(const Neighbours& neighbours, std::int32_t x, std::int32_t y, Heights& heights) {
     constexpr std::int32_t kHalf = kWindow / 2;
     std::size_t count = 0;
     for (int slot = 0; slot < 2; ++slot) {
@@ -117,8 +114,7 @@ struct SurfaceReturns::Tiles {
           const Tile* tile = neighbours[9 * slot + 3 * (TileOf(cell_y) + 1) + TileOf(cell_x) + 1];
           if (tile == nullptr) continue;
           const Cell& cell = (*tile)[Row(cell_x, cell_y)];
-          for (std::size_t i = 0; i < kKept && cell[i] != kNoSample; ++i)
-            heights[count++] = HeightOf(cell[i]);
+          for (std::size_t i = 0; i < kKept && cell[i] != kNoSample; ++i) heights[count++] = HeightOf(cell[i]);
         }
       }
     }
@@ -150,25 +146,20 @@ void SurfaceReturns::Merge(SurfaceReturns other) {
       ours = std::move(theirs);
       continue;
     }
-    for (std::size_t row = 0; row < ours->size(); ++row) {
+    for (std::size_t row = 0; row < ours->size(); ++row)
       for (const Sample sample : (*theirs)[row]) Keep(sample, (*ours)[row]);
-    }
   }
 }
 
 std::size_t SurfaceReturns::bytes() const {
-  return tiles_->map.size() * sizeof(Tiles::Tile) +
-         tiles_->map.capacity() * (sizeof(Tiles::Place) + sizeof(void*) + 1);
+  return tiles_->map.size() * sizeof(Tiles::Tile) + tiles_->map.capacity() * (sizeof(Tiles::Place) + sizeof(void*) + 1);
 }
 
 LocalWaterSurface SurfaceReturns::Finish() const {
   LocalWaterSurface surface;
   // Windows that reach a tile of returns are around corners in it, in its neighbours and in the next slot.
-  for (const auto& [place, unused] : tiles_->map) {
-    for (int i = 0; i < 18; ++i) {
-      surface.medians_[{place.x + i % 3 - 1, place.y + i / 3 % 3 - 1, place.time + i / 9}];
-    }
-  }
+  for (const auto& [place, unused] : tiles_->map)
+    for (int i = 0; i < 18; ++i) surface.medians_[{place.x + i % 3 - 1, place.y + i / 3 % 3 - 1, place.time + i / 9}];
   std::vector<std::pair<const Tiles::Place, LocalWaterSurface::Medians>*> tiles;
   for (auto& tile : surface.medians_) tiles.push_back(&tile);
   tbb::parallel_for_each(tiles, [this](auto* tile) {
@@ -176,8 +167,8 @@ LocalWaterSurface SurfaceReturns::Finish() const {
     Tiles::Heights heights;
     for (std::int32_t row = 0; row < kTile * kTile; ++row) {
       const std::size_t count = Tiles::ReadWindow(neighbours, row % kTile, row / kTile, heights);
-      tile->second[row] = count < kMinReturns ? std::numeric_limits<float>::quiet_NaN()
-                                              : MedianOf(std::span(heights).first(count));
+      tile->second[row] =
+          count < kMinReturns ? std::numeric_limits<float>::quiet_NaN() : MedianOf(std::span(heights).first(count));
     }
   });
   return surface;

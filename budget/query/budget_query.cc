@@ -85,21 +85,18 @@ BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::si
 }
 
 // The biases of the sea and of the water, which may be a constant or absent, into the rows from `begin` on.
-void Sum(const float* sea, std::span<const float> water, std::size_t begin, std::size_t count,
-         float* column) {
+void Sum(const float* sea, std::span<const float> water, std::size_t begin, std::size_t count, float* column) {
   if (column == nullptr) return;
   for (std::size_t i = 0; i < count; ++i)
     column[begin + i] = sea[i] + (water.empty() ? 0 : water[water.size() == 1 ? 0 : i]);
 }
 
 // Answers up to kGrain pulses from `begin` on.
-void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all,
-                 const BudgetOptions& options, std::size_t begin, std::size_t count,
-                 const BudgetAnswers& answers, Scratch& scratch) {
+void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all, const BudgetOptions& options,
+                 std::size_t begin, std::size_t count, const BudgetAnswers& answers, Scratch& scratch) {
   BudgetPulses piece = Slice(all, begin, count);
   std::uint8_t* const outcomes = answers.outcomes != nullptr ? answers.outcomes + begin : scratch.outcomes;
-  std::uint8_t* const axes =
-      answers.outcome_axes != nullptr ? answers.outcome_axes + begin : scratch.outcome_axes;
+  std::uint8_t* const axes = answers.outcome_axes != nullptr ? answers.outcome_axes + begin : scratch.outcome_axes;
   float* const bias_along_beam = answers.columns[FirstColumn(BudgetQuantity::kBiasAlongBeam)];
   float* const bias_vertical = answers.columns[FirstColumn(BudgetQuantity::kBiasVertical)];
   const bool asks_order = answers.best_s44_orders != nullptr;
@@ -109,10 +106,8 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   sea.values[Index(Quantity::kTvu)] = scratch.sea_tvu;
   sea.values[Index(Quantity::kRefractionAlongWind)] = scratch.along;
   sea.values[Index(Quantity::kRefractionCrossWind)] = scratch.cross;
-  if (asks_order || bias_along_beam != nullptr)
-    sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
-  if (asks_order || bias_vertical != nullptr)
-    sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
+  if (asks_order || bias_along_beam != nullptr) sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
+  if (asks_order || bias_vertical != nullptr) sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
   interpolator.Interpolate({.coverage = Coverage::kTwoSigma, .s44_order = {}}, piece.pulses, 0, count, sea);
   Sum(scratch.bias_along_beam, piece.aircraft[BudgetInput::kWaterBiasAlong], begin, count, bias_along_beam);
   Sum(scratch.bias_vertical, piece.aircraft[BudgetInput::kWaterBiasVertical], begin, count, bias_vertical);
@@ -131,9 +126,8 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
 
   for (std::size_t i = 0; i < count; ++i) {
     if (outcomes[i] == kInterpolated) continue;
-    for (float* const column : answers.columns) {
+    for (float* const column : answers.columns)
       if (column != nullptr) column[begin + i] = std::numeric_limits<float>::quiet_NaN();
-    }
     if (asks_order) answers.best_s44_orders[begin + i] = 0;
   }
 }
@@ -161,9 +155,8 @@ void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const B
 BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count) {
   BudgetPulses slice{Slice(pulses.pulses, begin, count), pulses.aircraft, pulses.sea_axis};
   slice.aircraft.size = count;
-  for (std::span<const float>& column : slice.aircraft.columns) {
+  for (std::span<const float>& column : slice.aircraft.columns)
     if (column.size() > 1) column = column.subspan(begin, count);
-  }
   return slice;
 }
 
@@ -172,9 +165,8 @@ void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetP
   const std::size_t size = pulses.pulses.size;
   const auto answer = [&](std::size_t first, std::size_t last) {
     const auto scratch = std::make_unique_for_overwrite<Scratch>();
-    for (std::size_t begin = first; begin < last; begin += kGrain) {
+    for (std::size_t begin = first; begin < last; begin += kGrain)
       AnswerPiece(interpolator, pulses, options, begin, std::min(kGrain, last - begin), answers, *scratch);
-    }
   };
   if (size < 2 * kGrain) return answer(0, size);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kGrain), [&](const auto& range) {

@@ -34,10 +34,8 @@ std::vector<OptionError> FindErrors(const BudgetOptions& options) {
     found.push_back({field, absl::StrCat(field, " is ", options.lever_arm[i], ": expected up to ",
                                          kGreatestBudgetNumber, " m in magnitude")});
   }
-  if (!(options.index >= 1 && options.index <= 2)) {
-    found.push_back(
-        {"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
-  }
+  if (!(options.index >= 1 && options.index <= 2))
+    found.push_back({"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
   CheckSigma("datum", options.datum, found);
   return found;
 }
@@ -60,13 +58,12 @@ absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, c
     const std::string_view name = kBudgetInputNames[static_cast<std::size_t>(input)];
     const std::size_t length = pulses.aircraft[input].size();
     if (length == 0 && IsRequired(input)) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "column '", std::string(name), "' is empty; give one number for each pulse, or one for all"));
+      return absl::InvalidArgumentError(
+          absl::StrCat("column '", std::string(name), "' is empty; give one number for each pulse, or one for all"));
     }
     if (length > 1 && length != count) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ", count,
-                       " pulses; give one number for each pulse, or one for all"));
+      return absl::InvalidArgumentError(absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ",
+                                                     count, " pulses; give one number for each pulse, or one for all"));
     }
   }
   return absl::OkStatus();

@@ -58,8 +58,7 @@ HWY_INLINE void Store(const NedCovariance& c, CovarianceBlock& block, std::size_
 HWY_INLINE F CovarianceOnAxes(F var_x, F var_y, F cosine, F sine, F cosine_refracted) {
   const F one = Constant(1), zero = hn::Zero(Floats());
   const F more = one / (cosine_refracted * cosine_refracted) - one;
-  const F gxx = one + more * (cosine * cosine), gyy = one + more * (sine * sine),
-          gxy = more * (cosine * sine);
+  const F gxx = one + more * (cosine * cosine), gyy = one + more * (sine * sine), gxy = more * (cosine * sine);
   const F gxx2 = gxx * gxx, gyy2 = gyy * gyy, gxy2 = gxy * gxy;
   const F scale = one / (gxx2 * gyy2 - gxy2 * gxy2);
   const F slope_x = hn::Max(zero, (var_x * gyy2 - var_y * gxy2) * scale);
@@ -68,8 +67,7 @@ HWY_INLINE F CovarianceOnAxes(F var_x, F var_y, F cosine, F sine, F cosine_refra
 }
 
 // The contribution of the sea surface.
-HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wave_height,
-                                    const BeamNumbers& beam) {
+HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wave_height, const BeamNumbers& beam) {
   const Floats d;
   const F along2 = along * along, sum = along2 + cross * cross, one = Constant(1), quarter = Constant(0.25f);
   const auto known = hn::And(axis == axis, sum > hn::Zero(d));
@@ -122,8 +120,7 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
          .roll = in(BudgetInput::kRoll),
          .pitch = in(BudgetInput::kPitch),
          .heading = in(BudgetInput::kHeading),
-         .velocity = {in(BudgetInput::kVelocityNorth), in(BudgetInput::kVelocityEast),
-                      in(BudgetInput::kVelocityDown)},
+         .velocity = {in(BudgetInput::kVelocityNorth), in(BudgetInput::kVelocityEast), in(BudgetInput::kVelocityDown)},
          .roll_rate = in(BudgetInput::kRollRate),
          .pitch_rate = in(BudgetInput::kPitchRate),
          .yaw_rate = in(BudgetInput::kYawRate),
@@ -138,9 +135,8 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
                                          in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
     NedCovariance survey = air.survey;
     survey.dd = survey.dd + Constant(datum_variance);
-    const NedCovariance water =
-        WaterShareOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
-                     in(BudgetInput::kWaterCorrelation), air.beam);
+    const NedCovariance water = WaterShareOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
+                                             in(BudgetInput::kWaterCorrelation), air.beam);
     NedCovariance noise = NoCovariance();
     noise.Add(in(BudgetInput::kWaterNoise)*ShortRange(air.beam));
     survey = survey + water;
@@ -192,19 +188,17 @@ HWY_EXPORT(Roots);
 
 // The rows from `begin` on; a constant is repeated.
 void Read(std::span<const float> column, float absent, std::size_t begin, std::size_t count, Column& block) {
-  if (column.size() <= 1) {
+  if (column.size() <= 1)
     std::fill_n(block, kBlock, column.empty() ? absent : column[0]);
-  } else {
+  else
     std::copy_n(column.data() + begin, count, block);
-  }
 }
 
 void Write(const float* block, std::size_t begin, std::size_t count, std::span<float> column) {
   if (!column.empty()) std::copy_n(block, count, column.data() + begin);
 }
 
-void Write(const CovarianceBlock& block, std::size_t begin, std::size_t count,
-           const CovarianceColumns& columns) {
+void Write(const CovarianceBlock& block, std::size_t begin, std::size_t count, const CovarianceColumns& columns) {
   const float* const entries[] = {block.nn, block.ee, block.dd, block.ne, block.nd, block.ed};
   for (std::size_t i = 0; i < columns.size(); ++i) Write(entries[i], begin, count, columns[i]);
 }
@@ -248,13 +242,11 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
     const std::size_t count = std::min(kBlock, inputs.size - begin);
     for (std::size_t i = 0; i < kBudgetInputCount; ++i) {
       assert(inputs.columns[i].size() <= 1 || inputs.columns[i].size() == inputs.size);
-      if (begin == 0 || inputs.columns[i].size() > 1)
-        Read(inputs.columns[i], absent[i], begin, count, block.input[i]);
+      if (begin == 0 || inputs.columns[i].size() > 1) Read(inputs.columns[i], absent[i], begin, count, block.input[i]);
     }
     HWY_DYNAMIC_DISPATCH(ComputeBlock)(constants, datum_variance, block);
     alignas(64) Column thu, tvu;
-    const auto state = [&](const CovarianceBlock& c, std::span<float> thu_column,
-                           std::span<float> tvu_column) {
+    const auto state = [&](const CovarianceBlock& c, std::span<float> thu_column, std::span<float> tvu_column) {
       if (thu_column.empty() && tvu_column.empty()) return;
       AtCoverage(c, options.coverage, thu, tvu);
       Write(thu, begin, count, thu_column);
@@ -275,10 +267,10 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
     const auto in = [&](BudgetInput input) { return block.input[static_cast<std::size_t>(input)]; };
     const auto known = [](float bias) { return std::isnan(bias) ? 0 : bias; };
     for (std::size_t i = 0; i < count; ++i) {
-      outputs.best_orders[begin + i] = BestOrderMet(
-          thu[i], tvu[i], known(in(BudgetInput::kBiasAlongBeam)[i]) + in(BudgetInput::kWaterBiasAlong)[i],
-          known(in(BudgetInput::kBiasVertical)[i]) + in(BudgetInput::kWaterBiasVertical)[i],
-          in(BudgetInput::kDepth)[i]);
+      outputs.best_orders[begin + i] =
+          BestOrderMet(thu[i], tvu[i], known(in(BudgetInput::kBiasAlongBeam)[i]) + in(BudgetInput::kWaterBiasAlong)[i],
+                       known(in(BudgetInput::kBiasVertical)[i]) + in(BudgetInput::kWaterBiasVertical)[i],
+                       in(BudgetInput::kDepth)[i]);
     }
   }
 }

@@ -18,10 +18,10 @@ namespace albtpu {
 // The inputs of a pulse. A column has one number for each pulse, one for all, or none where the comment says what none
 // means.
 enum class BudgetInput : std::uint8_t {
-  kIncidence,  // degree from the vertical, in air: 0 or more, below 90.
+  kIncidence,    // degree from the vertical, in air: 0 or more, below 90.
   kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to. None: not known, lengths are right.
-  kAltitude,  // m, of the sensor above the water: above 0.
-  kDepth,     // m, below the water: 0 or more.
+  kAltitude,     // m, of the sensor above the water: above 0.
+  kDepth,        // m, below the water: 0 or more.
   // The aircraft. None: 0. The heading matters where lever arm, boresight, roll and pitch differ from each other.
   kRoll,           // degree
   kPitch,          // degree
@@ -46,15 +46,15 @@ enum class BudgetInput : std::uint8_t {
   kRefractionCross,  // degree, across it.
   kBiasAlongBeam,    // m. None or NaN: not known, taken as 0.
   kBiasVertical,     // m. None or NaN: not known, taken as 0.
-  kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
+  kSeaAxis,     // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
   kWaveHeight,  // m, standard deviation of the waves that the located surface does not follow. None: 0.
   // The contribution of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
   kWaterSigmaAlong,     // m, along the beam, of all pulses of a survey alike.
   kWaterSigmaVertical,  // m, the same, vertical.
-  kWaterCorrelation,  // of the two, too far along with too shallow: -1 to 1; beyond counts as the nearer end.
-  kWaterNoise,        // m, vertical, of the photons of this echo alone.
-  kWaterBiasAlong,    // m, as kBiasAlongBeam, to which it is added.
-  kWaterBiasVertical,  // m, as kBiasVertical, to which it is added.
+  kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1; beyond counts as the nearer end.
+  kWaterNoise,          // m, vertical, of the photons of this echo alone.
+  kWaterBiasAlong,      // m, as kBiasAlongBeam, to which it is added.
+  kWaterBiasVertical,   // m, as kBiasVertical, to which it is added.
 };
 inline constexpr std::size_t kBudgetInputCount = 33;
 // clang-format off
@@ -71,9 +71,7 @@ struct BudgetInputs {
   std::array<std::span<const float>, kBudgetInputCount> columns = {};
 
   std::span<const float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
-  std::span<const float> operator[](BudgetInput input) const {
-    return columns[static_cast<std::size_t>(input)];
-  }
+  std::span<const float> operator[](BudgetInput input) const { return columns[static_cast<std::size_t>(input)]; }
 };
 
 constexpr BudgetInput operator+(BudgetInput first, std::size_t places) {
@@ -85,9 +83,7 @@ struct AircraftColumns {
   std::array<std::vector<float>, kBudgetInputCount> columns;
 
   std::vector<float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
-  const std::vector<float>& operator[](BudgetInput input) const {
-    return columns[static_cast<std::size_t>(input)];
-  }
+  const std::vector<float>& operator[](BudgetInput input) const { return columns[static_cast<std::size_t>(input)]; }
 };
 inline constexpr std::size_t kMotionInputs = 15;
 static_assert(BudgetInput::kRoll + (kMotionInputs - 1) == BudgetInput::kHeadingSigma);
@@ -96,10 +92,9 @@ static_assert(BudgetInput::kRoll + (kMotionInputs - 1) == BudgetInput::kHeadingS
 struct BudgetOptions {
   AirErrors errors = {};
   SurfaceLocation located = SurfaceLocation::kPulse;
-  std::array<double, 3> lever_arm =
-      {};               // m; forward, right, down, from the trajectory's point to the sensor.
-  double index = 1.34;  // Refractive index of the water: 1 or more.
-  double datum = 0;     // m, standard deviation of the height of the vertical datum.
+  std::array<double, 3> lever_arm = {};  // m; forward, right, down, from the trajectory's point to the sensor.
+  double index = 1.34;                   // Refractive index of the water: 1 or more.
+  double datum = 0;                      // m, standard deviation of the height of the vertical datum.
   Coverage coverage = Coverage::kTwoSigma;
 };
 

@@ -39,11 +39,10 @@ std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count)
   for (std::size_t i = 0; i < count; ++i) {
     const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     DrawnWater draw{};
-    draw.fraction =
-        optics.least_fraction * std::pow(optics.most_fraction / optics.least_fraction, Radical(i + 1, 3));
-    draw.attenuation = std::max(
-        1.001 * kPureWaterAbsorption,
-        optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
+    draw.fraction = optics.least_fraction * std::pow(optics.most_fraction / optics.least_fraction, Radical(i + 1, 3));
+    draw.attenuation =
+        std::max(1.001 * kPureWaterAbsorption,
+                 optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
     draw.ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * NormalQuantile(even));
     draw.ratio = std::min(draw.ratio, WaterOptics::MaxRatio(draw.attenuation, draw.fraction));
     draws.push_back(draw);

@@ -52,10 +52,9 @@ absl::Status CheckWays(const OpticsInput& given) {
   const bool direct = given.absorption.has_value() || given.scattering.has_value();
   const int ways = given.kd.has_value() + given.secchi.has_value() + given.jerlov.has_value() + direct;
   if (ways != 1) {
-    return Invalid(
-        absl::StrCat(ways == 0 ? "nothing says how clear the water is"
-                               : "the clarity of the water is given in several ways",
-                     "; give one of kd with kd_kind, secchi, jerlov, or absorption with scattering"));
+    return Invalid(absl::StrCat(
+        ways == 0 ? "nothing says how clear the water is" : "the clarity of the water is given in several ways",
+        "; give one of kd with kd_kind, secchi, jerlov, or absorption with scattering"));
   }
   if (given.kd.has_value() != given.kd_kind.has_value())
     return Invalid("kd and kd_kind go together (an attenuation of 490 nm is not one of 532 nm); give both");
@@ -73,8 +72,8 @@ Attenuation AttenuationOf(const OpticsInput& given) {
     return {std::max(clearest, Kd532Of490(clearest)), kSunCosine, kSecchi};
   }
   if (given.jerlov.has_value()) {
-    const auto type = static_cast<std::size_t>(
-        std::find(kJerlovTypes.begin(), kJerlovTypes.end(), *given.jerlov) - kJerlovTypes.begin());
+    const auto type = static_cast<std::size_t>(std::find(kJerlovTypes.begin(), kJerlovTypes.end(), *given.jerlov) -
+                                               kJerlovTypes.begin());
     return {kJerlovKd[type], type < kOceanicTypes ? 1 : kSunCosine, kJerlov};
   }
   const double a = *given.absorption, b = *given.scattering;
@@ -103,19 +102,16 @@ absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {
   const double fraction = std::sqrt(optics.least_fraction * optics.most_fraction);
   const bool direct = given.absorption.has_value();
   if (direct ? *given.absorption < kPureWaterAbsorption : !(optics.attenuation > kPureWaterAbsorption)) {
-    const double least =
-        direct ? kPureWaterAbsorption : given_or_derived * kPureWaterAbsorption / optics.attenuation;
+    const double least = direct ? kPureWaterAbsorption : given_or_derived * kPureWaterAbsorption / optics.attenuation;
     return Invalid(absl::StrCat("the water is clearer than pure water, which absorbs ", kPureWaterAbsorption,
-                                " 1/m at 532 nm; an attenuation or absorption of its kind is above ", least,
-                                " 1/m"));
+                                " 1/m at 532 nm; an attenuation or absorption of its kind is above ", least, " 1/m"));
   }
   const double greatest = WaterOptics::MaxRatio(optics.attenuation, fraction);
   const double omega0 = given.omega0.value_or(kDefaultOmega0);
   const double ratio = direct ? *given.scattering / *given.absorption : omega0 / (1 - omega0);
   if (!direct && ratio > greatest && given.omega0.has_value()) {
     return Invalid(absl::StrCat("omega0 = ", omega0, " leaves an attenuation of ", optics.attenuation,
-                                " 1/m less absorption than pure water has; give at most ",
-                                greatest / (1 + greatest)));
+                                " 1/m less absorption than pure water has; give at most ", greatest / (1 + greatest)));
   }
   const double albedo = ratio / (1 + ratio);
   optics.scattering_over_absorption = direct ? ratio : std::min(ratio, greatest);

@@ -17,8 +17,8 @@ enum class KdKind {
   kSecchi,        // of the sun's light at 532 nm, derived from a Secchi depth
   kJerlov         // of the sun's light at 532 nm, derived from a Jerlov type
 };
-inline constexpr std::array<std::string_view, 5> kKdKindNames = {"satellite490", "diffuse532", "system",
-                                                                 "secchi", "jerlov"};
+inline constexpr std::array<std::string_view, 5> kKdKindNames = {"satellite490", "diffuse532", "system", "secchi",
+                                                                 "jerlov"};
 
 // Jerlov's types, oceanic and coastal.
 inline constexpr std::array<std::string_view, 10> kJerlovTypes = {"I",  "IA", "IB", "II", "III",
@@ -31,10 +31,10 @@ struct OpticsInput {
   std::optional<double> secchi = {};                       // m
   std::optional<std::string_view> jerlov = {};             // one of kJerlovTypes
   std::optional<double> absorption = {}, scattering = {};  // 1/m at 532 nm
-  std::optional<double> kd_sigma = {};      // 1/m, 1 sigma, of Kd, given or derived; absent: by its kind
-  std::optional<double> omega0 = {};        // single-scattering albedo
-  std::optional<double> omega0_sigma = {};  // 1 sigma
-  std::optional<double> backscatter_fraction = {};  // absent: 0.01 to 0.03
+  std::optional<double> kd_sigma = {};                     // 1/m, 1 sigma, of Kd, given or derived; absent: by its kind
+  std::optional<double> omega0 = {};                       // single-scattering albedo
+  std::optional<double> omega0_sigma = {};                 // 1 sigma
+  std::optional<double> backscatter_fraction = {};         // absent: 0.01 to 0.03
 };
 
 // The range of natural single-scattering albedos, assumed where none is given.

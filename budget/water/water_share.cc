@@ -38,11 +38,11 @@ class Lookup {
   // The depth is above 0. Beyond the last optical depth, biases over the optical depth stay.
   Looked At(double incidence, double depth) const {
     const double tau = draw_.attenuation * depth;
-    const std::optional<WaterAnswer> answer = water_.At(
-        {.incidence = incidence,
-         .optical_depth = std::min(tau, last_),
-         .field_of_view = receiver_.field_of_view / depth,
-         .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
+    const std::optional<WaterAnswer> answer =
+        water_.At({.incidence = incidence,
+                   .optical_depth = std::min(tau, last_),
+                   .field_of_view = receiver_.field_of_view / depth,
+                   .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
     assert(answer.has_value());
     // Below the lowest scattering of the table, values are in proportion to the scattering.
     const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / min_ratio_);
@@ -67,23 +67,22 @@ absl::Status CheckOptics(const WaterColumnTable& table, const WaterOptics& optic
   // The ends of the table are floats.
   if (optics.least_fraction < least * (1 - 1e-6) || optics.most_fraction > most * (1 + 1e-6)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("backscatter_fraction is outside the table of the water column; give ",
-                     static_cast<float>(least), " to ", static_cast<float>(most)));
+        absl::StrCat("backscatter_fraction is outside the table of the water column; give ", static_cast<float>(least),
+                     " to ", static_cast<float>(most)));
   }
   const double greatest = table.Range(WaterAxis::kScatteringOverAbsorption).second;
   if (optics.scattering_over_absorption <= greatest) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "the water scatters ", optics.scattering_over_absorption,
-      " times as much as it absorbs, which is outside the table of the water column; give at most ", greatest,
-      ", an albedo of ", greatest / (1 + greatest)));
+  return absl::InvalidArgumentError(
+      absl::StrCat("the water scatters ", optics.scattering_over_absorption,
+                   " times as much as it absorbs, which is outside the table of the water column; give at most ",
+                   greatest, ", an albedo of ", greatest / (1 + greatest)));
 }
 
 absl::Status CheckTreatment(const BiasTreatment& treatment, double greatest_depth) {
   if (treatment.handling == BiasHandling::kVendor &&
       !(treatment.residual_fraction >= 0 && treatment.residual_fraction <= 1))
-    return absl::InvalidArgumentError(
-        absl::StrCat("residual_fraction ", treatment.residual_fraction,
-                     " is no fraction; give 0 (nothing remains) to 1 (all does)"));
+    return absl::InvalidArgumentError(absl::StrCat("residual_fraction ", treatment.residual_fraction,
+                                                   " is no fraction; give 0 (nothing remains) to 1 (all does)"));
   if (treatment.handling != BiasHandling::kCalibrated) return absl::OkStatus();
   if (!(treatment.calibration_depth > 0 && treatment.calibration_depth <= greatest_depth))
     return absl::InvalidArgumentError(absl::StrCat("the calibration at ", treatment.calibration_depth,
@@ -107,9 +106,7 @@ struct Moments {
   }
   double mean_vertical() const { return vertical / count; }
   double mean_along() const { return along / count; }
-  double variance_vertical() const {
-    return std::max(0.0, vertical2 / count - mean_vertical() * mean_vertical());
-  }
+  double variance_vertical() const { return std::max(0.0, vertical2 / count - mean_vertical() * mean_vertical()); }
   double variance_along() const { return std::max(0.0, along2 / count - mean_along() * mean_along()); }
   double covariance() const { return both / count - mean_vertical() * mean_along(); }
 };
@@ -131,11 +128,11 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
   share.receiver_ = receiver;
   share.max_incidence_ = table.Range(WaterAxis::kIncidence).second;
   share.max_footprint_ = receiver.field_of_view / kFootprintsInView;
-  const double by_turbidity = table.Range(WaterAxis::kOpticalDepth).second /
-                              (optics.attenuation * std::exp(optics.attenuation_log_sigma));
+  const double by_turbidity =
+      table.Range(WaterAxis::kOpticalDepth).second / (optics.attenuation * std::exp(optics.attenuation_log_sigma));
   const double by_view = receiver.field_of_view / table.Range(WaterAxis::kFieldOfView).first;
-  const double by_pulse = PulseLengthOverDepth(
-      receiver.pulse_length, table.Range(WaterAxis::kPulseLength).first, receiver.group_index);
+  const double by_pulse =
+      PulseLengthOverDepth(receiver.pulse_length, table.Range(WaterAxis::kPulseLength).first, receiver.group_index);
   share.max_depth_ = std::min({by_turbidity, by_view, by_pulse});
   if (!(share.max_depth_ > 0)) {
     return absl::InvalidArgumentError(
@@ -167,16 +164,14 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
   share.nodes_.resize(share.incidences_ * kDepths);
   std::vector<char> disagrees(share.incidences_, 0);
   tbb::parallel_for(std::size_t{0}, share.incidences_, [&](std::size_t i) {
-    const double incidence =
-        std::min(first + static_cast<double>(i) * share.incidence_step_, share.max_incidence_);
+    const double incidence = std::min(first + static_cast<double>(i) * share.incidence_step_, share.max_incidence_);
     // The factor by which each water's bias must be multiplied to equal the measured one.
     std::vector<double> scales(draws.size(), 1.0);
     double noise = 0;
     if (treatment.handling == BiasHandling::kCalibrated) {
       Moments there;
       std::size_t other_sign = 0;
-      for (const Lookup& lookup : lookups)
-        there.Add(lookup.At(incidence, treatment.calibration_depth).vertical, 0);
+      for (const Lookup& lookup : lookups) there.Add(lookup.At(incidence, treatment.calibration_depth).vertical, 0);
       for (std::size_t j = 0; j < draws.size(); ++j) {
         const double bias = lookups[j].At(incidence, treatment.calibration_depth).vertical;
         other_sign += bias * there.mean_vertical() <= 0;
@@ -204,8 +199,7 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
       }
       std::array<double, kNumbers> node = {};
       if (verticals.empty()) {
-        for (std::size_t n = 0; n < kNumbers; ++n)
-          share.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
+        for (std::size_t n = 0; n < kNumbers; ++n) share.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
         continue;
       }
       node[kMeanVertical] = before.mean_vertical();
@@ -256,16 +250,14 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
 WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
   const double x =
       incidences_ > 1
-          ? std::clamp(
-                (incidence - (max_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
-                    incidence_step_,
-                0.0, static_cast<double>(incidences_ - 1))
+          ? std::clamp((incidence - (max_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
+                           incidence_step_,
+                       0.0, static_cast<double>(incidences_ - 1))
           : 0;
   const double y = std::sqrt(std::min(1.0, depth / max_depth_)) * static_cast<double>(kDepths - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(x), std::max<std::size_t>(incidences_, 2) - 2);
   const std::size_t k = std::min(static_cast<std::size_t>(y), kDepths - 2);
-  const auto u = static_cast<float>(x - static_cast<double>(i)),
-             v = static_cast<float>(y - static_cast<double>(k));
+  const auto u = static_cast<float>(x - static_cast<double>(i)), v = static_cast<float>(y - static_cast<double>(k));
   const std::size_t next = incidences_ > 1 ? kDepths : 0;
   const Node* const corner = nodes_.data() + i * kDepths + k;
   Node blend;
@@ -278,8 +270,7 @@ WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
 }
 
 std::optional<WaterAnswerOfSurvey> WaterShare::At(double incidence, double depth) const {
-  if (!(incidence >= 0 && incidence <= max_incidence_ && depth >= 0 && depth <= max_depth_))
-    return std::nullopt;
+  if (!(incidence >= 0 && incidence <= max_incidence_ && depth >= 0 && depth <= max_depth_)) return std::nullopt;
   const Node node = Blend(incidence, depth);
   const auto root = [&](Number n) { return depth * std::sqrt(std::max(0.0f, node[n])); };
   WaterAnswerOfSurvey answer{.mean_vertical = depth * node[kMeanVertical],

@@ -33,8 +33,7 @@ enum class BiasHandling {
   kVendor,     // By a method of the vendor that leaves a fraction of the bias.
   kCalibrated  // By the mean bias of this table, scaled to a measured bias.
 };
-inline constexpr std::array<std::string_view, 4> kBiasHandlingNames = {"none", "correct", "vendor",
-                                                                       "calibrated"};
+inline constexpr std::array<std::string_view, 4> kBiasHandlingNames = {"none", "correct", "vendor", "calibrated"};
 
 struct BiasTreatment {
   BiasHandling handling = BiasHandling::kNone;
@@ -88,8 +87,7 @@ class WaterShare {
   std::optional<WaterAnswerOfSurvey> At(double incidence, double depth) const;
 
   // The same for many pulses. A column of one number holds for all pulses.
-  void Compute(std::span<const float> incidence, std::span<const float> depth,
-               const WaterColumns& columns) const;
+  void Compute(std::span<const float> incidence, std::span<const float> depth, const WaterColumns& columns) const;
 
   // m, 1 sigma: the vertical error by the noise of an echo of `photons` photons and this stretch: cos(refracted) c
   // sigma_t / (2 n_group sqrt(photons)).

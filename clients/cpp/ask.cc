@@ -24,8 +24,7 @@ int main(int argc, char** argv) {
   }
   const float wind_speed = 7, footprint = 0.6f;
   const albtpu::PulseColumns pulses = {
-      .size = depth.size(),
-      .axis = {std::span(&wind_speed, 1), {}, incidence, {}, std::span(&footprint, 1), depth}};
+      .size = depth.size(), .axis = {std::span(&wind_speed, 1), {}, incidence, {}, std::span(&footprint, 1), depth}};
 
   // Any number of pulses; millions are sent as a stream of messages. Quantities that are not requested stay null.
   std::vector<float> thu(pulses.size), tvu(pulses.size);
@@ -36,7 +35,6 @@ int main(int argc, char** argv) {
   if (!status.ok()) return std::fprintf(stderr, "ask: %s\n", status.ToString().c_str()), 1;
 
   std::printf("incidence,depth,thu,tvu\n");
-  for (std::size_t i = 0; i < pulses.size; ++i) {
+  for (std::size_t i = 0; i < pulses.size; ++i)
     std::printf("%.9g,%.9g,%.9g,%.9g\n", incidence[i], depth[i], thu[i], tvu[i]);
-  }
 }

@@ -17,10 +17,10 @@ int main(int argc, char** argv) {
   if (!table.ok()) return std::fprintf(stderr, "table: %s\n", table.status().ToString().c_str()), 1;
 
   // One pulse. Outside the domain of the table it has no numbers, and the outcome names the axis.
-  const albtpu::PulseUncertainty one = albtpu::Interpolate(
-      *table, {.wind_speed = 7, .incidence = 12, .azimuth = 30, .footprint = 0.6f, .depth = 8});
-  std::printf("# %s: THU %.9g m, TVU %.9g m, 2 sigma\n", albtpu::OutcomeText(one).c_str(),
-              one[Quantity::kThu], one[Quantity::kTvu]);
+  const albtpu::PulseUncertainty one =
+      albtpu::Interpolate(*table, {.wind_speed = 7, .incidence = 12, .azimuth = 30, .footprint = 0.6f, .depth = 8});
+  std::printf("# %s: THU %.9g m, TVU %.9g m, 2 sigma\n", albtpu::OutcomeText(one).c_str(), one[Quantity::kThu],
+              one[Quantity::kTvu]);
 
   // Many pulses, as columns with one number per pulse, one number for all, or none (fully developed sea; no azimuth).
   std::vector<float> incidence, depth;
@@ -30,8 +30,7 @@ int main(int argc, char** argv) {
   }
   const float wind_speed = 7, footprint = 0.6f;
   const albtpu::PulseColumns pulses = {
-      .size = depth.size(),
-      .axis = {std::span(&wind_speed, 1), {}, incidence, {}, std::span(&footprint, 1), depth}};
+      .size = depth.size(), .axis = {std::span(&wind_speed, 1), {}, incidence, {}, std::span(&footprint, 1), depth}};
 
   std::vector<float> thu(pulses.size), tvu(pulses.size);
   albtpu::AnswerColumns answers;
@@ -41,7 +40,6 @@ int main(int argc, char** argv) {
   albtpu::InterpolateOnAllCores(interpolator, {.coverage = albtpu::Coverage::kP95}, pulses, answers);
 
   std::printf("incidence,depth,thu,tvu\n");
-  for (std::size_t i = 0; i < pulses.size; ++i) {
+  for (std::size_t i = 0; i < pulses.size; ++i)
     std::printf("%.9g,%.9g,%.9g,%.9g\n", incidence[i], depth[i], thu[i], tvu[i]);
-  }
 }

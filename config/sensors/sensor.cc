@@ -32,11 +32,10 @@ void ReadErrors(config::TomlKeys& keys, std::string_view key, std::size_t i, Sta
     if (triple.has_value()) std::ranges::copy(*triple, numbers.begin());
   }
   if (!errors.stated[i] || source.unit != "degree") return;
-  const auto radians =
-      std::ranges::find_if(numbers, [](double number) { return number > 0 && number < kLeastAngle; });
+  const auto radians = std::ranges::find_if(numbers, [](double number) { return number > 0 && number < kLeastAngle; });
   if (radians == numbers.end()) return;
-  keys.Fail(key, absl::StrCat("is ", *radians, " degree (no instrument knows an angle better than ",
-                              kLeastAngle, " degree, which looks like radians); give it in degree"));
+  keys.Fail(key, absl::StrCat("is ", *radians, " degree (no instrument knows an angle better than ", kLeastAngle,
+                              " degree, which looks like radians); give it in degree"));
 }
 
 namespace {
@@ -53,9 +52,8 @@ void FinishNumber(TomlKeys& keys, const std::string& unit) {
   keys.Finish();
   for (const auto& [key, remedy] : {std::pair<std::string_view, std::string>{kValue, "the number"},
                                     {"unit", absl::StrCat("\"", unit, "\"")},
-                                    {"source", "where the number is from"}}) {
+                                    {"source", "where the number is from"}})
     if (!keys.Has(key)) keys.Fail(absl::StrCat(std::string(key), " is missing; give ", remedy));
-  }
 }
 
 std::string ReadSource(TomlKeys& keys) {
@@ -168,9 +166,7 @@ absl::StatusOr<std::vector<Sensor>> ListSensors() {
   return sensors;
 }
 
-bool IsSensorFile(std::string_view name) {
-  return name.ends_with(".toml") || name.find('/') != std::string_view::npos;
-}
+bool IsSensorFile(std::string_view name) { return name.ends_with(".toml") || name.find('/') != std::string_view::npos; }
 
 absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path) {
   const std::string name(name_or_path);
@@ -183,8 +179,8 @@ absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path) {
                                             "); name the folder of sensors by ALBTPU_SENSORS, or give the "
                                             "path of a file"));
   }
-  return absl::NotFoundError(absl::StrCat(
-      problem, formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
+  return absl::NotFoundError(
+      absl::StrCat(problem, formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
 }  // namespace albtpu::config

@@ -67,8 +67,7 @@ struct Sensor {
   std::string title;  // As people call it.
   std::string path;
   StatedErrors errors;
-  std::array<std::string, kErrorSourceCount>
-      origins;  // Where each stated number is from; empty for the others.
+  std::array<std::string, kErrorSourceCount> origins;  // Where each stated number is from; empty for the others.
   std::optional<SourcedDivergence> divergence;
 };
 

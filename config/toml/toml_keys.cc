@@ -25,9 +25,9 @@ constexpr std::size_t kMostBytes = 32768;
 
 absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kind) {
   if (text.size() > kMostBytes) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("has ", text.size(), " bytes (", std::string(kind.name), " has at most ", kMostBytes,
-                     "); give the TOML that describes ", std::string(kind.subject)));
+    return absl::InvalidArgumentError(absl::StrCat("has ", text.size(), " bytes (", std::string(kind.name),
+                                                   " has at most ", kMostBytes, "); give the TOML that describes ",
+                                                   std::string(kind.subject)));
   }
   try {
     return toml::parse(text);
@@ -40,17 +40,14 @@ absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kin
 
 absl::StatusOr<std::string> ReadTomlText(const fs::path& path, const TomlKind& kind) {
   std::error_code unknown;
-  if (!fs::exists(path, unknown)) {
-    return InFile(path,
-                  absl::NotFoundError(absl::StrCat("does not exist; check ", std::string(kind.given_by))));
-  }
+  if (!fs::exists(path, unknown))
+    return InFile(path, absl::NotFoundError(absl::StrCat("does not exist; check ", std::string(kind.given_by))));
   if (!fs::is_regular_file(path, unknown))
     return InFile(path, absl::FailedPreconditionError("is not a regular file; give a file of TOML"));
   std::ifstream file(path, std::ios::binary);
   std::string text(kMostBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file && !file.eof())
-    return InFile(path, absl::UnavailableError("cannot be read; check its permissions"));
+  if (!file && !file.eof()) return InFile(path, absl::UnavailableError("cannot be read; check its permissions"));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }
@@ -96,26 +93,22 @@ std::string WordProblem(const std::string& text, const std::vector<std::string>&
 
 void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
   if (!status_.ok()) return;
-  status_ =
-      absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", formats::OneLine(message)));
+  status_ = absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", formats::OneLine(message)));
 }
 
-std::optional<double> TomlKeys::Number(std::string_view key, double least, double greatest,
-                                       std::string_view unit) {
+std::optional<double> TomlKeys::Number(std::string_view key, double least, double greatest, std::string_view unit) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
   const std::string units = unit == "1" ? "" : absl::StrCat(" ", std::string(unit));
   const std::optional<double> number = NumberOf(*node);
   if (number.has_value() && *number >= least && *number <= greatest) return number;
   Wrong(*node, key, absl::StrCat(least, " to ", greatest, units),
-        number.has_value()
-            ? absl::StrCat("give it", unit == "1" ? "" : absl::StrCat(" in", units))
-            : absl::StrCat("give a number without quotes", unit == "1" ? "" : " and without its unit"));
+        number.has_value() ? absl::StrCat("give it", unit == "1" ? "" : absl::StrCat(" in", units))
+                           : absl::StrCat("give a number without quotes", unit == "1" ? "" : " and without its unit"));
   return std::nullopt;
 }
 
-std::optional<std::int64_t> TomlKeys::WholeNumber(std::string_view key, std::int64_t least,
-                                                  std::int64_t greatest) {
+std::optional<std::int64_t> TomlKeys::WholeNumber(std::string_view key, std::int64_t least, std::int64_t greatest) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
   const std::optional<std::int64_t> number = node->value_exact<std::int64_t>();
@@ -154,8 +147,7 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
                                                       std::string_view unit, std::string_view parts) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
-  const std::string expected =
-      absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
+  const std::string expected = absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
   const toml::array* const array = node->as_array();
   if (array == nullptr || array->size() != 3) {
     Wrong(*node, key, expected, absl::StrCat("give ", std::string(parts)));
@@ -229,11 +221,10 @@ std::vector<TomlKeys> TomlKeys::Table(std::string_view key) {
   std::vector<TomlKeys> tables;
   if (node == nullptr) return tables;
   const std::string name = name_.empty() ? std::string(key) : absl::StrCat(name_, ".", std::string(key));
-  if (const toml::table* const table = node->as_table()) {
+  if (const toml::table* const table = node->as_table())
     tables.emplace_back(*table, name, problem_);
-  } else {
+  else
     Wrong(*node, key, "a table", absl::StrCat("begin it with [", name, "]"));
-  }
   return tables;
 }
 
@@ -256,10 +247,10 @@ void TomlKeys::Finish() {
   for (const auto& [key, node] : table_) {
     if (known_.contains(key.str())) continue;
     const std::string name(key.str());
-    problem_.Remember(key.source(),
-                      absl::StrCat(Quoted(name), "is no key of ", problem_.kind(),
-                                   formats::Suggestion(
-                                       name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
+    problem_.Remember(
+        key.source(),
+        absl::StrCat(Quoted(name), "is no key of ", problem_.kind(),
+                     formats::Suggestion(name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
   }
 }
 
@@ -278,28 +269,26 @@ const toml::array* TomlKeys::List(std::string_view key, const std::string& expec
   if (node == nullptr) return nullptr;
   const toml::array* const list = node->as_array();
   if (list != nullptr && !list->empty()) return list;
-  if (list != nullptr) {
+  if (list != nullptr)
     Fail(key, absl::StrCat("is empty (expected ", expected, "); name one or more, or leave it out"));
-  } else {
+  else
     Wrong(*node, key, expected, "write a list in brackets");
-  }
   return nullptr;
 }
 
 void TomlKeys::WrongElement(const toml::node& element, std::string_view key, const std::string& expected) {
-  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element), " (expected ",
-                                                   expected, "); correct it"));
+  problem_.Remember(element.source(),
+                    absl::StrCat(Quoted(key), "has ", ValueText(element), " (expected ", expected, "); correct it"));
 }
 
 void TomlKeys::Twice(const toml::node& element, std::string_view key) {
-  problem_.Remember(element.source(),
-                    absl::StrCat(Quoted(key), "has ", ValueText(element), " twice; name it once"));
+  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element), " twice; name it once"));
 }
 
 void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::string& expected,
                      const std::string& remedy) {
-  problem_.Remember(node.source(), absl::StrCat(Quoted(key), "is ", ValueText(node), " (expected ", expected,
-                                                "); ", remedy));
+  problem_.Remember(node.source(),
+                    absl::StrCat(Quoted(key), "is ", ValueText(node), " (expected ", expected, "); ", remedy));
 }
 
 }  // namespace albtpu::config

@@ -95,8 +95,7 @@ class TomlKeys {
  private:
   const toml::node* Find(std::string_view key);
   std::string Quoted(std::string_view key) const;  // "'sea.tail' "; of the table itself "[sea] "
-  void Wrong(const toml::node& node, std::string_view key, const std::string& expected,
-             const std::string& remedy);
+  void Wrong(const toml::node& node, std::string_view key, const std::string& expected, const std::string& remedy);
   const toml::array* List(std::string_view key, const std::string& expected);
   void WrongElement(const toml::node& element, std::string_view key, const std::string& expected);
   void Twice(const toml::node& element, std::string_view key);

@@ -23,9 +23,8 @@ constexpr double kStep = 1e-5;  // rad, half the distance of the differences tha
 
 absl::StatusOr<ProjCrs> ReadUsable(ProjContext& context, const std::string& text) {
   absl::StatusOr<ProjCrs> crs = ReadCrs(context, text);
-  if (crs.ok() && crs->angular_unit > kLargestAngularUnit) {
+  if (crs.ok() && crs->angular_unit > kLargestAngularUnit)
     return absl::InvalidArgumentError("its geographic coordinates have a unit that is not an angle");
-  }
   return crs;
 }
 
@@ -46,27 +45,23 @@ absl::StatusOr<Found> FromGeoKeys(ProjContext& context, const CrsDescription& de
   absl::StatusOr<ProjCrs> crs = ReadUsable(context, absl::StrCat("EPSG:", code));
   if (!crs.ok()) return crs.status();
   Found found = {*std::move(crs), "", std::nullopt};
-  if (found.crs.is_projected && description.linear_unit != 0) {
+  if (found.crs.is_projected && description.linear_unit != 0)
     found.unit = MetresOfUnit(context, description.linear_unit);
-  }
   return found;
 }
 
-absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name,
-                               const CrsDescription& description) {
+absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name, const CrsDescription& description) {
   const bool has_keys = description.projected != 0 || description.geographic != 0;
   if (description.wkt.empty()) {
     absl::StatusOr<Found> found = FromGeoKeys(context, description);
-    if (!found.ok()) {
-      return Unusable(name, absl::StrCat("its GeoTIFF codes: ", found.status().message()));
-    }
+    if (!found.ok()) return Unusable(name, absl::StrCat("its GeoTIFF codes: ", found.status().message()));
     return found;
   }
   absl::StatusOr<ProjCrs> crs = ReadCrs(context, description.wkt);
   const std::optional<double> height_unit = crs.ok() ? crs->metres_per_height_unit : std::nullopt;
   if (crs.ok() && crs->angular_unit <= kLargestAngularUnit) return Found{*std::move(crs), "", std::nullopt};
-  const std::string why = crs.ok() ? "its geographic coordinates have a unit that is not an angle"
-                                   : std::string(crs.status().message());
+  const std::string why =
+      crs.ok() ? "its geographic coordinates have a unit that is not an angle" : std::string(crs.status().message());
   std::optional<int> code = LastEpsgCode(description.wkt);
   if (crs.ok() && crs->authority == "EPSG") {
     int named = 0;
@@ -77,10 +72,10 @@ absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name,
     absl::StatusOr<ProjCrs> by_code = ReadUsable(context, absl::StrCat("EPSG:", *code));
     if (by_code.ok()) {
       if (!by_code->metres_per_height_unit.has_value()) by_code->metres_per_height_unit = height_unit;
-      return Found{*std::move(by_code),
-                   absl::StrCat(name, ": its well-known text is faulty (", why, "); its code, EPSG:", *code,
-                                ", is used"),
-                   std::nullopt};
+      return Found{
+          *std::move(by_code),
+          absl::StrCat(name, ": its well-known text is faulty (", why, "); its code, EPSG:", *code, ", is used"),
+          std::nullopt};
     }
   }
   if (has_keys) {
@@ -99,8 +94,7 @@ absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name,
 // A context with its transformation, for one thread at a time.
 class MapFrame::Transformer {
  public:
-  explicit Transformer(const std::string& pipeline)
-      : transformation_(proj_create(context_.get(), pipeline.c_str())) {
+  explicit Transformer(const std::string& pipeline) : transformation_(proj_create(context_.get(), pipeline.c_str())) {
     assert(transformation_ != nullptr);  // PROJ wrote the text itself.
   }
   MapPosition operator()(double longitude, double latitude) {
@@ -154,9 +148,9 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
   if (!description.user.empty()) {
     absl::StatusOr<ProjCrs> crs = ReadUsable(context, description.user);
     if (!crs.ok()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("--crs: '", description.user, "' cannot be used (", crs.status().message(),
-                       "); give a code such as EPSG:26917, or well-known text"));
+      return absl::InvalidArgumentError(absl::StrCat("--crs: '", description.user, "' cannot be used (",
+                                                     crs.status().message(),
+                                                     "); give a code such as EPSG:26917, or well-known text"));
     }
     found = Found{*std::move(crs), "", std::nullopt};
   } else {
@@ -166,8 +160,7 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
   const ProjCrs& crs = found->crs;
   std::shared_ptr<MapFrame> frame(new MapFrame());
   frame->crs_name_ = crs.name;
-  if (const char* wkt = proj_as_wkt(context.get(), crs.horizontal.get(), PJ_WKT1_GDAL, nullptr))
-    frame->wkt_ = wkt;
+  if (const char* wkt = proj_as_wkt(context.get(), crs.horizontal.get(), PJ_WKT1_GDAL, nullptr)) frame->wkt_ = wkt;
   frame->remark_ = found->remark;
   frame->angular_unit_ = crs.angular_unit;
   frame->prime_meridian_ = crs.prime_meridian;
@@ -176,23 +169,20 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
   frame->is_transverse_mercator_ = crs.is_transverse_mercator;
   frame->ellipsoid_ = crs.ellipsoid;
   frame->metres_per_height_unit_ = crs.metres_per_height_unit;
-  if (!frame->metres_per_height_unit_.has_value() && description.vertical_unit != 0) {
+  if (!frame->metres_per_height_unit_.has_value() && description.vertical_unit != 0)
     frame->metres_per_height_unit_ = MetresOfUnit(context, description.vertical_unit);
-  }
-  if (!frame->metres_per_height_unit_.has_value() && description.vertical != 0) {
+  if (!frame->metres_per_height_unit_.has_value() && description.vertical != 0)
     frame->metres_per_height_unit_ = MetresOfVerticalCrs(context, description.vertical);
-  }
   if (!crs.is_projected) return frame;
-  const ProjObject operation(proj_create_crs_to_crs_from_pj(context.get(), crs.geographic.get(),
-                                                            crs.horizontal.get(), nullptr, nullptr));
+  const ProjObject operation(
+      proj_create_crs_to_crs_from_pj(context.get(), crs.geographic.get(), crs.horizontal.get(), nullptr, nullptr));
   const ProjObject transformation(
       operation == nullptr ? nullptr : proj_normalize_for_visualization(context.get(), operation.get()));
   const char* pipeline = transformation == nullptr
                              ? nullptr
                              : proj_as_proj_string(context.get(), transformation.get(), PJ_PROJ_5, nullptr);
-  if (pipeline == nullptr) {
+  if (pipeline == nullptr)
     return Unusable(name, absl::StrCat("PROJ cannot project into ", crs.name, ": ", context.last_message()));
-  }
   frame->pipeline_ = pipeline;
   return frame;
 }
@@ -208,8 +198,7 @@ void MapFrame::Project(std::span<const GeographicPosition> from, std::span<MapPo
   }
   std::unique_ptr<Transformer> transformer = transformers_->Take(pipeline_);
   for (std::size_t i = 0; i < from.size(); ++i) {
-    to[i] = (*transformer)((from[i].longitude - prime_meridian_) / angular_unit_,
-                           from[i].latitude / angular_unit_);
+    to[i] = (*transformer)((from[i].longitude - prime_meridian_) / angular_unit_, from[i].latitude / angular_unit_);
     to[i].x /= unit_factor_;
     to[i].y /= unit_factor_;
   }
@@ -236,8 +225,7 @@ std::optional<GeographicPosition> MapFrame::GeographicAt(const MapPosition& posi
   // Far outside of a projection, PROJ's inverse gives some position that does not lead back.
   if (!is_geographic()) {
     const MapPosition again = Project(found);
-    if (!(std::hypot(again.x - position.x, again.y - position.y) * unit_ < kLargestDeparture))
-      return std::nullopt;
+    if (!(std::hypot(again.x - position.x, again.y - position.y) * unit_ < kLargestDeparture)) return std::nullopt;
   }
   return found;
 }
@@ -260,8 +248,7 @@ MapMetric MapFrame::MetricAt(const GeographicPosition& position) const {
   const double x_east = (to[1].x - to[0].x) / east, y_east = (to[1].y - to[0].y) / east;
   const double x_north = (to[3].x - to[2].x) / north, y_north = (to[3].y - to[2].y) / north;
   const double determinant = x_east * y_north - x_north * y_east;
-  return {std::hypot(y_north, y_east) / std::abs(determinant),
-          std::hypot(x_north, x_east) / std::abs(determinant),
+  return {std::hypot(y_north, y_east) / std::abs(determinant), std::hypot(x_north, x_east) / std::abs(determinant),
           std::atan2(-x_north / determinant, x_east / determinant)};
 }
 

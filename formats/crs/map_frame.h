@@ -19,8 +19,7 @@ namespace albtpu::formats {
 
 // The statements of a LAS file and its user about the coordinate system. A code is 0 where nothing is stated.
 struct CrsDescription {
-  std::string user =
-      {};  // --crs: EPSG:26917, well-known text, or whatever else PROJ reads. Overrides the rest.
+  std::string user = {};  // --crs: EPSG:26917, well-known text, or whatever else PROJ reads. Overrides the rest.
   std::string wkt = {};   // Well-known text, record 2112.
   int projected = 0;      // GeoTIFF key 3072, an EPSG code.
   int geographic = 0;     // GeoTIFF key 2048, an EPSG code.
@@ -64,9 +63,7 @@ class MapFrame {
   bool is_transverse_mercator() const { return is_transverse_mercator_; }
   // Metres, or for geographic coordinates radians, in a unit of x and y.
   double unit() const { return unit_; }
-  std::optional<double> metres_per_height_unit() const {
-    return metres_per_height_unit_;
-  }  // nullopt: not stated.
+  std::optional<double> metres_per_height_unit() const { return metres_per_height_unit_; }  // nullopt: not stated.
   const Ellipsoid& ellipsoid() const { return ellipsoid_; }
 
   // Equal lengths. Coordinates are not finite where the projection is not defined.
@@ -89,8 +86,8 @@ class MapFrame {
   std::string crs_name_;
   std::string wkt_;
   std::string remark_;
-  std::string pipeline_;     // Of PROJ, from geographic coordinates in its unit; empty for geographic points.
-  double angular_unit_ = 0;  // rad in a unit of the geographic coordinates.
+  std::string pipeline_;       // Of PROJ, from geographic coordinates in its unit; empty for geographic points.
+  double angular_unit_ = 0;    // rad in a unit of the geographic coordinates.
   double prime_meridian_ = 0;  // rad, longitude of the prime meridian.
   double unit_ = 1;
   double unit_factor_ = 1;  // Coordinates of PROJ in a unit of the points.

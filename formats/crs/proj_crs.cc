@@ -16,19 +16,17 @@ std::optional<double> AxisUnit(ProjContext& context, const PJ* crs, int axis) {
   const ProjObject system(proj_crs_get_coordinate_system(context.get(), crs));
   double unit = 0;
   if (system == nullptr || axis >= proj_cs_get_axis_count(context.get(), system.get()) ||
-      !proj_cs_get_axis_info(context.get(), system.get(), axis, nullptr, nullptr, nullptr, &unit, nullptr,
-                             nullptr, nullptr) ||
-      !(unit > 0)) {
+      !proj_cs_get_axis_info(context.get(), system.get(), axis, nullptr, nullptr, nullptr, &unit, nullptr, nullptr,
+                             nullptr) ||
+      !(unit > 0))
     return std::nullopt;
-  }
   return unit;
 }
 
 // A compound system consists of others; a bound one adds a datum shift, which is not used, to another.
 ProjObject WithoutDatumShift(ProjContext& context, ProjObject crs) {
-  if (crs != nullptr && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) {
+  if (crs != nullptr && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
     return ProjObject(proj_get_source_crs(context.get(), crs.get()));
-  }
   return crs;
 }
 
@@ -40,19 +38,15 @@ bool IsGeographic(const PJ* crs) {
 std::string TextOrEmpty(const char* text) { return text == nullptr ? "" : text; }
 
 void FillEllipsoid(ProjContext& context, ProjCrs& crs) {
-  if (const ProjObject ellipsoid(proj_get_ellipsoid(context.get(), crs.geographic.get()));
-      ellipsoid != nullptr) {
+  if (const ProjObject ellipsoid(proj_get_ellipsoid(context.get(), crs.geographic.get())); ellipsoid != nullptr) {
     double a = 0, b = 0;
-    if (proj_ellipsoid_get_parameters(context.get(), ellipsoid.get(), &a, &b, nullptr, nullptr) && a > 0) {
+    if (proj_ellipsoid_get_parameters(context.get(), ellipsoid.get(), &a, &b, nullptr, nullptr) && a > 0)
       crs.ellipsoid = {a, 1 - (b / a) * (b / a)};
-    }
   }
-  if (const ProjObject meridian(proj_get_prime_meridian(context.get(), crs.geographic.get()));
-      meridian != nullptr) {
+  if (const ProjObject meridian(proj_get_prime_meridian(context.get(), crs.geographic.get())); meridian != nullptr) {
     double longitude = 0, unit = 0;
-    if (proj_prime_meridian_get_parameters(context.get(), meridian.get(), &longitude, &unit, nullptr)) {
+    if (proj_prime_meridian_get_parameters(context.get(), meridian.get(), &longitude, &unit, nullptr))
       crs.prime_meridian = longitude * unit;
-    }
   }
 }
 
@@ -97,10 +91,8 @@ absl::Status ProjContext::CheckDatabase() const {
 absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text) {
   ProjCrs crs;
   ProjObject whole = WithoutDatumShift(context, Parse(context, text));
-  if (whole == nullptr) {
-    return absl::InvalidArgumentError(context.last_message().empty() ? "PROJ cannot read it"
-                                                                     : context.last_message());
-  }
+  if (whole == nullptr)
+    return absl::InvalidArgumentError(context.last_message().empty() ? "PROJ cannot read it" : context.last_message());
   if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
     const ProjObject vertical =
         WithoutDatumShift(context, ProjObject(proj_crs_get_sub_crs(context.get(), whole.get(), 1)));
@@ -109,24 +101,20 @@ absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text) {
   }
   if (whole != nullptr) {
     crs.is_projected = proj_get_type(whole.get()) == PJ_TYPE_PROJECTED_CRS;
-    if (crs.is_projected || IsGeographic(whole.get())) {
+    if (crs.is_projected || IsGeographic(whole.get()))
       crs.geographic.reset(proj_crs_get_geodetic_crs(context.get(), whole.get()));
-    }
   }
   const std::optional<double> unit = whole == nullptr ? std::nullopt : AxisUnit(context, whole.get(), 0);
   const std::optional<double> angular_unit =
       crs.geographic == nullptr ? std::nullopt : AxisUnit(context, crs.geographic.get(), 0);
-  if (!unit.has_value() || !angular_unit.has_value()) {
+  if (!unit.has_value() || !angular_unit.has_value())
     return absl::InvalidArgumentError("it is not a projected or geographic coordinate system");
-  }
   crs.unit = *unit;
   crs.angular_unit = *angular_unit;
   crs.name = TextOrEmpty(proj_get_name(whole.get()));
   crs.authority = TextOrEmpty(proj_get_id_auth_name(whole.get(), 0));
   crs.code = TextOrEmpty(proj_get_id_code(whole.get(), 0));
-  if (!crs.metres_per_height_unit.has_value()) {
-    crs.metres_per_height_unit = AxisUnit(context, whole.get(), 2);
-  }
+  if (!crs.metres_per_height_unit.has_value()) crs.metres_per_height_unit = AxisUnit(context, whole.get(), 2);
   crs.is_transverse_mercator = crs.is_projected && IsTransverseMercator(context, whole.get());
   FillEllipsoid(context, crs);
   crs.horizontal = std::move(whole);
@@ -138,15 +126,14 @@ std::optional<double> MetresOfUnit(ProjContext& context, int code) {
   const char* category = nullptr;
   if (!proj_uom_get_info_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(), nullptr, &metres,
                                        &category) ||
-      std::string(category) != "linear" || !(metres > 0)) {
+      std::string(category) != "linear" || !(metres > 0))
     return std::nullopt;
-  }
   return metres;
 }
 
 std::optional<double> MetresOfVerticalCrs(ProjContext& context, int code) {
-  const ProjObject crs(proj_create_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(),
-                                                 PJ_CATEGORY_CRS, 0, nullptr));
+  const ProjObject crs(
+      proj_create_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(), PJ_CATEGORY_CRS, 0, nullptr));
   if (crs == nullptr || proj_get_type(crs.get()) != PJ_TYPE_VERTICAL_CRS) return std::nullopt;
   return AxisUnit(context, crs.get(), 0);
 }
@@ -170,9 +157,7 @@ std::optional<int> LastEpsgCode(const std::string& wkt) {
     if (part.size() >= 2 && part.front() == '"' && part.back() == '"') part = part.substr(1, part.size() - 2);
     return part;
   };
-  if (unquoted(parts[0]) != "EPSG" || !absl::SimpleAtoi(unquoted(parts[1]), &code) || code <= 0) {
-    return std::nullopt;
-  }
+  if (unquoted(parts[0]) != "EPSG" || !absl::SimpleAtoi(unquoted(parts[1]), &code) || code <= 0) return std::nullopt;
   return code;
 }
 

@@ -103,16 +103,15 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   const std::size_t begin = AfterByteOrderMark(rest_, line_);
   record.line = line_;
   record.cell_begins.assign(1, begin);
-  const RecordEnd end =
-      FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
+  const RecordEnd end = FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
   if (end.text_after_quote || end.open_return) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
-        record.cell_count(), ": text follows a closing quote; double the quotes inside a quoted cell"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
+                     record.cell_count(), ": text follows a closing quote; double the quotes inside a quoted cell"));
   }
   if (end.open_quote || end.text_size > CsvReader::kLongestRecord) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        std::string(name_), " line ", line_, ": the record that begins here does not end; close its quote"));
+    return absl::InvalidArgumentError(absl::StrCat(std::string(name_), " line ", line_,
+                                                   ": the record that begins here does not end; close its quote"));
   }
   record.text = rest_.substr(0, end.text_size);
   record.line_ending = rest_.substr(end.text_size, end.size - end.text_size);
@@ -128,15 +127,13 @@ absl::StatusOr<CsvReader> CsvReader::Open(const std::filesystem::path& path) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) {
     const int error = errno;
-    return absl::Status(
-        absl::ErrnoToStatusCode(error),
-        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a CSV file that can be read"));
+    return absl::Status(absl::ErrnoToStatusCode(error),
+                        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a CSV file that can be read"));
   }
   CsvReader reader(path.string(), file);
   struct stat status;
-  if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode)) {
+  if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode))
     return absl::FailedPreconditionError(absl::StrCat(path.string(), ": is a folder; give a CSV file"));
-  }
   return reader;
 }
 
@@ -149,8 +146,8 @@ absl::StatusOr<std::size_t> CsvReader::Fill(std::size_t size) {
   const int error = errno;
   rest_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   if (count < 0) {
-    return absl::DataLossError(absl::StrCat(name_, ": reading failed at line ", line_ + CountLines(rest_),
-                                            " (", std::strerror(error), "); copy the file to a sound disk"));
+    return absl::DataLossError(absl::StrCat(name_, ": reading failed at line ", line_ + CountLines(rest_), " (",
+                                            std::strerror(error), "); copy the file to a sound disk"));
   }
   at_end_ = count == 0;
   return static_cast<std::size_t>(count);
@@ -184,9 +181,8 @@ absl::StatusOr<CsvBlock> CsvReader::ReadHeader() {
 absl::StatusOr<bool> CsvReader::Read(CsvBlock& block) {
   std::size_t whole = 0;
   while (!at_end_ && whole == 0) {
-    while (!at_end_ && rest_.size() < kBlockSize) {
+    while (!at_end_ && rest_.size() < kBlockSize)
       if (const auto count = Fill(kBlockSize); !count.ok()) return count.status();
-    }
     whole = SizeOfWholeRecords(rest_);
     if (whole > 0 || at_end_) break;
     if (rest_.size() > kLongestRecord) return EndlessRecord();

@@ -41,8 +41,7 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // part of the text of the first record, but not of its first cell.
 class CsvRecords {
  public:
-  CsvRecords(std::string_view name, const CsvBlock& block)
-      : name_(name), rest_(block.text), line_(block.first_line) {}
+  CsvRecords(std::string_view name, const CsvBlock& block) : name_(name), rest_(block.text), line_(block.first_line) {}
 
   // Reads the next record into `record` and reuses its memory. False at the end of the block.
   absl::StatusOr<bool> Next(CsvRecord& record);

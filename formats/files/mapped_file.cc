@@ -16,9 +16,8 @@ namespace {
 
 absl::Status SystemError(const std::filesystem::path& path, std::string_view what) {
   const int error = errno;
-  return absl::Status(absl::ErrnoToStatusCode(error),
-                      absl::StrCat(path.string(), ": ", std::strerror(error), "; give ", std::string(what),
-                                   " that can be read"));
+  return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat(path.string(), ": ", std::strerror(error), "; give ",
+                                                                   std::string(what), " that can be read"));
 }
 
 }  // namespace
@@ -31,17 +30,16 @@ absl::StatusOr<MappedFile> MappedFile::Open(const std::filesystem::path& path, s
   if (fstat(descriptor, &status) != 0) {
     file = SystemError(path, what);
   } else if (!S_ISREG(status.st_mode)) {
-    file = absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is ", S_ISDIR(status.st_mode) ? "a folder" : "not a regular file",
-                     "; give ", std::string(what)));
+    file = absl::FailedPreconditionError(absl::StrCat(path.string(), ": is ",
+                                                      S_ISDIR(status.st_mode) ? "a folder" : "not a regular file",
+                                                      "; give ", std::string(what)));
   } else if (status.st_size > 0) {
     const auto size = static_cast<std::size_t>(status.st_size);
     void* const data = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (data == MAP_FAILED) {
+    if (data == MAP_FAILED)
       file = SystemError(path, what);
-    } else {
+    else
       file = MappedFile(static_cast<const char*>(data), size, true);
-    }
   }
   close(descriptor);
   return file;

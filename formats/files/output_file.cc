@@ -19,10 +19,8 @@ FileStamp FileStamp::Of(int descriptor) {
 
 absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) const {
   const FileStamp now = Of(descriptor);
-  if (now.size_ == size_ && now.modified_.tv_sec == modified_.tv_sec &&
-      now.modified_.tv_nsec == modified_.tv_nsec) {
+  if (now.size_ == size_ && now.modified_.tv_sec == modified_.tv_sec && now.modified_.tv_nsec == modified_.tv_nsec)
     return absl::OkStatus();
-  }
   return absl::FailedPreconditionError(
       absl::StrCat(name, ": changed while it was read (", size_, " bytes, then ", now.size_,
                    "), so nothing was written; run again when no program writes to it"));
@@ -30,10 +28,8 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
 
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output) {
   std::error_code ignored;
-  if (std::filesystem::equivalent(input, output, ignored)) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(output.string(), ": is the input itself; write to another file"));
-  }
+  if (std::filesystem::equivalent(input, output, ignored))
+    return absl::FailedPreconditionError(absl::StrCat(output.string(), ": is the input itself; write to another file"));
   return absl::OkStatus();
 }
 

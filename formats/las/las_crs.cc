@@ -74,8 +74,8 @@ std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
     const std::size_t name_end = upper.find('"', name_begin + 1);
     if (name_end == std::string::npos) break;
     const std::string name = upper.substr(name_begin + 1, name_end - name_begin - 1);
-    bool foot = name.find("FOOT") != std::string::npos || name.find("FEET") != std::string::npos ||
-                name == "FT" || name == "FTUS" || name == "US-FT";
+    bool foot = name.find("FOOT") != std::string::npos || name.find("FEET") != std::string::npos || name == "FT" ||
+                name == "FTUS" || name == "US-FT";
     const std::size_t comma = upper.find_first_not_of(" \t\r\n", name_end + 1);
     if (comma != std::string::npos && upper[comma] == ',') {
       const std::size_t end = std::min(upper.find_first_of(",])", comma + 1), upper.size());
@@ -88,11 +88,9 @@ std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
 }
 
 std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory) {
-  for (const GeoKey& entry : ListGeoKeys(geo_key_directory)) {
-    if ((entry.key == kProjLinearUnits || entry.key == kVerticalUnits) && IsFoot(entry.value)) {
+  for (const GeoKey& entry : ListGeoKeys(geo_key_directory))
+    if ((entry.key == kProjLinearUnits || entry.key == kVerticalUnits) && IsFoot(entry.value))
       return absl::StrCat("GeoTIFF key ", entry.key, " = ", entry.value);
-    }
-  }
   return std::nullopt;
 }
 

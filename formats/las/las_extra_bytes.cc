@@ -39,8 +39,8 @@ absl::Status Invalid(const std::string& name, const std::string& message) {
 }
 
 absl::Status MoreThanExist(const std::string& name, std::size_t described, std::size_t extra_bytes) {
-  return Invalid(name, absl::StrCat("describes ", described, " extra bytes, but its points have ",
-                                    extra_bytes, "; correct the description"));
+  return Invalid(name, absl::StrCat("describes ", described, " extra bytes, but its points have ", extra_bytes,
+                                    "; correct the description"));
 }
 
 struct Known {
@@ -57,30 +57,29 @@ struct Described {
 
 absl::StatusOr<Described> Read(const std::string& name, std::string_view record) {
   if (record.size() % kEntrySize != 0) {
-    return Invalid(name, absl::StrCat("its Extra Bytes record has ", record.size(),
-                                      " bytes; expected a multiple of ", kEntrySize));
+    return Invalid(name, absl::StrCat("its Extra Bytes record has ", record.size(), " bytes; expected a multiple of ",
+                                      kEntrySize));
   }
   Described described;
   for (std::size_t begin = 0; begin < record.size(); begin += kEntrySize) {
     const std::string_view entry = record.substr(begin, kEntrySize);
     const int type = Load<std::uint8_t>(entry, kTypeField);
     if (type > kTypeCount) {
-      return Invalid(name, absl::StrCat("its Extra Bytes record has type ", type,
-                                        " (of unknown size); expected 0 to ", kTypeCount));
+      return Invalid(name, absl::StrCat("its Extra Bytes record has type ", type, " (of unknown size); expected 0 to ",
+                                        kTypeCount));
     }
     const std::string_view text = entry.substr(kNameField, kTextSize);
     const std::string entry_name(text.substr(0, text.find('\0')));
     described.entries.push_back({entry_name, type, described.bytes});
     described.names.insert(entry_name);
-    described.bytes += type == kUndocumented ? Load<std::uint8_t>(entry, kOptionsField)
-                                             : kTypeSizes[(type - 1) % kTypeSizes.size()] *
-                                                   (1 + (type - 1) / kTypeSizes.size());
+    described.bytes += type == kUndocumented
+                           ? Load<std::uint8_t>(entry, kOptionsField)
+                           : kTypeSizes[(type - 1) % kTypeSizes.size()] * (1 + (type - 1) / kTypeSizes.size());
   }
   return described;
 }
 
-std::string Entry(std::uint8_t type, std::uint8_t options, std::string_view name,
-                  std::string_view description) {
+std::string Entry(std::uint8_t type, std::uint8_t options, std::string_view name, std::string_view description) {
   std::string entry(kEntrySize, '\0');
   Store(type, entry.data() + kTypeField);
   Store(options, entry.data() + kOptionsField);
@@ -126,10 +125,10 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   const std::string_view length = at("2 sigma, m", "1 sigma, m", "95 %, m");
   std::vector<AppendedFloat> floats;
   if (appended.total) {
-    const std::string_view what =
-        appended.water ? at("all shares, 2 sigma, m", "all shares, 1 sigma, m", "all shares, 95 %, m")
-                       : at("all but water column, 2 sigma, m", "all but water column, 1 sigma, m",
-                            "all but water column, 95 %, m");
+    const std::string_view what = appended.water
+                                      ? at("all shares, 2 sigma, m", "all shares, 1 sigma, m", "all shares, 95 %, m")
+                                      : at("all but water column, 2 sigma, m", "all but water column, 1 sigma, m",
+                                           "all but water column, 95 %, m");
     floats = {{"total_thu", what, kNoNumber}, {"total_tvu", what, kNoNumber}};
   } else {
     const std::string_view what =
@@ -141,8 +140,7 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
       floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"thu_water", "tvu_water"})
       floats.push_back({name, appended.water ? length : "left out", kNoNumber});
-    for (const std::string_view name :
-         {"tvu_pulse", "tvu_line"})  // Errors that are independent between them.
+    for (const std::string_view name : {"tvu_pulse", "tvu_line"})  // Errors that are independent between them.
       floats.push_back({name, length, kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
     floats.push_back({"bias_vertical", "too shallow, m", kNan});
@@ -162,8 +160,7 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
 
 absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
                                                      std::size_t extra_bytes,
-                                                     const std::vector<AppendedFloat>& appended,
-                                                     bool replace) {
+                                                     const std::vector<AppendedFloat>& appended, bool replace) {
   absl::StatusOr<Described> known = Read(name, described);
   if (!known.ok()) return known.status();
   AppendedDescription description{.record = std::string(described), .replaced = {}};
@@ -172,20 +169,18 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     const std::string ours(appended[i].name);
     if (known->names.count(ours) == 0) continue;
     if (!replace) {
-      return Invalid(name,
-                     absl::StrCat("already has ", ours,
-                                  "; annotate the file from which it was made, or replace its values by "
-                                  "--replace"));
+      return Invalid(name, absl::StrCat("already has ", ours,
+                                        "; annotate the file from which it was made, or replace its values by "
+                                        "--replace"));
     }
     const auto is_ours = [&](const Known& entry) { return entry.name == ours; };
     if (std::count_if(known->entries.begin(), known->entries.end(), is_ours) > 1)
       return Invalid(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
     const auto entry = std::find_if(known->entries.begin(), known->entries.end(), is_ours);
     if (entry->type != kFloat && entry->type != kDouble) {
-      return Invalid(name,
-                     absl::StrCat("has ", ours, " as type ", entry->type,
-                                  " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
-                                  "the file from which it was made"));
+      return Invalid(name, absl::StrCat("has ", ours, " as type ", entry->type,
+                                        " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
+                                        "the file from which it was made"));
     }
     const auto place = static_cast<std::size_t>(entry - known->entries.begin()) * kEntrySize;
     record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
@@ -198,13 +193,11 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }
-  for (const AppendedFloat& ours : appended) {
+  for (const AppendedFloat& ours : appended)
     if (known->names.count(ours.name) == 0) record += FloatEntry(ours);
-  }
   if (record.size() > kLargestExtraBytesRecord) {
-    return Invalid(
-        name, absl::StrCat("describes so many extra bytes that ", appended.size(),
-                           " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
+    return Invalid(name, absl::StrCat("describes so many extra bytes that ", appended.size(),
+                                      " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
   }
   return description;
 }

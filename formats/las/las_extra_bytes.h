@@ -23,10 +23,9 @@ inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of
 // The floats that are appended to each record.
 struct Appended {
   Coverage coverage = Coverage::kTwoSigma;
-  bool total = false;  // The total uncertainty, not the contribution of the sea surface alone.
-  bool water = false;  // The total includes the water column.
-  bool details =
-      false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
+  bool total = false;    // The total uncertainty, not the contribution of the sea surface alone.
+  bool water = false;    // The total includes the water column.
+  bool details = false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
 };
 
 // In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
@@ -36,8 +35,7 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 inline constexpr std::size_t kUncertaintyCount = 2;
 // thu_air to tvu_water, tvu_pulse, tvu_line, two biases, six entries of the covariance.
 inline constexpr std::size_t kTotalDetailCount = 16;
-inline constexpr std::size_t kGeometryCount =
-    5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
+inline constexpr std::size_t kGeometryCount = 5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
 
 // Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;
@@ -64,8 +62,7 @@ struct AppendedDescription {
 // exist, when a type is unknown, or when the result does not fit a VLR.
 absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
                                                      std::size_t extra_bytes,
-                                                     const std::vector<AppendedFloat>& appended,
-                                                     bool replace = false);
+                                                     const std::vector<AppendedFloat>& appended, bool replace = false);
 
 // Where the floats (type 9) lie in the extra bytes of a point, by their names. `described` and `extra_bytes` as above;
 // fails when an entry has an unknown type, or when more bytes are described than exist.

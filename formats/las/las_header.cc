@@ -33,13 +33,10 @@ absl::Status Truncated(const std::string& name, const std::string& message) {
 }
 
 absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
-  if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF") {
+  if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF")
     return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las or .laz file");
-  }
-  if (bytes.size() < kHeaderSizes[0]) {
-    return Truncated(
-        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
-  }
+  if (bytes.size() < kHeaderSizes[0])
+    return Truncated(name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
   const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
   if (major != 1 || minor > 4) {
@@ -56,9 +53,8 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
   if (version_minor < 4) return legacy;
   const auto count = Load<std::uint64_t>(bytes, las_field::kPointCount);
   if (legacy != 0 && legacy != count) {
-    return Invalid(name,
-                   absl::StrCat("its header states ", count, " points, but ", legacy,
-                                " in the legacy field; expected the same number, or 0 in the legacy field"));
+    return Invalid(name, absl::StrCat("its header states ", count, " points, but ", legacy,
+                                      " in the legacy field; expected the same number, or 0 in the legacy field"));
   }
   return count;
 }
@@ -66,8 +62,8 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
 absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
   const int last_format = kLastFormats[header.version_minor];
   if (header.point_format > last_format) {
-    return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.",
-                                      header.version_minor, "; expected 0 to ", last_format));
+    return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.", header.version_minor,
+                                      "; expected 0 to ", last_format));
   }
   const std::size_t minimum = MinimumRecordLength(header.point_format);
   if (header.record_length < minimum) {
@@ -77,8 +73,8 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
   for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
     const double scale = header.scale[axis], offset = header.offset[axis];
     if (std::isfinite(scale) && scale != 0 && std::isfinite(offset)) continue;
-    return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ",
-                                      offset, "; expected finite numbers and a scale other than zero"));
+    return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ", offset,
+                                      "; expected finite numbers and a scale other than zero"));
   }
   return absl::OkStatus();
 }
@@ -86,13 +82,12 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
 absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
   const std::size_t min_header = kHeaderSizes[header.version_minor];
   if (header.header_size < min_header) {
-    return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.",
-                                      header.version_minor, " needs ", min_header, " bytes or more"));
+    return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.", header.version_minor,
+                                      " needs ", min_header, " bytes or more"));
   }
   if (header.offset_to_points < header.header_size) {
-    return Invalid(
-        name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
-                           ", inside the header of ", header.header_size, " bytes; expected them after it"));
+    return Invalid(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
+                                      ", inside the header of ", header.header_size, " bytes; expected them after it"));
   }
   if (header.offset_to_points > file_size) {
     return Truncated(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
@@ -101,9 +96,8 @@ absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std:
   if (header.compressed) return absl::OkStatus();
   const std::uint64_t room = (file_size - header.offset_to_points) / header.record_length;
   if (header.point_count > room) {
-    return Truncated(
-        name, absl::StrCat("its header states ", header.point_count, " points, but the file has ", room,
-                           " (truncated, or the header is wrong); get a complete copy"));
+    return Truncated(name, absl::StrCat("its header states ", header.point_count, " points, but the file has ", room,
+                                        " (truncated, or the header is wrong); get a complete copy"));
   }
   return absl::OkStatus();
 }
@@ -117,17 +111,17 @@ absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, 
     if (start == 0) continue;
     if (start < end_of_points || start > file_size) {
       return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start, "; expected between the ",
-                                        header.compressed ? "beginning" : "end", " of the points, ",
-                                        end_of_points, ", and the end of the file, ", file_size));
+                                        header.compressed ? "beginning" : "end", " of the points, ", end_of_points,
+                                        ", and the end of the file, ", file_size));
     }
     next = std::min(next, start);
   }
   if (header.compressed) return absl::OkStatus();
   const std::uint64_t uncounted = next - end_of_points;
   if (uncounted >= header.record_length) {
-    return Invalid(name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted,
-                                      " bytes, enough for ", uncounted / header.record_length,
-                                      " more points, follow them; correct the point count"));
+    return Invalid(
+        name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted, " bytes, enough for ",
+                           uncounted / header.record_length, " more points, follow them; correct the point count"));
   }
   return absl::OkStatus();
 }
@@ -138,16 +132,13 @@ std::size_t MinimumRecordLength(int point_format) { return kRecordLengths[point_
 
 std::size_t LasHeader::extra_bytes() const { return record_length - MinimumRecordLength(point_format); }
 
-absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
-                                         std::uint64_t file_size) {
+absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes, std::uint64_t file_size) {
   if (absl::Status status = CheckVersion(name, bytes); !status.ok()) return status;
   LasHeader header;
   header.version_minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
   const std::size_t min_header = kHeaderSizes[header.version_minor];
-  if (bytes.size() < min_header) {
-    return Truncated(
-        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
-  }
+  if (bytes.size() < min_header)
+    return Truncated(name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   header.header_size = Load<std::uint16_t>(bytes, las_field::kHeaderSize);
   header.offset_to_points = Load<std::uint32_t>(bytes, las_field::kOffsetToPoints);
   header.vlr_count = Load<std::uint32_t>(bytes, las_field::kVlrCount);
@@ -173,17 +164,15 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   const std::uint16_t global_encoding =
       header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
   header.adjusted_gps_time = (global_encoding & kAdjustedGpsTime) != 0;
-  if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0) {
+  if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0)
     header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
-  }
   if (header.version_minor >= 4) {
     header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
     if (header.evlr_count > 0) header.start_of_evlrs = Load<std::uint64_t>(bytes, las_field::kStartOfEvlrs);
     if (header.evlr_count > 0 && header.start_of_evlrs == 0) {
-      return Invalid(name,
-                     absl::StrCat("its header states ", header.evlr_count,
-                                  " extended variable length records but not where they begin; expected an "
-                                  "offset after the points"));
+      return Invalid(name, absl::StrCat("its header states ", header.evlr_count,
+                                        " extended variable length records but not where they begin; expected an "
+                                        "offset after the points"));
     }
   }
   if (absl::Status status = CheckRecords(name, header); !status.ok()) return status;
@@ -229,10 +218,9 @@ absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const La
       fits = entry.end() <= head.size();
     }
     if (!fits) {
-      return absl::InvalidArgumentError(absl::StrCat(name, ": variable length record ", i + 1, " of ",
-                                                     header.vlr_count, " at byte ", next,
-                                                     " does not end before the points, at ", head.size(),
-                                                     "; correct the number or the lengths of these records"));
+      return absl::InvalidArgumentError(absl::StrCat(
+          name, ": variable length record ", i + 1, " of ", header.vlr_count, " at byte ", next,
+          " does not end before the points, at ", head.size(), "; correct the number or the lengths of these records"));
     }
     next = entry.end();
     entries.push_back(std::move(entry));
@@ -246,9 +234,9 @@ absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view byt
   entry.data_offset = offset + kEvlrHeaderSize;
   entry.data_size = Load<std::uint64_t>(bytes, kVlrLengthField);
   if (entry.data_offset > file_size || entry.data_size > file_size - entry.data_offset) {
-    return absl::DataLossError(
-        absl::StrCat(name, ": the extended variable length record at byte ", offset, " has ", entry.data_size,
-                     " bytes and ends after the file, which has ", file_size, "; get a complete copy"));
+    return absl::DataLossError(absl::StrCat(name, ": the extended variable length record at byte ", offset, " has ",
+                                            entry.data_size, " bytes and ends after the file, which has ", file_size,
+                                            "; get a complete copy"));
   }
   return entry;
 }

@@ -70,8 +70,7 @@ std::size_t MinimumRecordLength(int point_format);
 // beginning. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
 // begins the messages. InvalidArgument: not LAS, not LAS 1.0-1.4, or an inconsistent header. DataLoss:
 // truncated.
-absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
-                                         std::uint64_t file_size);
+absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes, std::uint64_t file_size);
 
 // Variable length records of a LAS file: VLRs between the header and the points, extended ones (EVLRs) after the
 // points.
@@ -89,9 +88,7 @@ struct VlrEntry {
   std::uint64_t data_size = 0;
 
   std::uint64_t end() const { return data_offset + data_size; }
-  bool Is(std::string_view user, std::uint16_t record) const {
-    return user_id == user && record_id == record;
-  }
+  bool Is(std::string_view user, std::uint16_t record) const { return user_id == user && record_id == record; }
 };
 
 // Records that the LAS specification defines.
@@ -99,8 +96,7 @@ inline constexpr std::string_view kSpecUser = "LASF_Spec";
 inline constexpr std::uint16_t kExtraBytesRecord = 4;
 
 // The VLRs in `head`, which has all bytes before the points. Fails when they extend beyond it.
-absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const LasHeader& header,
-                                               std::string_view head);
+absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const LasHeader& header, std::string_view head);
 
 // The EVLR whose header is `bytes`, at `offset`. Fails when it extends beyond the file.
 absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view bytes, std::uint64_t offset,

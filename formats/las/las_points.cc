@@ -29,14 +29,13 @@ std::string LasClassCounts::Text() const {
 
 nlohmann::ordered_json LasClassCounts::Json() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (int i = 0; i < kClassCount; ++i) {
+  for (int i = 0; i < kClassCount; ++i)
     if (counts_[i] > 0) json[std::to_string(i)] = counts_[i];
-  }
   return json;
 }
 
-absl::StatusOr<LasPointRuns> LasPointRuns::Open(const LasReader& reader, std::size_t before,
-                                                std::size_t after, laz::WantedFields wanted) {
+absl::StatusOr<LasPointRuns> LasPointRuns::Open(const LasReader& reader, std::size_t before, std::size_t after,
+                                                laz::WantedFields wanted) {
   LasPointRuns runs(reader, before, after);
   if (reader.kind() == LasKind::kLas) return runs;
   absl::StatusOr<std::unique_ptr<laz::LazPoints>> laz =
@@ -57,10 +56,9 @@ absl::StatusOr<bool> LasPointRuns::Next(std::uint64_t most, LasRun& run) {
   const std::uint64_t end = next_ + run.own + std::min<std::uint64_t>(after_, left - run.own);
   run.records.resize((end - begin) * header.record_length);
   next_ += run.own;
-  const absl::Status status = laz_ != nullptr
-                                  ? ReadLaz(begin, end, run)
-                                  : reader_.ReadAt(header.offset_to_points + begin * header.record_length,
-                                                   std::span<char>(run.records));
+  const absl::Status status = laz_ != nullptr ? ReadLaz(begin, end, run)
+                                              : reader_.ReadAt(header.offset_to_points + begin * header.record_length,
+                                                               std::span<char>(run.records));
   if (!status.ok()) return status;
   return true;
 }
@@ -80,9 +78,7 @@ std::uint64_t LasPointRuns::tail_begin() const {
   return laz_ != nullptr ? laz_->end() : reader_.header().end_of_points();
 }
 
-std::uint64_t LasPointRuns::tail_end() const {
-  return laz_ != nullptr ? laz_->tail_end() : reader_.file_size();
-}
+std::uint64_t LasPointRuns::tail_end() const { return laz_ != nullptr ? laz_->tail_end() : reader_.file_size(); }
 
 absl::StatusOr<std::string> FirstRecord(const LasReader& reader) {
   const LasHeader& header = reader.header();
@@ -91,8 +87,7 @@ absl::StatusOr<std::string> FirstRecord(const LasReader& reader) {
       laz::LazPoints::Open(reader.bytes(), reader.extent(), 1);
   if (!points.ok()) return reader.Named(points.status());
   std::string record(header.record_length, '\0');
-  if (absl::Status status = (*points)->Read(std::span<char>(record)); !status.ok())
-    return reader.Named(status);
+  if (absl::Status status = (*points)->Read(std::span<char>(record)); !status.ok()) return reader.Named(status);
   return record;
 }
 

@@ -17,7 +17,7 @@
 
 namespace albtpu::formats {
 
-inline constexpr int kFirstModernFormat = 6;  // Formats 6-10 have a byte for the class and finer scan angles.
+inline constexpr int kFirstModernFormat = 6;           // Formats 6-10 have a byte for the class and finer scan angles.
 inline constexpr double kModernScanAngleStep = 0.006;  // degree
 inline constexpr int kLegacyClassMask = 0x1F;          // Formats 0-5 have flags in the upper bits.
 inline constexpr int kClassCount = 256;
@@ -40,19 +40,15 @@ class LasPointFields {
   double Y(std::string_view record) const { return Coordinate(record, 1); }
   double Z(std::string_view record) const { return Coordinate(record, 2); }
   int Class(std::string_view record) const {
-    return modern_ ? laz::Load<std::uint8_t>(record, 16)
-                   : laz::Load<std::uint8_t>(record, 15) & kLegacyClassMask;
+    return modern_ ? laz::Load<std::uint8_t>(record, 16) : laz::Load<std::uint8_t>(record, 15) & kLegacyClassMask;
   }
   // Degrees, positive to the right of the flight direction.
   double ScanAngle(std::string_view record) const {
-    return modern_ ? laz::Load<std::int16_t>(record, 18) * kModernScanAngleStep
-                   : laz::Load<std::int8_t>(record, 16);
+    return modern_ ? laz::Load<std::int16_t>(record, 18) * kModernScanAngleStep : laz::Load<std::int8_t>(record, 16);
   }
 
   // Mostly the number of the flight line.
-  int PointSourceId(std::string_view record) const {
-    return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18);
-  }
+  int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
 
   bool has_gps_time() const { return gps_time_ != 0; }
   // As the file states it. Requires has_gps_time().

@@ -21,9 +21,8 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
   std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "rb");
   if (file == nullptr) {
     const int error = errno;
-    return absl::Status(
-        absl::ErrnoToStatusCode(error),
-        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a LAS or LAZ file that can be read"));
+    return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat(path.string(), ": ", std::strerror(error),
+                                                                     "; give a LAS or LAZ file that can be read"));
   }
   LasReader reader(path.string(), file);
   if (!reader.file_->stamp().is_regular()) {
@@ -66,13 +65,10 @@ absl::Status LasReader::File::ReadAt(std::uint64_t offset, std::span<char> bytes
   return absl::OkStatus();
 }
 
-absl::Status LasReader::CheckUnchanged() const {
-  return file_->stamp().CheckUnchanged(name_, file_->descriptor());
-}
+absl::Status LasReader::CheckUnchanged() const { return file_->stamp().CheckUnchanged(name_, file_->descriptor()); }
 
 absl::Status LasReader::ReadHead() {
-  const absl::StatusOr<std::string> beginning =
-      ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader));
+  const absl::StatusOr<std::string> beginning = ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader));
   if (!beginning.ok()) return beginning.status();
   const absl::StatusOr<LasHeader> header = ParseLasHeader(name_, *beginning, file_size());
   if (!header.ok()) return header.status();
@@ -89,30 +85,28 @@ absl::Status LasReader::ReadHead() {
 // LAZ has one LASzip record, LAS none.
 absl::Status LasReader::ReadLaszipRecord() {
   std::vector<const VlrEntry*> records;
-  for (const VlrEntry& vlr : vlrs_) {
+  for (const VlrEntry& vlr : vlrs_)
     if (vlr.user_id == laz::kLaszipUser) records.push_back(&vlr);
-  }
   if (!header_.compressed) {
     if (records.empty()) return absl::OkStatus();
-    return Named(absl::InvalidArgumentError(absl::StrCat(
-        "has a LASzip record, but its point format is not marked as compressed", laz::kGetAnotherCopy)));
+    return Named(absl::InvalidArgumentError(
+        absl::StrCat("has a LASzip record, but its point format is not marked as compressed", laz::kGetAnotherCopy)));
   }
   if (records.size() != 1 || !records[0]->Is(laz::kLaszipUser, laz::kLaszipRecordId)) {
-    return Named(absl::InvalidArgumentError(absl::StrCat(
-        "its points are compressed, but it has ", records.size(), " LASzip records (expected one, of number ",
-        laz::kLaszipRecordId, ")", laz::kGetAnotherCopy)));
+    return Named(absl::InvalidArgumentError(absl::StrCat("its points are compressed, but it has ", records.size(),
+                                                         " LASzip records (expected one, of number ",
+                                                         laz::kLaszipRecordId, ")", laz::kGetAnotherCopy)));
   }
   const VlrEntry& vlr = *records[0];
-  absl::StatusOr<laz::LaszipRecord> record = laz::ParseLaszipRecord(
-      head().substr(vlr.data_offset, vlr.data_size), header_.point_format, header_.record_length);
+  absl::StatusOr<laz::LaszipRecord> record = laz::ParseLaszipRecord(head().substr(vlr.data_offset, vlr.data_size),
+                                                                    header_.point_format, header_.record_length);
   if (!record.ok()) return Named(record.status());
   extent_ = {.record = *std::move(record),
              .points_begin = header_.offset_to_points,
              .point_count = header_.point_count,
              .points_end = file_size()};
-  for (const std::uint64_t start : {header_.start_of_evlrs, header_.start_of_waveform_packet}) {
+  for (const std::uint64_t start : {header_.start_of_evlrs, header_.start_of_waveform_packet})
     if (start != 0) extent_->points_end = std::min(extent_->points_end, start);
-  }
   return absl::OkStatus();
 }
 
@@ -120,9 +114,9 @@ absl::Status LasReader::ReadEvlrs() {
   std::uint64_t next = header_.start_of_evlrs;
   for (std::uint32_t i = 0; i < header_.evlr_count; ++i) {
     if (file_size() - next < kEvlrHeaderSize) {
-      return absl::DataLossError(absl::StrCat(
-          name_, ": extended variable length record ", i + 1, " of ", header_.evlr_count, " begins at byte ",
-          next, ", but the file has only ", file_size(), "; get a complete copy"));
+      return absl::DataLossError(absl::StrCat(name_, ": extended variable length record ", i + 1, " of ",
+                                              header_.evlr_count, " begins at byte ", next, ", but the file has only ",
+                                              file_size(), "; get a complete copy"));
     }
     const absl::StatusOr<std::string> bytes = ReadAt(next, kEvlrHeaderSize);
     if (!bytes.ok()) return bytes.status();

@@ -28,12 +28,9 @@ absl::Status Invalid(const LasReader& reader, const std::string& message) {
 
 // The record that describes the extra bytes; nullopt if the file has none.
 absl::StatusOr<std::optional<VlrEntry>> FindExtraBytesRecord(const LasReader& reader) {
-  for (const VlrEntry& evlr : reader.evlrs()) {
-    if (evlr.Is(kSpecUser, kExtraBytesRecord)) {
-      return Invalid(reader,
-                     "describes its extra bytes in an EVLR after the points; expected a VLR before them");
-    }
-  }
+  for (const VlrEntry& evlr : reader.evlrs())
+    if (evlr.Is(kSpecUser, kExtraBytesRecord))
+      return Invalid(reader, "describes its extra bytes in an EVLR after the points; expected a VLR before them");
   std::optional<VlrEntry> found;
   for (const VlrEntry& vlr : reader.vlrs()) {
     if (!vlr.Is(kSpecUser, kExtraBytesRecord)) continue;
@@ -43,8 +40,8 @@ absl::StatusOr<std::optional<VlrEntry>> FindExtraBytesRecord(const LasReader& re
   return found;
 }
 
-std::string Vlr(const LasReader& reader, std::string_view user, std::uint16_t record_id,
-                std::string_view description, const std::string& data) {
+std::string Vlr(const LasReader& reader, std::string_view user, std::uint16_t record_id, std::string_view description,
+                const std::string& data) {
   std::string bytes = VlrHeader(user, record_id, static_cast<std::uint16_t>(data.size()), description);
   if (reader.header().version_minor == 0) Store(kFirstVlrSignature, bytes.data());
   return bytes + data;
@@ -61,15 +58,14 @@ bool Set(std::size_t field, std::uint64_t value, std::string& head) {
 // Bytes of the EVLRs that are not kept, before byte `end` of the input.
 std::uint64_t LeftOutBefore(const LasReader& reader, std::uint64_t end) {
   std::uint64_t bytes = 0;
-  for (const VlrEntry& evlr : reader.evlrs()) {
+  for (const VlrEntry& evlr : reader.evlrs())
     if (!IsKept(reader, evlr) && evlr.offset < end) bytes += evlr.end() - evlr.offset;
-  }
   return bytes;
 }
 
 std::uint64_t KeptEvlrs(const LasReader& reader) {
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(reader.evlrs(), [&](const VlrEntry& evlr) { return IsKept(reader, evlr); }));
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      reader.evlrs(), [&](const VlrEntry& evlr) { return IsKept(reader, evlr); }));
 }
 
 }  // namespace
@@ -84,8 +80,8 @@ bool HasCopcIndex(const LasReader& reader) {
          (std::ranges::any_of(reader.vlrs(), is_copc) || std::ranges::any_of(reader.evlrs(), is_copc));
 }
 
-absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
-                                      LasKind kind, bool replace) {
+absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended, LasKind kind,
+                                      bool replace) {
   const LasHeader& header = reader.header();
   const std::string_view input = reader.head();
   const absl::StatusOr<std::optional<VlrEntry>> existing = FindExtraBytesRecord(reader);
@@ -104,9 +100,8 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   };
   if (record_length > std::numeric_limits<std::uint16_t>::max()) return no_room();
 
-  LasHead head{.bytes = std::string(input.substr(0, header.header_size)),
-               .record = {},
-               .replaced = description->replaced};
+  LasHead head{
+      .bytes = std::string(input.substr(0, header.header_size)), .record = {}, .replaced = description->replaced};
   std::uint64_t vlr_count = 0;
   const auto add = [&](std::string_view vlr) {
     head.bytes += vlr;
@@ -126,19 +121,17 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   if (kind == LasKind::kLaz) {
     const std::size_t points = std::clamp<std::size_t>(kChunkBytes / record_length, 1, laz::kCommonChunkSize);
     head.record = laz::RecordFor(header.point_format, record_length, static_cast<std::uint32_t>(points));
-    add(Vlr(reader, laz::kLaszipUser, laz::kLaszipRecordId, "LASzip record",
-            laz::LaszipRecordData(*head.record)));
+    add(Vlr(reader, laz::kLaszipUser, laz::kLaszipRecordId, "LASzip record", laz::LaszipRecordData(*head.record)));
   }
   head.bytes += input.substr(reader.vlrs().empty() ? header.header_size : reader.vlrs().back().end());
 
   const int mark = kind == LasKind::kLaz ? laz::kCompressedFlag : 0;
-  bool fits = Set<std::uint32_t>(las_field::kVlrCount, vlr_count, head.bytes) &&
-              Set<std::uint32_t>(las_field::kOffsetToPoints, head.bytes.size(), head.bytes) &&
-              Set<std::uint16_t>(las_field::kRecordLength, record_length, head.bytes) &&
-              Set<std::uint8_t>(las_field::kPointFormat,
-                                static_cast<std::uint64_t>(header.point_format | mark), head.bytes);
-  if (header.evlr_count > 0)
-    fits = fits && Set<std::uint32_t>(las_field::kEvlrCount, KeptEvlrs(reader), head.bytes);
+  bool fits =
+      Set<std::uint32_t>(las_field::kVlrCount, vlr_count, head.bytes) &&
+      Set<std::uint32_t>(las_field::kOffsetToPoints, head.bytes.size(), head.bytes) &&
+      Set<std::uint16_t>(las_field::kRecordLength, record_length, head.bytes) &&
+      Set<std::uint8_t>(las_field::kPointFormat, static_cast<std::uint64_t>(header.point_format | mark), head.bytes);
+  if (header.evlr_count > 0) fits = fits && Set<std::uint32_t>(las_field::kEvlrCount, KeptEvlrs(reader), head.bytes);
   if (!fits) return no_room();
   return head;
 }
@@ -150,9 +143,8 @@ void MoveTailStarts(const LasReader& reader, std::uint64_t from, std::uint64_t t
     const std::uint64_t start = KeptEvlrs(reader) > 0 ? moved(header.start_of_evlrs) : 0;
     Store(start, head.data() + las_field::kStartOfEvlrs);
   }
-  if (header.start_of_waveform_packet != 0) {
+  if (header.start_of_waveform_packet != 0)
     Store(moved(header.start_of_waveform_packet), head.data() + las_field::kStartOfWaveformPacket);
-  }
 }
 
 namespace {
@@ -174,8 +166,7 @@ absl::Status LasWriter::Begin() {
 }
 
 absl::Status LasWriter::Write(std::string_view bytes, std::uint64_t points) {
-  if (head_.record.has_value())
-    chunks_.push_back({.offset = output_.size(), .bytes = bytes.size(), .points = points});
+  if (head_.record.has_value()) chunks_.push_back({.offset = output_.size(), .bytes = bytes.size(), .points = points});
   return output_.Write(bytes);
 }
 

@@ -32,8 +32,8 @@ struct LasHead {
 // mark of compressed points; where EVLRs and waveform packets begin is not known before the points are written
 // (MoveTailStarts). Fails when a field would overflow, or when DescribeAppended fails.
 // With `replace`, floats that the records have already are not appended.
-absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
-                                      LasKind kind, bool replace = false);
+absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended, LasKind kind,
+                                      bool replace = false);
 
 // Whether a VLR or EVLR of LAZ is valid for the copy. The records of COPC, an index by the places of compressed points,
 // are not.

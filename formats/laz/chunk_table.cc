@@ -39,8 +39,8 @@ class SizesCoder {
 
  private:
   std::uint32_t Code(Coder& coder, std::uint32_t predicted, std::uint32_t actual, std::uint32_t context) {
-    return static_cast<std::uint32_t>(integers_->Code(coder, static_cast<std::int32_t>(predicted),
-                                                      static_cast<std::int32_t>(actual), context));
+    return static_cast<std::uint32_t>(
+        integers_->Code(coder, static_cast<std::int32_t>(predicted), static_cast<std::int32_t>(actual), context));
   }
 
   using Integers = IntegerCoder<Coder, 32, 2>;
@@ -68,9 +68,8 @@ absl::StatusOr<ChunkTable> FindTable(const ByteSource& file, std::uint64_t point
   if (!stated.ok()) return stated.status();
   if (*stated == points_begin) return absl::NotFoundError("the writer did not reach the chunk table");
   if (*stated != 0 && *stated != ~std::uint64_t{0}) {
-    if (*stated >= first && *stated <= size && size - *stated >= kHeadSize) {
+    if (*stated >= first && *stated <= size && size - *stated >= kHeadSize)
       return ChunkTable{.chunks = {}, .begin = *stated};
-    }
     return Broken("begins at byte ", *stated, " (expected ", first, " or more, and ", kHeadSize,
                   " bytes or more before the end of the file at byte ", size, ")");
   }
@@ -96,29 +95,23 @@ absl::StatusOr<std::vector<Chunk>> ReadChunks(ArithmeticDecoder& decoder, const 
     Sizes sizes = sizes_coder.Code(decoder, {});
     if (!decoder.status().ok()) return decoder.status();
     if (decoder.missing() > 0) return Broken("ends before its chunk ", i + 1, " of ", count);
-    const std::uint64_t points =
-        variable ? sizes.points : std::min<std::uint64_t>(record.chunk_size, points_left);
-    if (points > points_left) {
-      return Broken("states more points than the header (", point_count, ") up to chunk ", i + 1, " of ",
-                    count);
-    }
-    if (sizes.bytes > end - offset) {
-      return Broken("states more bytes than lie before it (", end - begin, ") up to chunk ", i + 1, " of ",
-                    count);
-    }
+    const std::uint64_t points = variable ? sizes.points : std::min<std::uint64_t>(record.chunk_size, points_left);
+    if (points > points_left)
+      return Broken("states more points than the header (", point_count, ") up to chunk ", i + 1, " of ", count);
+    if (sizes.bytes > end - offset)
+      return Broken("states more bytes than lie before it (", end - begin, ") up to chunk ", i + 1, " of ", count);
     // Each chunk begins with an uncompressed record. Some writers end with a chunk without points.
     if ((sizes.bytes < record.record_length()) != (points == 0)) {
       return Broken("states ", sizes.bytes, " bytes for chunk ", i + 1, " of ", count, " (expected ",
-                    points == 0 ? "fewer than " : "at least ", record.record_length(), " for its ", points,
-                    " points)");
+                    points == 0 ? "fewer than " : "at least ", record.record_length(), " for its ", points, " points)");
     }
     if (points > 0) chunks.push_back({offset, sizes.bytes, points});
     offset += sizes.bytes;
     points_left -= points;
   }
   if (points_left > 0) {
-    return Broken("states ", point_count - points_left, " points in ", count, " chunks (expected ",
-                  point_count, ", as the header states)");
+    return Broken("states ", point_count - points_left, " points in ", count, " chunks (expected ", point_count,
+                  ", as the header states)");
   }
   return chunks;
 }
@@ -127,8 +120,7 @@ absl::StatusOr<std::vector<Chunk>> ReadChunks(ArithmeticDecoder& decoder, const 
 
 absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRecord& record,
                                           std::uint64_t points_begin, std::uint64_t point_count) {
-  if (record.compressor == Compressor::kPointwise)
-    return absl::NotFoundError("compressor 1 has no chunk table");
+  if (record.compressor == Compressor::kPointwise) return absl::NotFoundError("compressor 1 has no chunk table");
   const std::uint64_t size = file.size(), first = points_begin + kTableOffsetSize;
   if (points_begin > size || size - points_begin < kTableOffsetSize) {
     return Damaged("its points begin at byte ", points_begin, ", less than ", kTableOffsetSize,
@@ -145,10 +137,8 @@ absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRe
   // Each chunk begins with an uncompressed record, so the size of the file bounds the memory, too. A file without
   // points may have a chunk without points.
   const std::uint64_t most = point_count == 0 ? 1 : (table.begin - first) / record.record_length();
-  if (*count > most) {
-    return Broken("states ", *count, " chunks (expected at most ", most, " in ", table.begin - first,
-                  " bytes)");
-  }
+  if (*count > most)
+    return Broken("states ", *count, " chunks (expected at most ", most, " in ", table.begin - first, " bytes)");
   if (*count == 0) {
     if (point_count > 0) return Broken("states no chunks for ", point_count, " points");
     table.end = table.begin + kHeadSize;
@@ -157,8 +147,7 @@ absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRe
   ByteWindow window;
   ArithmeticDecoder decoder;
   decoder.Begin(window, file, table.begin + kHeadSize, size);
-  absl::StatusOr<std::vector<Chunk>> chunks =
-      ReadChunks(decoder, record, *count, first, table.begin, point_count);
+  absl::StatusOr<std::vector<Chunk>> chunks = ReadChunks(decoder, record, *count, first, table.begin, point_count);
   if (!chunks.ok()) return chunks.status();
   table.chunks = *std::move(chunks);
   table.end = decoder.position();
@@ -172,10 +161,8 @@ std::string ChunkTableBytes(const LaszipRecord& record, const std::vector<Chunk>
   ArithmeticEncoder encoder;
   encoder.Begin();
   SizesCoder<ArithmeticEncoder> sizes_coder(record.chunk_size == kVariableChunks);
-  for (const Chunk& chunk : chunks) {
-    sizes_coder.Code(encoder,
-                     {static_cast<std::uint32_t>(chunk.points), static_cast<std::uint32_t>(chunk.bytes)});
-  }
+  for (const Chunk& chunk : chunks)
+    sizes_coder.Code(encoder, {static_cast<std::uint32_t>(chunk.points), static_cast<std::uint32_t>(chunk.bytes)});
   return bytes + encoder.Finish();
 }
 

@@ -21,8 +21,7 @@ struct Chunk {
 struct ChunkTable {
   std::vector<Chunk> chunks;
   std::uint64_t begin = 0, end = 0;  // Of the table itself, in the file.
-  bool offset_at_end =
-      false;  // Its offset is in the last 8 bytes of the file, as in those written to a pipe.
+  bool offset_at_end = false;        // Its offset is in the last 8 bytes of the file, as in those written to a pipe.
 };
 
 // Bytes before the first chunk: the offset of the table.

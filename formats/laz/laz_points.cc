@@ -45,13 +45,11 @@ absl::Status CheckAllCounted(const ByteSource& file, const LazExtent& extent, st
   std::array<char, sizeof(std::uint64_t)> next;
   if (absl::Status status = file.ReadAt(end, next); !status.ok()) return status;
   const std::uint64_t chunks = chunk_size > 0 ? (extent.point_count + chunk_size - 1) / chunk_size : 0;
-  if (chunk_size > 0 && Load<std::uint64_t>({next.data(), next.size()}, 0) == chunks << 32) {
-    return absl::OkStatus();
-  }
-  return absl::InvalidArgumentError(absl::StrCat(
-      "its header states ", extent.point_count, " points, but ", more,
-      " bytes follow them, and it has no chunk table; get another copy of the file, or correct the "
-      "point count"));
+  if (chunk_size > 0 && Load<std::uint64_t>({next.data(), next.size()}, 0) == chunks << 32) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("its header states ", extent.point_count, " points, but ", more,
+                   " bytes follow them, and it has no chunk table; get another copy of the file, or correct the "
+                   "point count"));
 }
 
 }  // namespace
@@ -108,9 +106,8 @@ class LazPoints::Impl {
  private:
   void Work() {
     std::unique_ptr<ChunkDecoder> decoder;
-    while (const std::optional<ChunkTask> task = NextChunk()) {
+    while (const std::optional<ChunkTask> task = NextChunk())
       if (!Decode(*task, decoder)) return;
-    }
   }
 
   std::optional<ChunkTask> NextChunk() {
@@ -156,8 +153,7 @@ class LazPoints::Impl {
       batch->status = InChunk(task.number, status);
       // Before the batch is filled, because after the last point End() may be called at once.
       if (!status.ok()) Fail();
-      if (status.ok() && left == 0 && !table_.has_value())
-        batch->status = EndWithoutTable(decoder->position());
+      if (status.ok() && left == 0 && !table_.has_value()) batch->status = EndWithoutTable(decoder->position());
       ring_.Fill(number);
       if (!status.ok()) return false;
     }
@@ -215,9 +211,8 @@ namespace {
 std::size_t ThreadCount(int wanted, const std::optional<ChunkTable>& table, const LazExtent& extent) {
   if (extent.point_count == 0) return 0;
   if (!table.has_value()) return 1;
-  const std::size_t most = wanted > 0
-                               ? static_cast<std::size_t>(wanted)
-                               : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
+  const std::size_t most = wanted > 0 ? static_cast<std::size_t>(wanted)
+                                      : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
   const std::size_t max_in_memory = std::max<std::size_t>(kMaxRecordBytes / extent.record.record_length(), 1);
   return std::min({most, max_in_memory, table->chunks.size()});
 }
@@ -227,20 +222,18 @@ std::size_t ThreadCount(int wanted, const std::optional<ChunkTable>& table, cons
 LazPoints::LazPoints(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LazPoints::~LazPoints() = default;
 
-absl::StatusOr<std::unique_ptr<LazPoints>> LazPoints::Open(const ByteSource& file, const LazExtent& extent,
-                                                           int threads, WantedFields wanted) {
+absl::StatusOr<std::unique_ptr<LazPoints>> LazPoints::Open(const ByteSource& file, const LazExtent& extent, int threads,
+                                                           WantedFields wanted) {
   assert(extent.points_begin <= extent.points_end && extent.points_end <= file.size());
   std::optional<ChunkTable> table;
   std::uint64_t begin = extent.points_begin, tail_end = file.size();
   const std::uint64_t room = extent.points_end - extent.points_begin;
   const bool has_chunks = extent.record.compressor != Compressor::kPointwise;
-  if (has_chunks && room < kTableOffsetSize && extent.point_count > 0) {
+  if (has_chunks && room < kTableOffsetSize && extent.point_count > 0)
     return Damaged("its points have ", room, " bytes (expected ", kTableOffsetSize, " and their chunks)");
-  }
   if (has_chunks && room >= kTableOffsetSize) {
     begin += kTableOffsetSize;
-    absl::StatusOr<ChunkTable> found =
-        ReadChunkTable(file, extent.record, extent.points_begin, extent.point_count);
+    absl::StatusOr<ChunkTable> found = ReadChunkTable(file, extent.record, extent.points_begin, extent.point_count);
     if (!found.ok() && !absl::IsNotFound(found.status())) return found.status();
     if (!found.ok() && extent.record.chunk_size == kVariableChunks && extent.point_count > 0) {
       return absl::InvalidArgumentError(absl::StrCat(
@@ -261,9 +254,8 @@ absl::StatusOr<std::unique_ptr<LazPoints>> LazPoints::Open(const ByteSource& fil
   }
   const std::size_t count = ThreadCount(threads, table, extent);
   auto impl = std::make_unique<Impl>(file, extent, std::move(table), begin, tail_end, count, wanted);
-  if (count > 0 && !impl->has_threads()) {
+  if (count > 0 && !impl->has_threads())
     return absl::ResourceExhaustedError("the system has no more threads; end other programs");
-  }
   return std::unique_ptr<LazPoints>(new LazPoints(std::move(impl)));
 }
 

@@ -97,8 +97,7 @@ class LazPoints {
   // Memory does not grow with the file or its chunks: each thread has at most two batches of at most 50 000 points or
   // about 4 MB ahead of Read(). The models of all threads take less than 400 MB, whatever the records are.
   static absl::StatusOr<std::unique_ptr<LazPoints>> Open(const ByteSource& file, const LazExtent& extent,
-                                                         int threads = 0,
-                                                         WantedFields wanted = WantedFields::kAll);
+                                                         int threads = 0, WantedFields wanted = WantedFields::kAll);
   ~LazPoints();  // At any time; ends the threads.
 
   // The next points: as many as fit. Requires a multiple of the record length, and no more points than are left. The

@@ -30,9 +30,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], last_but_one[j - 2] + 1);
-      }
     }
   }
   return row[b.size()];
@@ -53,8 +52,7 @@ std::optional<std::string> NearMatch(std::string_view word, const std::vector<st
   return nearest;
 }
 
-std::string Suggestion(std::string_view word, const std::vector<std::string>& candidates,
-                       std::string_view otherwise) {
+std::string Suggestion(std::string_view word, const std::vector<std::string>& candidates, std::string_view otherwise) {
   const std::optional<std::string> near = NearMatch(word, candidates);
   return near ? absl::StrCat("; did you mean ", *near, "?") : absl::StrCat("; ", std::string(otherwise));
 }
@@ -70,18 +68,16 @@ bool HasDigit(std::string_view text) { return text.find_first_of("0123456789") !
 
 std::optional<float> ParseFloat(std::string_view text) {
   float value = 0;
-  if (IsHexadecimal(text) || !absl::SimpleAtof(absl::string_view(text.data(), text.size()), &value)) {
+  if (IsHexadecimal(text) || !absl::SimpleAtof(absl::string_view(text.data(), text.size()), &value))
     return std::nullopt;
-  }
   const bool overflow = std::isinf(value) && HasDigit(text);
   return overflow ? std::copysign(std::numeric_limits<float>::max(), value) : value;
 }
 
 std::optional<double> ParseDouble(std::string_view text) {
   double value = 0;
-  if (IsHexadecimal(text) || !absl::SimpleAtod(absl::string_view(text.data(), text.size()), &value)) {
+  if (IsHexadecimal(text) || !absl::SimpleAtod(absl::string_view(text.data(), text.size()), &value))
     return std::nullopt;
-  }
   return value;
 }
 

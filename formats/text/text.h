@@ -19,8 +19,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b);
 std::optional<std::string> NearMatch(std::string_view word, const std::vector<std::string>& candidates);
 
 // "; did you mean X?" if X is a near match, otherwise "; " and `otherwise`.
-std::string Suggestion(std::string_view word, const std::vector<std::string>& candidates,
-                       std::string_view otherwise);
+std::string Suggestion(std::string_view word, const std::vector<std::string>& candidates, std::string_view otherwise);
 
 // Numbers as text, independent of the locale. A number in a file is rounded once, to single precision; a number
 // that is written reads back to the same value.

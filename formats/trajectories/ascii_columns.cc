@@ -66,15 +66,12 @@ constexpr std::array<AsciiColumn, 20> kPosExport = {{
 std::vector<std::string> Names(std::string_view line) {
   const absl::string_view text(line.data(), line.size());
   std::vector<std::string> names;
-  if (absl::StrContains(text, ",")) {
-    for (const absl::string_view name : absl::StrSplit(text, ',')) {
+  if (absl::StrContains(text, ","))
+    for (const absl::string_view name : absl::StrSplit(text, ','))
       names.push_back(absl::AsciiStrToLower(absl::StripAsciiWhitespace(name)));
-    }
-  } else {
-    for (const absl::string_view name : absl::StrSplit(text, absl::ByAnyChar(" \t\r"), absl::SkipEmpty())) {
+  else
+    for (const absl::string_view name : absl::StrSplit(text, absl::ByAnyChar(" \t\r"), absl::SkipEmpty()))
       names.push_back(absl::AsciiStrToLower(name));
-    }
-  }
   return names;
 }
 
@@ -82,13 +79,10 @@ std::vector<std::string> Names(std::string_view line) {
 std::string UnitContradiction(std::string_view line) {
   const absl::string_view text(line.data(), line.size());
   if (!absl::StrContains(text, "(time in ")) return "";
-  for (const char* unit :
-       {"time in Sec", "position in Meters", "lat, long in Degrees", "orientation angles and SD in Degrees",
-        "velocity in Meter/Sec", "position SD in Meters"}) {
-    if (!absl::StrContains(text, unit)) {
+  for (const char* unit : {"time in Sec", "position in Meters", "lat, long in Degrees",
+                           "orientation angles and SD in Degrees", "velocity in Meter/Sec", "position SD in Meters"})
+    if (!absl::StrContains(text, unit))
       return absl::StrCat("units other than '", unit, "'; export the trajectory with these units");
-    }
-  }
   return "";
 }
 

@@ -30,9 +30,7 @@ std::vector<SamplePair> Samples(const Trajectory& trajectory, const GridPosition
     return Sample{trajectory.Record(i), grid_position(i).value_or(GridPosition{})};
   };
   std::vector<SamplePair> pairs;
-  for (const RecordPair& pair : SpreadPairs(trajectory)) {
-    pairs.emplace_back(sample(pair.first), sample(pair.second));
-  }
+  for (const RecordPair& pair : SpreadPairs(trajectory)) pairs.emplace_back(sample(pair.first), sample(pair.second));
   return pairs;
 }
 
@@ -52,8 +50,7 @@ struct Motion {
   double speed = 0;       // Median.
   double fast_speed = 0;  // A tenth of the stretches are faster: an aircraft may have waited on the ground.
   double crab = 0;        // Median difference of heading and course.
-  double grid_turn =
-      0;  // Median difference of the course in the map frame and that of longitude and latitude.
+  double grid_turn = 0;   // Median difference of the course in the map frame and that of longitude and latitude.
   std::optional<double> velocity_difference;  // Rms, where velocities are stated.
 
   bool speed_fits() const { return fast_speed >= kSlowestFlight && speed <= kFastestFlight; }
@@ -76,17 +73,14 @@ Motion MotionOf(std::span<const SamplePair> pairs) {
     const double course = std::atan2(velocity.east, velocity.north);
     if (speeds.back() >= kCrabSpeed) crabs.push_back(AngleBetween(first.record.heading, course));
     const double x = second.grid.x - first.grid.x, y = second.grid.y - first.grid.y;
-    if (speeds.back() >= kSlowestFlight && (x != 0 || y != 0)) {
-      turns.push_back(AngleBetween(std::atan2(x, y), course));
-    }
+    if (speeds.back() >= kSlowestFlight && (x != 0 || y != 0)) turns.push_back(AngleBetween(std::atan2(x, y), course));
   }
   const bool states_velocities = std::isfinite(pairs.front().first.record.velocity_north);
   return {.speed = Median(speeds),
           .fast_speed = Quantile(speeds, 0.9),
           .crab = Median(crabs),
           .grid_turn = Median(turns),
-          .velocity_difference =
-              states_velocities ? std::optional(VelocityDifference(velocities)) : std::nullopt};
+          .velocity_difference = states_velocities ? std::optional(VelocityDifference(velocities)) : std::nullopt};
 }
 
 bool CanBeLatitude(double angle) { return std::abs(angle) <= std::numbers::pi / 2; }
@@ -123,9 +117,8 @@ constexpr Mistake kMistakes[] = {
 
 // The motion after undoing a mistake; nullopt if the samples cannot have it.
 std::optional<Motion> Undo(const Mistake& mistake, std::vector<SamplePair> pairs) {
-  for (auto& [first, second] : pairs) {
+  for (auto& [first, second] : pairs)
     if (!mistake.undo(first) || !mistake.undo(second)) return std::nullopt;
-  }
   return MotionOf(pairs);
 }
 
@@ -157,9 +150,8 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
   if (motion.fits() && motion.grid_fits()) return absl::OkStatus();
   for (const Mistake& mistake : kMistakes) {
     const std::optional<Motion> undone = Undo(mistake, pairs);
-    if (undone.has_value() && undone->fits() && undone->grid_fits()) {
+    if (undone.has_value() && undone->fits() && undone->grid_fits())
       return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", mistake.message));
-    }
   }
   // X and Y alone are checked later, with the map frame.
   if (motion.fits()) return absl::OkStatus();
@@ -229,9 +221,8 @@ double VelocityDifference(std::span<const VelocityPair> pairs) {
 std::optional<double> VelocityDifference(const Trajectory& trajectory) {
   if (!std::isfinite(trajectory.Record(0).velocity_north)) return std::nullopt;
   std::vector<VelocityPair> pairs;
-  for (const RecordPair& pair : SpreadPairs(trajectory)) {
+  for (const RecordPair& pair : SpreadPairs(trajectory))
     pairs.push_back(CompareVelocities(trajectory.Record(pair.first), trajectory.Record(pair.second)));
-  }
   if (pairs.empty()) return std::nullopt;
   return VelocityDifference(pairs);
 }

@@ -75,10 +75,12 @@ bool BeginsWithNumber(std::string_view line) {
 }
 
 bool IsText(std::string_view bytes) {
-  return std::none_of(bytes.begin(), bytes.end(), [](char character) {
-    const auto code = static_cast<unsigned char>(character);
-    return code < 32 && code != '\t' && code != '\n' && code != '\r';
-  });
+  return std::none_of(
+      bytes.begin(), bytes.end(),
+      [](char character) {
+        const auto code = static_cast<unsigned char>(character);
+        return code < 32 && code != '\t' && code != '\n' && code != '\r';
+      });
 }
 
 }  // namespace
@@ -92,18 +94,15 @@ class AsciiReader {
 
   absl::StatusOr<std::unique_ptr<AsciiTrajectory>> Read() {
     if (rest_.empty()) return Error("is empty; give an ASCII trajectory");
-    if (!AsciiTrajectory::Recognizes(rest_)) {
+    if (!AsciiTrajectory::Recognizes(rest_))
       return Error("is not text; give an SBET, or an ASCII trajectory of 15 or 20 columns");
-    }
     if (absl::Status status = ReadHeader(); !status.ok()) return status;
     std::unique_ptr<AsciiTrajectory> trajectory(new AsciiTrajectory(name_, columns_.size()));
     Reserve(*trajectory);
     do {
       if (absl::Status status = ReadLine(*trajectory); !status.ok()) return status;
     } while (NextLine());
-    if (trajectory->size() < 2) {
-      return Error("has a single record; give a trajectory of at least two");
-    }
+    if (trajectory->size() < 2) return Error("has a single record; give a trajectory of at least two");
     return trajectory;
   }
 
@@ -115,17 +114,17 @@ class AsciiReader {
     return absl::InvalidArgumentError(absl::StrCat(name_, " line ", line_number_, ": ", std::string(text)));
   }
   absl::Status ColumnError(std::size_t column, std::string_view text) const {
-    return absl::InvalidArgumentError(absl::StrCat(name_, " line ", line_number_, ", column ", column + 1,
-                                                   " '", columns_[column].name, "': ", std::string(text)));
+    return absl::InvalidArgumentError(absl::StrCat(name_, " line ", line_number_, ", column ", column + 1, " '",
+                                                   columns_[column].name, "': ", std::string(text)));
   }
 
   // Takes the next line that is not blank; false at the end of the file.
   bool NextLine() {
     while (!rest_.empty()) {
       const void* const newline = std::memchr(rest_.data(), '\n', rest_.size());
-      const std::size_t size =
-          newline == nullptr ? rest_.size()
-                             : static_cast<std::size_t>(static_cast<const char*>(newline) - rest_.data());
+      const std::size_t size = newline == nullptr
+                                   ? rest_.size()
+                                   : static_cast<std::size_t>(static_cast<const char*>(newline) - rest_.data());
       line_ = rest_.substr(0, size);
       rest_.remove_prefix(newline == nullptr ? size : size + 1);
       ++line_number_;
@@ -144,8 +143,7 @@ class AsciiReader {
       if (BeginsWithNumber(line_)) break;
       header.emplace_back(line_number_, line_);
       if (header.size() > kLongestHeader) {
-        return LineError(absl::StrCat("'", Word(line_),
-                                      "' is not a number, nor is any line above; give an ASCII ",
+        return LineError(absl::StrCat("'", Word(line_), "' is not a number, nor is any line above; give an ASCII ",
                                       "trajectory of 15 or 20 columns"));
       }
     }
@@ -159,8 +157,7 @@ class AsciiReader {
     for (const auto& [number, line] : header) {
       const std::string contradiction = HeaderContradiction(line, columns_);
       if (contradiction.empty()) continue;
-      return absl::InvalidArgumentError(
-          absl::StrCat(name_, " line ", number, ": the header states ", contradiction));
+      return absl::InvalidArgumentError(absl::StrCat(name_, " line ", number, ": the header states ", contradiction));
     }
     return absl::OkStatus();
   }
@@ -179,10 +176,10 @@ class AsciiReader {
     const AsciiColumn& expected = columns_[column];
     if (value >= expected.least && value <= expected.largest) return absl::OkStatus();
     const bool exchanged = expected.field == AsciiField::kLatitude && std::abs(value) <= 360;
-    return ColumnError(column, absl::StrFormat("%g %s is outside %g to %g%s", value, expected.unit,
-                                               expected.least, expected.largest,
-                                               exchanged ? "; exchange latitude and longitude"
-                                                         : "; check the order and the units of the columns"));
+    return ColumnError(
+        column, absl::StrFormat("%g %s is outside %g to %g%s", value, expected.unit, expected.least, expected.largest,
+                                exchanged ? "; exchange latitude and longitude"
+                                          : "; check the order and the units of the columns"));
   }
 
   absl::Status ReadNumbers(std::array<double, kAsciiFields>& values) const {
@@ -214,17 +211,14 @@ class AsciiReader {
       time = continued;
       return absl::OkStatus();
     }
-    return ColumnError(
-        0, absl::StrFormat("%.6f s follows %.6f s: times must increase; sort the lines by time", time,
-                           next_week_ ? before - kSecondsPerWeek : before));
+    return ColumnError(0, absl::StrFormat("%.6f s follows %.6f s: times must increase; sort the lines by time", time,
+                                          next_week_ ? before - kSecondsPerWeek : before));
   }
 
   absl::Status ReadLine(AsciiTrajectory& trajectory) {
     std::array<double, kAsciiFields> values;
     if (absl::Status status = ReadNumbers(values); !status.ok()) return status;
-    const auto value = [&values](AsciiField field) -> double& {
-      return values[static_cast<std::size_t>(field)];
-    };
+    const auto value = [&values](AsciiField field) -> double& { return values[static_cast<std::size_t>(field)]; };
     const auto angle = [&value](AsciiField field) { return RadiansOfDegrees(value(field)); };
     const auto sigma = [&](AsciiField field) { return static_cast<float>(value(field)); };
     const auto angle_sigma = [&](AsciiField field) { return static_cast<float>(angle(field)); };
@@ -245,14 +239,12 @@ class AsciiReader {
                                  .sigma_roll = angle_sigma(kSigmaRoll),
                                  .sigma_pitch = angle_sigma(kSigmaPitch),
                                  .sigma_heading = angle_sigma(kSigmaHeading)});
-    if (HasVelocities()) {
+    if (HasVelocities())
       trajectory.velocities_.push_back({value(kVelocityNorth), value(kVelocityEast), value(kVelocityUp)});
-    }
     const AsciiTrajectory::Line& line = trajectory.lines_.back();
     trajectory.has_grid_ = trajectory.has_grid_ || line.x != 0 || line.y != 0;
-    trajectory.has_sigma_ = trajectory.has_sigma_ || line.sigma_x > 0 || line.sigma_y > 0 ||
-                            line.sigma_z > 0 || line.sigma_roll > 0 || line.sigma_pitch > 0 ||
-                            line.sigma_heading > 0;
+    trajectory.has_sigma_ = trajectory.has_sigma_ || line.sigma_x > 0 || line.sigma_y > 0 || line.sigma_z > 0 ||
+                            line.sigma_roll > 0 || line.sigma_pitch > 0 || line.sigma_heading > 0;
     return absl::OkStatus();
   }
 
@@ -269,8 +261,7 @@ absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Open(const std
   return Parse(path.string(), file->bytes());
 }
 
-absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::string name,
-                                                                        std::string_view text) {
+absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::string name, std::string_view text) {
   absl::StatusOr<std::unique_ptr<AsciiTrajectory>> trajectory = AsciiReader(std::move(name), text).Read();
   if (!trajectory.ok()) return trajectory;
   const auto grid_position = [&trajectory](std::size_t i) { return (*trajectory)->GridPositionAt(i); };
@@ -278,9 +269,7 @@ absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::str
   return trajectory;
 }
 
-bool AsciiTrajectory::Recognizes(std::string_view bytes) {
-  return !bytes.empty() && IsText(bytes.substr(0, 4096));
-}
+bool AsciiTrajectory::Recognizes(std::string_view bytes) { return !bytes.empty() && IsText(bytes.substr(0, 4096)); }
 
 TrajectoryRecord AsciiTrajectory::Record(std::size_t record) const {
   const Line& line = lines_[record];

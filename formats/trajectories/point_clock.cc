@@ -29,10 +29,10 @@ absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& poin
                                  const std::string& of) {
   if (!std::isfinite(points.span.first) || !std::isfinite(points.span.last) ||
       (points.span.first == 0 && points.span.last == 0)) {
-    return absl::FailedPreconditionError(absl::StrFormat(
-        "%s: the GPS times of its points are no times, so that no sea of %s belongs to them; choose "
-        "one by --sea-time",
-        name, of));
+    return absl::FailedPreconditionError(
+        absl::StrFormat("%s: the GPS times of its points are no times, so that no sea of %s belongs to them; choose "
+                        "one by --sea-time",
+                        name, of));
   }
   const auto outside = [&] {
     return absl::FailedPreconditionError(
@@ -52,12 +52,10 @@ absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& poin
   std::vector<double> offsets;
   for (double week = first_week; week <= last_week && offsets.size() < 2; ++week) {
     const double offset = UtcOfGps(week * kSecondsPerWeek + points.span.first) - points.span.first;
-    if (Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0)
-      offsets.push_back(offset);
+    if (Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0) offsets.push_back(offset);
   }
   if (offsets.empty()) return outside();
-  if (offsets.size() == 1 && points.span.last - points.span.first < kSecondsPerWeek / 2)
-    return offsets.front();
+  if (offsets.size() == 1 && points.span.last - points.span.first < kSecondsPerWeek / 2) return offsets.front();
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s: its GPS times are seconds of a week that they do not name (%s, %s), and %s; choose an instant by "
       "--sea-time, "

@@ -42,8 +42,7 @@ SbetRecord WithVelocities(SbetRecord record, double x, double y, double z) {
   return record;
 }
 SbetRecord WithVelocitiesTimes(const SbetRecord& record, double factor) {
-  return WithVelocities(record, factor * record.velocity_x, factor * record.velocity_y,
-                        factor * record.velocity_z);
+  return WithVelocities(record, factor * record.velocity_x, factor * record.velocity_y, factor * record.velocity_z);
 }
 
 constexpr std::array kMistakes = {
@@ -88,8 +87,7 @@ constexpr std::array kMistakes = {
             }},
     Mistake{"its velocities are in feet per second",
             [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},
-    Mistake{"its velocities are in knots",
-            [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
+    Mistake{"its velocities are in knots", [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
     Mistake{"its heights are in feet",
             [](SbetRecord record) {
               record.height *= kFoot;
@@ -98,17 +96,13 @@ constexpr std::array kMistakes = {
 };
 
 // None where the change makes a position that is not on the globe.
-std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pairs,
-                                                    SbetRecord (*undo)(SbetRecord)) {
+std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pairs, SbetRecord (*undo)(SbetRecord)) {
   std::vector<VelocityPair> velocities;
   velocities.reserve(pairs.size());
   for (const SbetPair& pair : pairs) {
     const SbetRecord first = undo(pair.first), second = undo(pair.second);
-    for (const SbetRecord& record : {first, second}) {
-      if (!(std::abs(record.latitude) <= kPi / 2 && std::abs(record.longitude) <= 2 * kPi)) {
-        return std::nullopt;
-      }
-    }
+    for (const SbetRecord& record : {first, second})
+      if (!(std::abs(record.latitude) <= kPi / 2 && std::abs(record.longitude) <= 2 * kPi)) return std::nullopt;
     velocities.push_back(CompareVelocities(TrajectoryRecordOf(first), TrajectoryRecordOf(second)));
   }
   return velocities;
@@ -123,9 +117,8 @@ struct Turn {
 };
 Turn BestTurn(std::vector<VelocityPair> velocities) {
   std::complex<double> sum = 0;
-  for (const VelocityPair& pair : velocities) {
+  for (const VelocityPair& pair : velocities)
     sum += std::complex(pair.north, pair.east) * std::conj(std::complex(pair.stated_north, pair.stated_east));
-  }
   const double angle = std::arg(sum);
   for (VelocityPair& pair : velocities) {
     const auto turned = std::complex(pair.stated_north, pair.stated_east) * std::polar(1.0, angle);
@@ -150,8 +143,7 @@ bool HeightsAreInFeet(std::span<const VelocityPair> velocities) {
     const double difference = pair.up - slope * pair.stated_up;
     residual += difference * difference;
   }
-  const double standard_error =
-      std::sqrt(residual / static_cast<double>(velocities.size() - 1) / sum_squares);
+  const double standard_error = std::sqrt(residual / static_cast<double>(velocities.size() - 1) / sum_squares);
   return standard_error < 0.1 && std::abs(slope - 1 / kFoot) < 4 * standard_error + 0.01;
 }
 
@@ -162,8 +154,7 @@ struct HeadingTurn {
   bool free_of_wind = false;  // From opposite courses.
   double wander = 0;          // rad, mean of the wander angles of the same records.
 };
-std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs,
-                                          std::span<const VelocityPair> velocities) {
+std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs, std::span<const VelocityPair> velocities) {
   std::array<std::complex<double>, kSectors> sums = {};
   std::array<std::size_t, kSectors> counts = {};
   std::complex<double> all = 0, wander = 0;

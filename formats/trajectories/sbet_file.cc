@@ -64,19 +64,13 @@ bool IsBigEndian(std::span<const SbetRecord> records) {
 std::string Implausibility(const SbetRecord& record) {
   if (!IsFinite(record)) return "has a number that is not finite";
   if (record.time < 0) return absl::StrFormat("has the time %.6g s, which is negative", record.time);
-  if (std::abs(record.latitude) > kPi / 2) {
+  if (std::abs(record.latitude) > kPi / 2)
     return absl::StrFormat("has the latitude %.9g rad, beyond pi/2", record.latitude);
-  }
-  if (std::abs(record.longitude) > 2 * kPi) {
+  if (std::abs(record.longitude) > 2 * kPi)
     return absl::StrFormat("has the longitude %.9g rad, beyond 2 pi", record.longitude);
-  }
-  if (std::abs(record.roll) >= kPi / 2)
-    return absl::StrFormat("has the roll %.9g rad, beyond pi/2", record.roll);
-  if (std::abs(record.pitch) >= kPi / 2) {
-    return absl::StrFormat("has the pitch %.9g rad, beyond pi/2", record.pitch);
-  }
-  return absl::StrFormat("has the height %.6g m, not between %.0f and %.0f", record.height, kLowestHeight,
-                         kMaxHeight);
+  if (std::abs(record.roll) >= kPi / 2) return absl::StrFormat("has the roll %.9g rad, beyond pi/2", record.roll);
+  if (std::abs(record.pitch) >= kPi / 2) return absl::StrFormat("has the pitch %.9g rad, beyond pi/2", record.pitch);
+  return absl::StrFormat("has the height %.6g m, not between %.0f and %.0f", record.height, kLowestHeight, kMaxHeight);
 }
 
 }  // namespace
@@ -85,8 +79,7 @@ SbetFile::SbetFile(std::string name, MappedFile file)
     : Trajectory(std::move(name)),
       file_(std::move(file)),
       // A mapping begins at a page, so the records are aligned.
-      records_(reinterpret_cast<const SbetRecord*>(file_.bytes().data()),
-               file_.bytes().size() / sizeof(SbetRecord)),
+      records_(reinterpret_cast<const SbetRecord*>(file_.bytes().data()), file_.bytes().size() / sizeof(SbetRecord)),
       next_week_(records_.size()) {}
 
 TrajectoryRecord SbetFile::Record(std::size_t record) const {
@@ -104,13 +97,12 @@ absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Open(const std::filesystem::
 absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Parse(const std::string& name, MappedFile mapped) {
   const std::size_t bytes = mapped.bytes().size();
   if (bytes % sizeof(SbetRecord) != 0) {
-    return Invalid(
-        name, absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
-                           ", the size of an SBET record (",
-                           bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
-                               ? "its size fits an SMRMSG, an error file); give the SBET here, and "
-                                 "error files by --trajectory-errors, or a complete copy if it was cut short"
-                               : "cut short, or another format); get a complete copy of the SBET"));
+    return Invalid(name, absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
+                                      ", the size of an SBET record (",
+                                      bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
+                                          ? "its size fits an SMRMSG, an error file); give the SBET here, and "
+                                            "error files by --trajectory-errors, or a complete copy if it was cut short"
+                                          : "cut short, or another format); get a complete copy of the SBET"));
   }
   if (bytes < 2 * sizeof(SbetRecord)) {
     return Invalid(name, absl::StrCat("has ", bytes / sizeof(SbetRecord), bytes == 0 ? " records" : " record",
@@ -130,26 +122,24 @@ absl::Status SbetFile::CheckRecords() {
       if (IsBigEndian(records_)) {
         cause = " (its numbers are big-endian); convert it to little-endian";
       } else if (i + 1 < records_.size() && IsFinite(record)) {
-        for (const RecordPair& pair : SpreadPairs(*this)) {
+        for (const RecordPair& pair : SpreadPairs(*this))
           pairs.push_back({records_[pair.first], records_[pair.second]});
-        }
         const std::optional<std::string> found = VelocityCause(pairs);
         if (found.has_value()) cause = absl::StrCat(" (", *found, "); correct the fields");
       }
       if (cause.empty()) cause = " (a damaged file, or another format); get a sound copy of the SBET";
-      return Invalid(name(), absl::StrCat("record ", i + 1, " of ", records_.size(), " ",
-                                          Implausibility(record), cause));
+      return Invalid(name(),
+                     absl::StrCat("record ", i + 1, " of ", records_.size(), " ", Implausibility(record), cause));
     }
     if (i == 0 || TimeAt(i) > TimeAt(i - 1)) continue;
     if (next_week_ == records_.size() && StartsNextWeek(records_[i - 1].time, record.time)) {
       next_week_ = i;
       continue;
     }
-    return Invalid(
-        name(),
-        absl::StrFormat("record %d of %d is at %.6f s, not after the one before it (%.6f s); times must "
-                        "increase: sort and merge the SBET again, or give its parts as separate files",
-                        i + 1, records_.size(), record.time, records_[i - 1].time));
+    return Invalid(name(),
+                   absl::StrFormat("record %d of %d is at %.6f s, not after the one before it (%.6f s); times must "
+                                   "increase: sort and merge the SBET again, or give its parts as separate files",
+                                   i + 1, records_.size(), record.time, records_[i - 1].time));
   }
   for (const RecordPair& pair : SpreadPairs(*this)) {
     pairs.push_back({records_[pair.first], records_[pair.second]});
@@ -184,8 +174,7 @@ constexpr std::array<Field, 10> kFields = {{{"time", "s", 1e10},
 
 double Load(std::string_view bytes, std::size_t record, std::size_t field) {
   double number;
-  std::memcpy(&number, bytes.data() + record * SmrmsgFile::kRecordSize + field * sizeof number,
-              sizeof number);
+  std::memcpy(&number, bytes.data() + record * SmrmsgFile::kRecordSize + field * sizeof number, sizeof number);
   return number;
 }
 
@@ -213,9 +202,8 @@ absl::StatusOr<SmrmsgFile> SmrmsgFile::Parse(std::string name, std::string_view 
 bool SmrmsgFile::Recognizes(std::string_view bytes) {
   const std::size_t records = std::min<std::size_t>(bytes.size() / kRecordSize, 8);
   for (std::size_t record = 0; record < records; ++record) {
-    for (std::size_t field = 0; field < kFields.size(); ++field) {
+    for (std::size_t field = 0; field < kFields.size(); ++field)
       if (!IsPlausible(Load(bytes, record, field), kFields[field])) return false;
-    }
     if (record == 0) continue;
     const double before = Load(bytes, record - 1, 0), time = Load(bytes, record, 0);
     if (time <= before && !StartsNextWeek(before, time)) return false;
@@ -230,28 +218,24 @@ absl::Status SmrmsgFile::CheckSigmas(std::size_t record) const {
     const double value = Number(record, field);
     if (IsPlausible(value, kFields[field])) continue;
     const bool is_number = std::isfinite(value);
-    return absl::InvalidArgumentError(
-        absl::StrCat(name_, " record ", record + 1, ", ", kFields[field].name, ": ",
-                     is_number ? absl::StrCat(value, " ", kFields[field].unit, " is ",
-                                              value < 0 ? "negative" : "implausibly large")
-                               : "not a finite number",
-                     "; give an SMRMSG, records of 10 little-endian doubles"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        name_, " record ", record + 1, ", ", kFields[field].name, ": ",
+        is_number ? absl::StrCat(value, " ", kFields[field].unit, " is ", value < 0 ? "negative" : "implausibly large")
+                  : "not a finite number",
+        "; give an SMRMSG, records of 10 little-endian doubles"));
   }
   return absl::OkStatus();
 }
 
 absl::Status SmrmsgFile::Check() {
-  if (bytes_.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(name_, ": is empty; give an SMRMSG"));
-  }
+  if (bytes_.empty()) return absl::InvalidArgumentError(absl::StrCat(name_, ": is empty; give an SMRMSG"));
   if (bytes_.size() % kRecordSize != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(name_, ": ", bytes_.size(), " bytes are not a multiple of ", kRecordSize,
-                     ", the size of an SMRMSG record (",
-                     bytes_.size() % sizeof(SbetRecord) == 0
-                         ? "its size fits an SBET, a trajectory); give the SMRMSG here, and trajectories by "
-                           "--trajectory"
-                         : "cut short, or another format); get a complete copy of the SMRMSG"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        name_, ": ", bytes_.size(), " bytes are not a multiple of ", kRecordSize, ", the size of an SMRMSG record (",
+        bytes_.size() % sizeof(SbetRecord) == 0
+            ? "its size fits an SBET, a trajectory); give the SMRMSG here, and trajectories by "
+              "--trajectory"
+            : "cut short, or another format); get a complete copy of the SMRMSG"));
   }
   for (std::size_t record = 0; record < size(); ++record) {
     if (const absl::Status status = CheckSigmas(record); !status.ok()) return status;
@@ -259,10 +243,10 @@ absl::Status SmrmsgFile::Check() {
     const double before = Number(record - 1, 0), time = Number(record, 0);
     if (next_week_ == 0 && StartsNextWeek(before, time)) next_week_ = record;
     if (TimeAt(record) > TimeAt(record - 1)) continue;
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "%s record %d: time %.6f s follows %.6f s: times must increase; give an SMRMSG as it was "
-        "exported",
-        name_, record + 1, time, before));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%s record %d: time %.6f s follows %.6f s: times must increase; give an SMRMSG as it was "
+                        "exported",
+                        name_, record + 1, time, before));
   }
   return absl::OkStatus();
 }
@@ -288,11 +272,10 @@ std::optional<TrajectorySigma> SmrmsgFile::SigmaAt(double time) const {
   std::size_t begin = 0, end = size();
   while (begin < end) {
     const std::size_t middle = begin + (end - begin) / 2;
-    if (TimeAt(middle) < time) {
+    if (TimeAt(middle) < time)
       begin = middle + 1;
-    } else {
+    else
       end = middle;
-    }
   }
   if (begin == size()) return std::nullopt;
   const double after = TimeAt(begin);

@@ -93,8 +93,7 @@ class SmrmsgFile {
   std::string name_;
   std::optional<MappedFile> file_;
   std::string_view bytes_;
-  std::size_t next_week_ =
-      0;  // The first record after the end of the week, if the file starts again from 0 there.
+  std::size_t next_week_ = 0;  // The first record after the end of the week, if the file starts again from 0 there.
 };
 
 }  // namespace albtpu::formats

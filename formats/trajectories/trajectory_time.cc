@@ -18,9 +18,7 @@ using std::chrono::year;
 constexpr sys_days kEpoch = year{1980} / 1 / 6;
 constexpr double kSecondsPerDay = 86400;  // Of UTC without its leap seconds; exact.
 
-constexpr double SinceEpoch(sys_days day) {
-  return static_cast<double>((day - kEpoch).count()) * kSecondsPerDay;
-}
+constexpr double SinceEpoch(sys_days day) { return static_cast<double>((day - kEpoch).count()) * kSecondsPerDay; }
 
 // The days with which a leap second took effect since GPS time began (IERS, leap-seconds.list).
 constexpr std::array kLeapDays = {
@@ -49,11 +47,10 @@ class Digits {
 
   // One of the characters.
   void Expect(std::string_view characters) {
-    if (rest_.empty() || characters.find(rest_.front()) == std::string_view::npos) {
+    if (rest_.empty() || characters.find(rest_.front()) == std::string_view::npos)
       Fail();
-    } else {
+    else
       rest_.remove_prefix(1);
-    }
   }
 
   bool Next(char character) const { return !rest_.empty() && rest_.front() == character; }
@@ -134,8 +131,8 @@ std::string UtcText(double gps_time) {
   const std::chrono::year_month_day date(kEpoch + std::chrono::days(static_cast<int>(day)));
   const int second = static_cast<int>(utc - day * kSecondsPerDay);
   return absl::StrFormat("%04d-%02d-%02dT%02d:%02d:%02dZ", static_cast<int>(date.year()),
-                         static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                         second / 3600, second / 60 % 60, second % 60);
+                         static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), second / 3600,
+                         second / 60 % 60, second % 60);
 }
 
 namespace {
@@ -192,9 +189,8 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
   if (!week_seconds) return Longest(trajectory, points.span, std::array{leap, leap - kAdjustedGpsOffset});
   // The week of the first point, of the last point, and the one before: the trajectory may have begun in it.
   const double first_week = kSecondsPerWeek * std::floor(gps / kSecondsPerWeek) - kAdjustedGpsOffset + leap;
-  const double last_week =
-      kSecondsPerWeek * std::floor((points.span.last + kAdjustedGpsOffset) / kSecondsPerWeek) -
-      kAdjustedGpsOffset + leap;
+  const double last_week = kSecondsPerWeek * std::floor((points.span.last + kAdjustedGpsOffset) / kSecondsPerWeek) -
+                           kAdjustedGpsOffset + leap;
   return Longest(trajectory, points.span, std::array{first_week, first_week - kSecondsPerWeek, last_week});
 }
 
@@ -221,9 +217,8 @@ struct Mismatch {
 };
 Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const PointTimes& points) {
   const TimeSpan& span = points.span;
-  if (span.first == 0 && span.last == 0) {
+  if (span.first == 0 && span.last == 0)
     return {"the GPS times of the points are all 0", "export the LAS again with GPS times"};
-  }
   if (points.form == PointTimeForm::kWeekSeconds && (span.first < 0 || span.last > kLastWeekTime)) {
     return {"the header of the LAS states seconds of the GPS week, but these are adjusted standard GPS times",
             "set bit 0 of its global encoding"};
@@ -247,14 +242,13 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
   const double weeks = std::round(apart / kSecondsPerWeek);
   const double shift = offset + weeks * kSecondsPerWeek;
   if (weeks != 0 && Overlap({trajectory.first + shift, trajectory.last + shift}, span) >= 0) {
-    return {absl::StrFormat("another week: it is %.0f week%s %s", std::abs(weeks),
-                            std::abs(weeks) == 1 ? "" : "s", weeks > 0 ? "earlier" : "later"),
+    return {absl::StrFormat("another week: it is %.0f week%s %s", std::abs(weeks), std::abs(weeks) == 1 ? "" : "s",
+                            weeks > 0 ? "earlier" : "later"),
             "give the trajectory of this flight"};
   }
   // Seconds of a week, counted from the beginning of an earlier one.
   const double counted = std::floor(trajectory.first / kSecondsPerWeek);
-  const TimeSpan reduced = {trajectory.first - counted * kSecondsPerWeek,
-                            trajectory.last - counted * kSecondsPerWeek};
+  const TimeSpan reduced = {trajectory.first - counted * kSecondsPerWeek, trajectory.last - counted * kSecondsPerWeek};
   if (counted > 0 && BestOffset(reduced, clock, points).overlap >= 0) {
     return {absl::StrFormat("another week: it is %.0f week%s later", counted, counted == 1 ? "" : "s"),
             "give the trajectory of this flight"};
@@ -264,14 +258,11 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
 
 }  // namespace
 
-double Overlap(const TimeSpan& a, const TimeSpan& b) {
-  return std::min(a.last, b.last) - std::max(a.first, b.first);
-}
+double Overlap(const TimeSpan& a, const TimeSpan& b) { return std::min(a.last, b.last) - std::max(a.first, b.first); }
 
 std::string DescribePointTimes(const PointTimes& points) {
-  if (points.form == PointTimeForm::kWeekSeconds) {
+  if (points.form == PointTimeForm::kWeekSeconds)
     return absl::StrFormat("%.1f to %.1f s of the GPS week", points.span.first, points.span.last);
-  }
   const double gps = points.span.first + kAdjustedGpsOffset;
   const double week = std::floor(gps / kSecondsPerWeek);
   const double begin = week * kSecondsPerWeek;
@@ -283,17 +274,17 @@ std::string DescribePointTimes(const PointTimes& points) {
 absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& trajectory, TrajectoryClock clock,
                                   const PointTimes& points) {
   if (IsAmbiguous(trajectory, points)) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "%s: fits more than one week of the points, which last %.1f days (it does not name its week); "
-        "split the LAS by flight, or give a trajectory with GPS times since 1980",
-        name, (points.span.last - points.span.first) / 86400));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%s: fits more than one week of the points, which last %.1f days (it does not name its week); "
+                        "split the LAS by flight, or give a trajectory with GPS times since 1980",
+                        name, (points.span.last - points.span.first) / 86400));
   }
   const Candidate best = BestOffset(trajectory, clock, points);
   if (best.overlap >= 0 && !(points.span.first == 0 && points.span.last == 0)) return best.offset;
   const Mismatch mismatch = MismatchCause(trajectory, clock, points);
   return absl::InvalidArgumentError(absl::StrFormat(
-      "%s: no record at the times of the points: it has %.1f to %.1f s, they have %s (%s); %s", name,
-      trajectory.first, trajectory.last, DescribePointTimes(points), mismatch.why, mismatch.suggestion));
+      "%s: no record at the times of the points: it has %.1f to %.1f s, they have %s (%s); %s", name, trajectory.first,
+      trajectory.last, DescribePointTimes(points), mismatch.why, mismatch.suggestion));
 }
 
 }  // namespace albtpu::formats

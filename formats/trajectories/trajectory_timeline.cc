@@ -103,11 +103,10 @@ std::size_t FirstRecordFrom(const TimelineRun& run, double time) {
   std::size_t low = run.begin, high = run.end;
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
-    if (run.TimeAt(middle) < time) {
+    if (run.TimeAt(middle) < time)
       low = middle + 1;
-    } else {
+    else
       high = middle;
-    }
   }
   return low;
 }
@@ -183,9 +182,8 @@ void AppendWithoutGaps(const TimelineRun& run, std::vector<TimelineRun>& parts) 
 absl::Status CheckOverlaps(const std::vector<TimelineRun>& sorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const double end = sorted[i].span().last;
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].span().first < end; ++j) {
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].span().first < end; ++j)
       if (absl::Status status = CheckOverlap(sorted[i], sorted[j]); !status.ok()) return status;
-    }
   }
   return absl::OkStatus();
 }
@@ -233,11 +231,9 @@ TrajectoryRecord Interpolate(const TrajectoryRecord& first, const TrajectoryReco
   return record;
 }
 
-absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFiles& files,
-                                                              TrajectoryClock clock,
+absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFiles& files, TrajectoryClock clock,
                                                               const PointTimes& points) {
-  if (files.empty())
-    return absl::InvalidArgumentError("--trajectory: no file; give one or more trajectories");
+  if (files.empty()) return absl::InvalidArgumentError("--trajectory: no file; give one or more trajectories");
   std::vector<TimelineRun> parts;
   std::optional<TimelineRun> kept;
   absl::Status no_overlap;
@@ -264,9 +260,8 @@ absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFi
                         "interpolated over a longer step; export the trajectory at 5 Hz or more",
                         kept->trajectory->name(), kept->TimeAt(kept->begin + 1) - kept->TimeAt(kept->begin)));
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const TimelineRun& a, const TimelineRun& b) {
-    return a.span().first < b.span().first;
-  });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const TimelineRun& a, const TimelineRun& b) { return a.span().first < b.span().first; });
   if (absl::Status status = CheckOverlaps(parts); !status.ok()) return status;
   TrajectoryTimeline timeline(points);
   timeline.runs_ = WithoutRepetition(parts);

@@ -69,14 +69,13 @@ class WaterLevelReader {
       const std::string name = CellText(record, cell);
       std::optional<std::size_t>* const column = name == kTime ? &time : name == kLevel ? &level : nullptr;
       if (column == nullptr) continue;
-      if (column->has_value())
-        return CellError(record, name.c_str(), "occurs twice; remove one of the columns");
+      if (column->has_value()) return CellError(record, name.c_str(), "occurs twice; remove one of the columns");
       *column = cell;
     }
     if (!time.has_value() || !level.has_value()) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          name_, " line ", record.line, ": there is no column '", time.has_value() ? kLevel : kTime,
-          "'; name the columns time and water_level in the first line"));
+      return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": there is no column '",
+                                                     time.has_value() ? kLevel : kTime,
+                                                     "'; name the columns time and water_level in the first line"));
     }
     time_column_ = *time;
     level_column_ = *level;
@@ -89,8 +88,8 @@ class WaterLevelReader {
     // A decimal comma makes two cells of one number, of which the first is a wrong level.
     if (record.cell_count() != column_count_) {
       return absl::InvalidArgumentError(
-          absl::StrCat(name_, " line ", record.line, ": has ", record.cell_count(),
-                       " cells, but the first line names ", column_count_,
+          absl::StrCat(name_, " line ", record.line, ": has ", record.cell_count(), " cells, but the first line names ",
+                       column_count_,
                        " columns (a decimal comma, or a cell that is missing); write one cell for each "
                        "column, and decimal points"));
     }
@@ -104,9 +103,9 @@ class WaterLevelReader {
     double time = 0;
     if (absl::Status status = ReadTime(record, time); !status.ok()) return status;
     if (series_.size() > 0 && !(time > series_.times_.back())) {
-      return CellError(record, kTime,
-                       absl::StrCat("'", CellText(record, time_column_),
-                                    "' is not after the time in the line above; sort by time"));
+      return CellError(
+          record, kTime,
+          absl::StrCat("'", CellText(record, time_column_), "' is not after the time in the line above; sort by time"));
     }
     series_.times_.push_back(time);
     series_.levels_.push_back(*level);
@@ -117,10 +116,9 @@ class WaterLevelReader {
     const std::string text = CellText(record, time_column_);
     const std::optional<double> utc = ParseUtc(text), number = ParseDouble(text);
     if (!utc.has_value() && !(number.has_value() && std::abs(*number) <= kLargestTime)) {
-      return CellError(
-          record, kTime,
-          absl::StrCat("'", text, "' is not a time; write UTC such as 2016-05-11T14:00:00Z, or the GPS ",
-                       "time of the points in seconds"));
+      return CellError(record, kTime,
+                       absl::StrCat("'", text, "' is not a time; write UTC such as 2016-05-11T14:00:00Z, or the GPS ",
+                                    "time of the points in seconds"));
     }
     if (series_.size() == 0) utc_ = utc.has_value();
     if (utc_ != utc.has_value()) {
@@ -149,8 +147,8 @@ class WaterLevelReader {
           "covers more than a week, but the times of the points are seconds of a week that they do not name; "
           "give the levels of the week of the survey alone");
     }
-    const double week = std::floor((times.front() + kAdjustedGpsOffset) / kSecondsPerWeek) * kSecondsPerWeek -
-                        kAdjustedGpsOffset;
+    const double week =
+        std::floor((times.front() + kAdjustedGpsOffset) / kSecondsPerWeek) * kSecondsPerWeek - kAdjustedGpsOffset;
     for (double& time : times) time -= week;
     series_.crosses_week_ = times.back() > kSecondsPerWeek;
     return absl::OkStatus();
@@ -164,8 +162,7 @@ class WaterLevelReader {
   std::size_t time_column_ = 0, level_column_ = 0, column_count_ = 0;
 };
 
-absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::string text,
-                                                         PointTimeForm form) {
+absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::string text, PointTimeForm form) {
   return WaterLevelReader(std::move(name), std::move(text), form).Read();
 }
 
@@ -217,8 +214,8 @@ absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& pa
     if (!*more) break;
     text += block->text;
     if (text.size() > kLargestFile) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "%s: is larger than %d MB; give a CSV file of water levels", path.string(), kLargestFile >> 20));
+      return absl::InvalidArgumentError(absl::StrFormat("%s: is larger than %d MB; give a CSV file of water levels",
+                                                        path.string(), kLargestFile >> 20));
     }
   }
   return WaterLevelSeries::Parse(path.string(), std::move(text), form);

@@ -22,18 +22,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 WindSea ReadWindSea(CampaignFile& file) {
   WindSea sea;
   const std::string spectrum = ReadText(file, campaign_keys::kSpectrum);
-  for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading}) {
-    if (file[campaign_keys::kSeaFile.table].Has(campaign_keys::kSeaFile.name) &&
-        file[key.table].Has(key.name)) {
+  for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading})
+    if (file[campaign_keys::kSeaFile.table].Has(campaign_keys::kSeaFile.name) && file[key.table].Has(key.name))
       file.Fail(key.table, key.name, "has no effect on the sea of 'sea.file'; leave it out");
-    }
-  }
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
   const std::optional<double> spreading = ReadNumber(file, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
-    file.Fail(
-        "sea", "spreading",
-        absl::StrCat("is not taken by \"", spectrum, "\", which has a spreading of its own; leave it out"));
+    file.Fail("sea", "spreading",
+              absl::StrCat("is not taken by \"", spectrum, "\", which has a spreading of its own; leave it out"));
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
@@ -51,11 +47,9 @@ std::optional<SeaOfFile> ReadSeaOfFile(CampaignFile& file) {
   sea.tail = FindTailRule(ReadText(file, kSeaTail)).value_or(sea.tail);
   sea.tail_from = ReadNumber(file, kSeaTailFrom);
   if (!sea.file.empty()) return sea;
-  for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom}) {
-    if (file[key.table].Has(key.name)) {
+  for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom})
+    if (file[key.table].Has(key.name))
       file.Fail(key.table, key.name, "goes with 'sea.file' only; add the file, or leave it out");
-    }
-  }
   return std::nullopt;
 }
 
@@ -65,8 +59,8 @@ Effort ReadEffort(CampaignFile& file) {
   effort.realizations = static_cast<int>(*ReadWhole(file, kRealizations));
   effort.relative_error = ReadNumber(file, kRelativeError).value_or(0);
   effort.estimator = FindEstimator(ReadText(file, kEstimator)).value_or(effort.estimator);
-  const int most = effort.relative_error > 0 ? std::max(effort.realizations, kMaxRealizationsUnlessGiven)
-                                             : effort.realizations;
+  const int most =
+      effort.relative_error > 0 ? std::max(effort.realizations, kMaxRealizationsUnlessGiven) : effort.realizations;
   const auto& range = std::get<WholeRange>(kMaxRealizationsOfBeam.values);
   effort.most_realizations =
       static_cast<int>(file[kMaxRealizationsOfBeam.table]
@@ -81,8 +75,8 @@ absl::Status CheckTable(const Campaign& campaign) {
   std::size_t max_nodes = format::kMaxValueCount;  // divided, since the product of all axes could overflow
   for (const Axis& axis : campaign.axes) max_nodes /= axis.size();
   if (max_nodes == 0) {
-    return absl::InvalidArgumentError(absl::StrCat("the axes make more cells than a table holds (",
-                                                   format::kMaxValueCount, "): give fewer nodes"));
+    return absl::InvalidArgumentError(
+        absl::StrCat("the axes make more cells than a table holds (", format::kMaxValueCount, "): give fewer nodes"));
   }
   Provenance provenance;
   provenance.id = campaign.id;
@@ -142,8 +136,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::string kind = ReadText(file, campaign_keys::kKind);
   const std::optional<std::int64_t> seed = ReadWhole(file, campaign_keys::kSeed);
   if (kind == kWaterColumn.name)
-    return ParseWater(file,
-                      {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
+    return ParseWater(file, {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
   const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(file);
   const Nodes nodes = ReadNodesOfSea(file, sea_of_file.has_value());
   const std::string profile = ReadText(file, campaign_keys::kProfile);
@@ -163,8 +156,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
     if (!traced.ok()) return traced.status();
     sea = *std::move(traced);
   }
-  absl::StatusOr<UncertaintyTable::Axes> axes =
-      sea ? MakeAxes(*sea, nodes) : MakeAxes(*wind_sea.model, nodes);
+  absl::StatusOr<UncertaintyTable::Axes> axes = sea ? MakeAxes(*sea, nodes) : MakeAxes(*wind_sea.model, nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = std::string(text),
                     .id = id,

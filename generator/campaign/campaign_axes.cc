@@ -30,15 +30,13 @@ absl::Status Problem(const SeaOfFile& given, std::string_view what) {
 
 // The state of the file at the given time, or its only one.
 absl::StatusOr<const SeaRecord*> FindRecord(const SeaOfFile& given, const SeaSeries& series) {
-  if (series.points.size() > 1) {
+  if (series.points.size() > 1)
     return Problem(given, absl::StrCat("has ", series.points.size(), " places; give a file of one of them"));
-  }
   const std::vector<SeaRecord>& records = series.records;
   if (!given.time) {
     if (records.size() == 1) return &records.front();
-    return Problem(
-        given, absl::StrCat("has ", records.size(), " states of the sea; choose one by its time, such as ",
-                            records.front().time ? SeaTimeText(*records.front().time) : "its first"));
+    return Problem(given, absl::StrCat("has ", records.size(), " states of the sea; choose one by its time, such as ",
+                                       records.front().time ? SeaTimeText(*records.front().time) : "its first"));
   }
   const std::optional<double> time = ParseSeaTime(*given.time);
   if (!time) {
@@ -48,14 +46,12 @@ absl::StatusOr<const SeaRecord*> FindRecord(const SeaOfFile& given, const SeaSer
   const SeaRecord* nearest = nullptr;
   for (const SeaRecord& record : records) {
     if (!record.time) continue;
-    if (nearest == nullptr || std::abs(*record.time - *time) < std::abs(*nearest->time - *time)) {
-      nearest = &record;
-    }
+    if (nearest == nullptr || std::abs(*record.time - *time) < std::abs(*nearest->time - *time)) nearest = &record;
   }
   if (nearest == nullptr) return Problem(given, "does not say when its sea was; leave out the time");
   if (*nearest->time != *time) {
-    return Problem(given, absl::StrCat("has no sea at ", *given.time, "; the nearest is that of ",
-                                       SeaTimeText(*nearest->time)));
+    return Problem(
+        given, absl::StrCat("has no sea at ", *given.time, "; the nearest is that of ", SeaTimeText(*nearest->time)));
   }
   return nearest;
 }
@@ -86,9 +82,8 @@ std::string DigestOf(const HarmonicSpectrum& spectrum) {
 
 absl::StatusOr<TracedSea> ReadTracedSea(const SeaOfFile& given) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(given.file, error)) {
+  if (!std::filesystem::is_regular_file(given.file, error))
     return absl::NotFoundError(absl::StrCat(given.file.string(), ": no such file of a sea"));
-  }
   const absl::StatusOr<SeaSeries> series = ReadSeaFile(given.file);
   if (!series.ok()) return Problem(given, std::string(series.status().message()));
   const absl::StatusOr<const SeaRecord*> record = FindRecord(given, *series);
@@ -144,10 +139,10 @@ absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch
   const double developed = strongest > 0 ? FloatNotBelow(model.fully_developed_fetch(strongest)) : 1;
   fetch.back() = developed;
   if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("node ", fetch.size() - 2, " of 'axes.fetch', ", fetch[fetch.size() - 2],
-                     " m, is beyond full development of the strongest wind (", developed,
-                     " m): leave it out, the last node is that sea"));
+    return absl::InvalidArgumentError(absl::StrCat("node ", fetch.size() - 2, " of 'axes.fetch', ",
+                                                   fetch[fetch.size() - 2],
+                                                   " m, is beyond full development of the strongest wind (", developed,
+                                                   " m): leave it out, the last node is that sea"));
   }
   return absl::OkStatus();
 }
@@ -161,10 +156,9 @@ constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindS
 bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
 
 // In the order of WaterAxis.
-constexpr std::array kWaterAxisKeys = {
-    campaign_keys::kBackscatterFraction, campaign_keys::kScatteringOverAbsorption,
-    campaign_keys::kIncidenceOnWater,    campaign_keys::kOpticalDepth,
-    campaign_keys::kFieldOfView,         campaign_keys::kPulseLength};
+constexpr std::array kWaterAxisKeys = {campaign_keys::kBackscatterFraction, campaign_keys::kScatteringOverAbsorption,
+                                       campaign_keys::kIncidenceOnWater,    campaign_keys::kOpticalDepth,
+                                       campaign_keys::kFieldOfView,         campaign_keys::kPulseLength};
 static_assert(kWaterAxisKeys.size() == kAxisCount);
 
 absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
@@ -183,11 +177,10 @@ Nodes ReadNodesOfSea(CampaignFile& file, bool has_sea_file) {
   Nodes nodes;
   for (const AxisId axis : kAxes) {
     const CampaignKey& key = kAxisKeys[Index(axis)];
-    if (!has_sea_file || !IsOfWindSea(axis)) {
+    if (!has_sea_file || !IsOfWindSea(axis))
       nodes[Index(axis)] = InSinglePrecision(ReadNodes(file, key));
-    } else if (file[key.table].Has(key.name)) {
+    else if (file[key.table].Has(key.name))
       file.Fail(key.table, key.name, "has no place beside 'sea.file', which is one sea; leave it out");
-    }
   }
   return nodes;
 }
@@ -204,8 +197,7 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Node
     const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
     if (!problem.empty()) return absl::InvalidArgumentError(problem);
   }
-  const absl::Status fetch =
-      ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+  const absl::Status fetch = ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
   if (!fetch.ok()) return fetch;
 
   return AxesOfKind(kSeaSurface, nodes);

@@ -30,10 +30,9 @@ struct SeaOfFile {
 
 struct TracedSea {
   DescribedSea described;
-  KnownWaves waves;  // in the frame of `described`
-  std::map<std::string, AttributeValue>
-      attributes;      // sea_attributes.h, and the name of the file and the time
-  std::string digest;  // SHA-256 of the spectrum: equal digests give equal results
+  KnownWaves waves;                                  // in the frame of `described`
+  std::map<std::string, AttributeValue> attributes;  // sea_attributes.h, and the name of the file and the time
+  std::string digest;                                // SHA-256 of the spectrum: equal digests give equal results
 };
 
 // NotFound or InvalidArgument, beginning with the path: the file cannot be read, has several places, or has no state of

@@ -20,8 +20,7 @@ config::TomlKeys& CampaignFile::operator[](std::string_view table) {
 }
 
 void CampaignFile::Miss(std::string_view table, std::string_view key, std::string_view right) {
-  if (missing_.empty())
-    missing_ = absl::StrCat("'", FullName(table, key), "' is missing; give ", std::string(right));
+  if (missing_.empty()) missing_ = absl::StrCat("'", FullName(table, key), "' is missing; give ", std::string(right));
 }
 
 absl::Status CampaignFile::Finish() {

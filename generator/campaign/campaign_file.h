@@ -13,8 +13,7 @@ namespace albtpu {
 // "axes.depth": the name of a key in messages; the table is empty for keys at the top level.
 std::string FullName(std::string_view table, std::string_view key);
 
-inline constexpr config::TomlKind kCampaignFile = {"a campaign file", "the campaign",
-                                                   "the path of --campaign"};
+inline constexpr config::TomlKind kCampaignFile = {"a campaign file", "the campaign", "the path of --campaign"};
 
 class CampaignFile {
  public:

@@ -7,11 +7,10 @@ namespace albtpu {
 std::string ReadText(CampaignFile& file, const CampaignKey& key) {
   const auto* const choice = std::get_if<Choice>(&key.values);
   std::optional<std::string> text;
-  if (choice != nullptr) {
+  if (choice != nullptr)
     text = file[key.table].OneOf(key.name, {choice->words.begin(), choice->words.end()});
-  } else {
+  else
     text = file[key.table].Text(key.name, std::get<AnyText>(key.values).rule);
-  }
   if (text.has_value()) return *text;
   if (std::holds_alternative<Required>(key.absent) && !file[key.table].Has(key.name))
     file.Miss(key.table, key.name, "a text in quotes");
@@ -43,12 +42,12 @@ std::string NodesProblem(const CampaignKey& key, const std::vector<double>& node
   const auto& range = std::get<NodeRange>(key.values);
   if (nodes.empty()) return absl::StrCat("'", FullName(key), "' has no node: give at least one");
   if (range.includes_least ? nodes.front() < range.least : nodes.front() <= range.least) {
-    return absl::StrCat("node 0 of '", FullName(key), "' must be ",
-                        range.includes_least ? "at least " : "above ", range.least);
+    return absl::StrCat("node 0 of '", FullName(key), "' must be ", range.includes_least ? "at least " : "above ",
+                        range.least);
   }
   if (nodes.back() > range.most) {
-    return absl::StrCat("the last node of '", FullName(key), "' is above ", range.most, " ",
-                        std::string(key.unit), " (", std::string(range.why_most), "); leave it out");
+    return absl::StrCat("the last node of '", FullName(key), "' is above ", range.most, " ", std::string(key.unit),
+                        " (", std::string(range.why_most), "); leave it out");
   }
   return {};
 }

@@ -52,16 +52,14 @@ struct TypeText {
 struct RangeText {
   std::string operator()(const AnyText& text) const { return std::string(text.rule); }
   std::string operator()(const Choice& choice) const {
-    return absl::StrJoin(choice.words, " or ", [](std::string* joined, std::string_view word) {
-      absl::StrAppend(joined, Quoted(word));
-    });
+    return absl::StrJoin(
+        choice.words, " or ",
+        [](std::string* joined, std::string_view word) { absl::StrAppend(joined, Quoted(word)); });
   }
   std::string operator()(const NumberRange& range) const {
     return absl::StrCat(NumberText(range.least), " to ", NumberText(range.most));
   }
-  std::string operator()(const WholeRange& range) const {
-    return absl::StrCat(range.least, " to ", range.most);
-  }
+  std::string operator()(const WholeRange& range) const { return absl::StrCat(range.least, " to ", range.most); }
   std::string operator()(const NodeRange& range) const {
     if (!std::isinf(range.most)) return absl::StrCat(NumberText(range.least), " to ", NumberText(range.most));
     return absl::StrCat(range.includes_least ? "at least " : "above ", NumberText(range.least));
@@ -81,30 +79,23 @@ using Row = std::array<std::string, 6>;
 std::string MeaningText(const CampaignKey& key) {
   const auto* nodes = std::get_if<NodeRange>(&key.values);
   if (nodes == nullptr || nodes->why_most.empty()) return std::string(key.meaning);
-  return absl::StrCat(std::string(key.meaning), " Not above ", nodes->most, ": ",
-                      std::string(nodes->why_most), ".");
+  return absl::StrCat(std::string(key.meaning), " Not above ", nodes->most, ": ", std::string(nodes->why_most), ".");
 }
 
 Row RowOf(const CampaignKey& key) {
-  return {absl::StrCat("`", std::string(key.name), "`"),
-          std::visit(TypeText(), key.values),
-          std::string(key.unit),
-          std::visit(RangeText(), key.values),
-          std::visit(DefaultText(), key.absent),
-          MeaningText(key)};
+  return {absl::StrCat("`", std::string(key.name), "`"), std::visit(TypeText(), key.values),    std::string(key.unit),
+          std::visit(RangeText(), key.values),           std::visit(DefaultText(), key.absent), MeaningText(key)};
 }
 
 // With columns that line up, but for the last one, whose texts are long.
 std::string MarkdownTable(const std::vector<Row>& rows) {
   std::array<std::size_t, std::tuple_size_v<Row> - 1> widths{};
-  for (const Row& row : rows) {
+  for (const Row& row : rows)
     for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
   std::string text;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t i = 0; i < widths.size(); ++i) {
+    for (std::size_t i = 0; i < widths.size(); ++i)
       absl::StrAppend(&text, "| ", rows[r][i], std::string(widths[i] - rows[r][i].size() + 1, ' '));
-    }
     absl::StrAppend(&text, "| ", rows[r].back(), " |\n");
     if (r > 0) continue;
     for (const std::size_t width : widths) absl::StrAppend(&text, "|", std::string(width + 2, '-'));
@@ -125,9 +116,8 @@ void AppendTables(std::span<const CampaignKey> keys, std::string& page) {
     const std::string_view table = key->table;
     std::vector<Row> rows = {{"key", "type", "unit", "range", "default", "meaning"}};
     for (; key != keys.end() && key->table == table; ++key) rows.push_back(RowOf(*key));
-    absl::StrAppend(&page, "\n## ",
-                    table.empty() ? "Top-level keys" : absl::StrCat("[", std::string(table), "]"), "\n\n",
-                    MarkdownTable(rows));
+    absl::StrAppend(&page, "\n## ", table.empty() ? "Top-level keys" : absl::StrCat("[", std::string(table), "]"),
+                    "\n\n", MarkdownTable(rows));
   }
 }
 

@@ -28,8 +28,7 @@ constexpr float kMinWind = 2;                              // m/s
 // The coordinate at the fraction `t` of an axis, in its scale.
 float AlongAxis(const Axis& axis, double t) {
   const double first = axis.nodes().front(), last = axis.nodes().back();
-  const double x =
-      axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
+  const double x = axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
   return static_cast<float>(std::clamp(x, first, last));
 }
 
@@ -58,8 +57,7 @@ Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
   std::array<double, kAxisCount + 2> normals;  // rounded up to a multiple of four
   NormalStream(campaign.seed, kCellOfPulses, static_cast<std::uint32_t>(index)).Fill(normals);
   const auto coordinate = [&](AxisId axis) {
-    const double uniform =
-        0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));  // the normal distribution function
+    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));  // the normal distribution function
     return AlongAxis(campaign.axes[Index(axis)], uniform);
   };
   return {.wind_speed = coordinate(AxisId::kWindSpeed),
@@ -122,8 +120,8 @@ namespace {
 // The minimum and the maximum of a number over the sea cases. Seas without waves count only if there are no others.
 template <typename Number>
 std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaCaseResult::*member) {
-  const auto drawn = std::find_if(results.begin(), results.end(),
-                                  [](const SeaCaseResult& result) { return result.realizations > 0; });
+  const auto drawn =
+      std::find_if(results.begin(), results.end(), [](const SeaCaseResult& result) { return result.realizations > 0; });
   const SeaCaseResult& first = drawn != results.end() ? *drawn : results.front();
   std::vector<double> range = {static_cast<double>(first.*member), static_cast<double>(first.*member)};
   for (const SeaCaseResult& result : results) {
@@ -176,15 +174,13 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
        "Ranges are the least and the greatest over winds, fetches and footprints."},
       {"estimator", std::string(Name(campaign.effort.estimator))},
       {"rounding",
-       absl::StrCat(
-           "Values to a power of two, the largest not above a quarter of their standard error, and to ",
-           kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
-           " significant bits")},
-      {"node_values",
-       campaign.balanced_nodes
-           ? "less a twelfth of their second difference along each axis but depth, ends aside, "
-             "which nearly halves the error of interpolation in the root mean square"
-           : "as computed at the nodes"},
+       absl::StrCat("Values to a power of two, the largest not above a quarter of their standard error, and to ",
+                    kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
+                    " significant bits")},
+      {"node_values", campaign.balanced_nodes
+                          ? "less a twelfth of their second difference along each axis but depth, ends aside, "
+                            "which nearly halves the error of interpolation in the root mean square"
+                          : "as computed at the nodes"},
       {"realizations", Range(results, &SeaCaseResult::realizations)},
       // "Encounters" are sea cases: attributes keep the names of format 1.
       {"encounters_above_relative_error",
@@ -196,8 +192,7 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"footprint_slope_variance_fraction", Range(results, &SeaCaseResult::footprint_slope_fraction)},
       {"resolved_slope_variance_fraction", Range(results, &SeaCaseResult::resolved_slope_fraction)},
   });
-  if (campaign.sea)
-    provenance.attributes.insert(campaign.sea->attributes.begin(), campaign.sea->attributes.end());
+  if (campaign.sea) provenance.attributes.insert(campaign.sea->attributes.begin(), campaign.sea->attributes.end());
   return provenance;
 }
 
@@ -210,17 +205,15 @@ void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, 
       "number of pulses";
   for (std::size_t q = 0; q < errors.size(); ++q) {
     const InterpolationError& error = errors[q];
-    provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] =
-        std::vector<double>{error.rms, error.percentile_99, error.greatest, error.noise,
-                            static_cast<double>(error.pulses)};
+    provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] = std::vector<double>{
+        error.rms, error.percentile_99, error.greatest, error.noise, static_cast<double>(error.pulses)};
   }
 }
 
 std::string DateCreated() {
   std::time_t time = std::time(nullptr);
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr)
     std::from_chars(epoch, epoch + std::strlen(epoch), time);
-  }
   std::tm utc{};
   gmtime_r(&time, &utc);
   char text[32];

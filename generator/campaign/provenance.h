@@ -18,8 +18,8 @@ namespace albtpu {
 
 // The quantities that are checked. Biases are left out because they pass through zero, where relative errors have no
 // meaning.
-inline constexpr std::array<Quantity, 4> kChecked = {
-    Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu};
+inline constexpr std::array<Quantity, 4> kChecked = {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind,
+                                                     Quantity::kThu, Quantity::kTvu};
 
 // The pulse `index` of a campaign, drawn uniformly over its axes (in the logarithm on logarithmic axes).
 Pulse CheckedPulse(const Campaign& campaign, std::size_t index);
@@ -37,8 +37,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pul
 struct InterpolationError {
   int pulses = 0;  // above these limits; all members are zero when there are none
   double rms = 0, percentile_99 = 0, greatest = 0;
-  double noise =
-      0;  // rms standard error of the direct values; the errors of the table are correlated with it
+  double noise = 0;  // rms standard error of the direct values; the errors of the table are correlated with it
 };
 // `direct` are the direct values at the pulses 0, 1, ... of the campaign; `checked` is an index of kChecked.
 InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,

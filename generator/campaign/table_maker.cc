@@ -19,15 +19,13 @@ namespace {
 // The nodes in the scale of their axis.
 std::vector<double> Scaled(const Axis& axis) {
   std::vector<double> x = axis.nodes();
-  if (axis.scale() == Scale::kLog) {
+  if (axis.scale() == Scale::kLog)
     for (double& node : x) node = std::log(node);
-  }
   return x;
 }
 
 // The amount by which to lower each of the values at `x`: none at the last node and those before `first`.
-std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values,
-                             std::size_t first) {
+std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values, std::size_t first) {
   const std::size_t last = x.size() - 1;
   std::vector<double> lowering(x.size());
   for (std::size_t i = first; i < last; ++i) {
@@ -82,12 +80,10 @@ class VariableGrid {
   }
 
   // `beam` counts the beams of the sea case, `depth` the nodes of the depth axis. It is 0 for quantities without depth.
-  void Set(Quantity quantity, std::size_t sea_case, std::size_t beam, std::size_t depth,
-           const Estimate& estimate) {
+  void Set(Quantity quantity, std::size_t sea_case, std::size_t beam, std::size_t depth, const Estimate& estimate) {
     Variable& variable = *variables_[Index(quantity)];
     const std::size_t footprints = campaign_.nodes(AxisId::kFootprint).size();
-    const std::size_t beams =
-        campaign_.nodes(AxisId::kIncidence).size() * campaign_.nodes(AxisId::kAzimuth).size();
+    const std::size_t beams = campaign_.nodes(AxisId::kIncidence).size() * campaign_.nodes(AxisId::kAzimuth).size();
     const std::size_t depths = Describe(quantity).over_last_axis ? campaign_.nodes(AxisId::kDepth).size() : 1;
     const std::size_t sea = sea_case / footprints, footprint = sea_case % footprints;
     const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
@@ -126,13 +122,12 @@ void Store(const BeamUncertainty& result, std::size_t sea_case, std::size_t beam
 }
 
 bool HasShapeOf(const Campaign& campaign, const SeaCaseResult& result) {
-  const std::size_t beams =
-      campaign.nodes(AxisId::kIncidence).size() * campaign.nodes(AxisId::kAzimuth).size();
+  const std::size_t beams = campaign.nodes(AxisId::kIncidence).size() * campaign.nodes(AxisId::kAzimuth).size();
   const std::size_t depths = campaign.nodes(AxisId::kDepth).size();
   return result.beams.size() == beams &&
          std::all_of(result.beams.begin(), result.beams.end(), [&](const BeamUncertainty& beam) {
-           return beam.thu.size() == depths && beam.tvu.size() == depths &&
-                  beam.bias_along_beam.size() == depths && beam.bias_vertical.size() == depths;
+           return beam.thu.size() == depths && beam.tvu.size() == depths && beam.bias_along_beam.size() == depths &&
+                  beam.bias_vertical.size() == depths;
          });
 }
 
@@ -202,9 +197,8 @@ absl::StatusOr<Table> TableBuilder::Build() {
       UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, provenance);
   if (!table.ok()) return table.status();
   std::vector<InterpolationError> errors;
-  for (std::size_t q = 0; q < kChecked.size(); ++q) {
+  for (std::size_t q = 0; q < kChecked.size(); ++q)
     errors.push_back(CompareWithTable(campaign, *table, parts_->direct, q));
-  }
   DescribeInterpolationErrors(errors, provenance);
   const absl::StatusOr<UncertaintyTable> described =
       UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance));
@@ -212,8 +206,7 @@ absl::StatusOr<Table> TableBuilder::Build() {
   return described->table();
 }
 
-absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
-                                           const std::function<void(std::size_t)>& done) {
+absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign, const std::function<void(std::size_t)>& done) {
   TableBuilder builder(campaign);
   std::size_t finished = 0;
   const absl::Status computed = ComputeUnits(campaign, UnitsOf(campaign), *OneRank(),

@@ -61,7 +61,6 @@ class TableBuilder {
 
 // Computes all units of a campaign of a sea in this process (unit_work.h). After each unit, `done` is called with the
 // number of finished units, by one thread at a time.
-absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
-                                           const std::function<void(std::size_t)>& done);
+absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign, const std::function<void(std::size_t)>& done);
 
 }  // namespace albtpu

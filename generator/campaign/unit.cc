@@ -22,10 +22,8 @@ void Fields(Stream& stream, Self& self) {
 
 template <typename Stream, SameStruct<BeamUncertainty> Self>
 void Fields(Stream& stream, Self& self) {
-  auto& [refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
-         realizations] = self;
-  stream(refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
-         realizations);
+  auto& [refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical, realizations] = self;
+  stream(refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical, realizations);
 }
 
 template <typename Stream, SameStruct<SeaCaseResult> Self>
@@ -113,8 +111,8 @@ absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes) {
 
 std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view content) {
   ByteWriter writer;
-  writer(kFormatVersion, origin.campaign, origin.program, origin.instruction_set, KindName(unit.kind),
-         unit.index, content);
+  writer(kFormatVersion, origin.campaign, origin.program, origin.instruction_set, KindName(unit.kind), unit.index,
+         content);
   std::string bytes = std::string(kMagic) + std::move(writer).Take();
   const Sha256Digest digest = DigestOf(bytes);
   bytes.append(digest.begin(), digest.end());
@@ -122,9 +120,8 @@ std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view con
 }
 
 absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin, std::string_view bytes) {
-  if (!bytes.starts_with(kMagic)) {
+  if (!bytes.starts_with(kMagic))
     return absl::DataLossError("is not a unit of albtpu-generate; delete it, and --resume computes it");
-  }
   const absl::Status damaged = absl::DataLossError(
       "is damaged or truncated (its bytes do not match the SHA-256 at its end); "
       "delete it, and --resume computes it again");
@@ -139,26 +136,25 @@ absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin,
   std::string_view campaign, program, instruction_set, kind, content;
   reader(version);
   if (version != kFormatVersion) {
-    return absl::FailedPreconditionError(absl::StrCat("is a unit of format ", version,
-                                                      " (this program reads format ", kFormatVersion,
-                                                      "); finish with the program that began"));
+    return absl::FailedPreconditionError(absl::StrCat("is a unit of format ", version, " (this program reads format ",
+                                                      kFormatVersion, "); finish with the program that began"));
   }
   reader(campaign, program, instruction_set, kind, index, content);
   if (!reader.ReadAll()) return damaged;
   if (campaign != origin.campaign) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "is of another campaign (SHA-256 ", std::string(campaign.substr(0, 12)), "..., this one has ",
-        origin.campaign.substr(0, 12), "...); give each campaign its own work folder"));
+    return absl::FailedPreconditionError(
+        absl::StrCat("is of another campaign (SHA-256 ", std::string(campaign.substr(0, 12)), "..., this one has ",
+                     origin.campaign.substr(0, 12), "...); give each campaign its own work folder"));
   }
   if (program != origin.program) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("was computed by albtpu-generate ", std::string(program), ", this is ", origin.program,
-                     "; finish with that program, or start in another work folder"));
+    return absl::FailedPreconditionError(absl::StrCat("was computed by albtpu-generate ", std::string(program),
+                                                      ", this is ", origin.program,
+                                                      "; finish with that program, or start in another work folder"));
   }
   if (instruction_set != origin.instruction_set) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "was computed on a machine of instruction set ", std::string(instruction_set), ", this one has ",
-        origin.instruction_set, "; continue on machines of one kind, or start in another work folder"));
+    return absl::FailedPreconditionError(
+        absl::StrCat("was computed on a machine of instruction set ", std::string(instruction_set), ", this one has ",
+                     origin.instruction_set, "; continue on machines of one kind, or start in another work folder"));
   }
   if (kind != KindName(unit.kind) || index != unit.index) {
     return absl::FailedPreconditionError(

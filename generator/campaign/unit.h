@@ -104,15 +104,14 @@ class ByteWriter {
   }
   template <typename Value>
   void Write(const Value& value) {
-    if constexpr (std::floating_point<Value>) {
+    if constexpr (std::floating_point<Value>)
       Append(static_cast<double>(value));
-    } else if constexpr (std::integral<Value>) {
+    else if constexpr (std::integral<Value>)
       Append(static_cast<std::uint64_t>(value));
-    } else if constexpr (std::convertible_to<Value, std::string_view>) {
+    else if constexpr (std::convertible_to<Value, std::string_view>)
       Write(std::string_view(value));
-    } else {
+    else
       Fields(*this, value);
-    }
   }
 
   std::string bytes_;
@@ -158,13 +157,12 @@ class ByteReader {
   }
   template <typename Value>
   void Read(Value& value) {
-    if constexpr (std::floating_point<Value>) {
+    if constexpr (std::floating_point<Value>)
       value = static_cast<Value>(Next<double>());
-    } else if constexpr (std::integral<Value>) {
+    else if constexpr (std::integral<Value>)
       value = static_cast<Value>(Next<std::uint64_t>());
-    } else {
+    else
       Fields(*this, value);
-    }
   }
 
   void Short() {

@@ -56,16 +56,15 @@ UnitId ReadUnitMessage(const std::string& message, std::string_view& bytes) {
 std::string Compute(const Campaign& campaign, const UnitOrigin& origin, UnitId unit) {
   switch (unit.kind) {
     case UnitKind::kSeaCase:
-      return SealUnit(unit, origin,
-                      EncodeResult(Simulate(SeaCaseOf(campaign, unit.index), campaign.effort, campaign.seed,
-                                            kCellOfTables)));
+      return SealUnit(
+          unit, origin,
+          EncodeResult(Simulate(SeaCaseOf(campaign, unit.index), campaign.effort, campaign.seed, kCellOfTables)));
     case UnitKind::kWaterCase:
       return SealUnit(unit, origin, EncodeEstimates(ComputeWaterCase(campaign, unit.index)));
     case UnitKind::kPulse:
-      return SealUnit(
-          unit, origin,
-          EncodeEstimates(campaign.water ? ComputeDirectly(campaign, CheckedBeamOf(campaign, unit.index))
-                                         : ComputeDirectly(campaign, CheckedPulse(campaign, unit.index))));
+      return SealUnit(unit, origin,
+                      EncodeEstimates(campaign.water ? ComputeDirectly(campaign, CheckedBeamOf(campaign, unit.index))
+                                                     : ComputeDirectly(campaign, CheckedPulse(campaign, unit.index))));
   }
   std::abort();  // not reached: the switch has all kinds
 }
@@ -144,8 +143,7 @@ absl::Status ComputeUnits(const Campaign& campaign, const std::vector<UnitId>& u
   // caller ends all ranks, so only this process's own threads are waited for.
   std::future<void> computed = std::async(std::launch::async, compute);
   for (int working = ranks.size() - 1; working > 0 && ledger.status().ok();) {
-    if (computed.valid() && computed.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-      computed.get();
+    if (computed.valid() && computed.wait_for(std::chrono::seconds(0)) == std::future_status::ready) computed.get();
     const std::optional<Ranks::Message> message = ranks.Poll();
     if (!message) {
       std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -206,9 +204,8 @@ absl::StatusOr<std::string> ReadFile(const fs::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad()) {
+  if (!file.is_open() || file.bad())
     return SystemError(std::error_code(errno != 0 ? errno : EIO, std::generic_category()), "read", path);
-  }
   return bytes;
 }
 
@@ -226,9 +223,7 @@ template <typename Visit>
 absl::Status ForEachName(const fs::path& folder, const Visit& visit) {
   std::error_code error;
   fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    visit(entry->path().filename().string());
-  }
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) visit(entry->path().filename().string());
   return error ? SystemError(error, "read folder", folder) : absl::OkStatus();
 }
 
@@ -245,8 +240,8 @@ absl::StatusOr<WorkFolder> WorkFolder::Open(const fs::path& folder, const Campai
   const absl::Status written = WriteOnce(path, campaign.text);
   if (absl::IsAlreadyExists(written)) {
     return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is another campaign (or another text of it) than '", campaign.id,
-                     "' version ", campaign.version, "; give each campaign its own work folder"));
+        absl::StrCat(path.string(), ": is another campaign (or another text of it) than '", campaign.id, "' version ",
+                     campaign.version, "; give each campaign its own work folder"));
   }
   if (!written.ok()) return written;
   return WorkFolder(folder);
@@ -255,15 +250,13 @@ absl::StatusOr<WorkFolder> WorkFolder::Open(const fs::path& folder, const Campai
 absl::StatusOr<WorkFolder> WorkFolder::OpenExisting(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kCampaignName, error)) {
-    return absl::NotFoundError(absl::StrCat(folder.string(), ": has no ", kCampaignName,
-                                            "; give a folder that `table --work` has filled"));
+    return absl::NotFoundError(
+        absl::StrCat(folder.string(), ": has no ", kCampaignName, "; give a folder that `table --work` has filled"));
   }
   return WorkFolder(folder);
 }
 
-absl::StatusOr<Campaign> WorkFolder::ReadCampaign() const {
-  return albtpu::ReadCampaign(folder_ / kCampaignName);
-}
+absl::StatusOr<Campaign> WorkFolder::ReadCampaign() const { return albtpu::ReadCampaign(folder_ / kCampaignName); }
 
 absl::StatusOr<std::vector<UnitId>> WorkFolder::Finished(const std::vector<UnitId>& units) const {
   std::set<std::string> names;
@@ -280,10 +273,8 @@ absl::Status WorkFolder::Read(const std::vector<UnitId>& units, const Sink& sink
     const absl::StatusOr<std::string> bytes = ReadFile(PathOf(unit));
     if (!bytes.ok()) return bytes.status();
     const absl::Status taken = sink(unit, *bytes);
-    if (!taken.ok()) {
-      return absl::Status(taken.code(),
-                          absl::StrCat(PathOf(unit).string(), ": ", std::string(taken.message())));
-    }
+    if (!taken.ok())
+      return absl::Status(taken.code(), absl::StrCat(PathOf(unit).string(), ": ", std::string(taken.message())));
   }
   return absl::OkStatus();
 }
@@ -291,15 +282,14 @@ absl::Status WorkFolder::Read(const std::vector<UnitId>& units, const Sink& sink
 absl::Status WorkFolder::Store(UnitId unit, const std::string& bytes) const {
   const absl::Status stored = WriteOnce(PathOf(unit), bytes);
   if (absl::IsAlreadyExists(stored)) {
-    return absl::AlreadyExistsError(absl::StrCat(
-        PathOf(unit).string(),
-        ": exists with other bytes than were just computed (another program or machine writes into this "
-        "folder); give each its own work folder"));
+    return absl::AlreadyExistsError(
+        absl::StrCat(PathOf(unit).string(),
+                     ": exists with other bytes than were just computed (another program or machine writes into this "
+                     "folder); give each its own work folder"));
   }
   if (stored.ok()) return stored;
-  return absl::Status(stored.code(),
-                      absl::StrCat(std::string(stored.message()),
-                                   "; earlier units are complete, continue from them with --resume"));
+  return absl::Status(stored.code(), absl::StrCat(std::string(stored.message()),
+                                                  "; earlier units are complete, continue from them with --resume"));
 }
 
 absl::Status WorkFolder::RemoveTemporaries() const {

@@ -55,8 +55,7 @@ std::size_t EstimatesOfEcho(const Campaign& campaign) {
 }
 
 std::size_t EchoesOfCase(const Campaign& campaign) {
-  return NodesOf(campaign, WaterAxis::kOpticalDepth).size() *
-         NodesOf(campaign, WaterAxis::kFieldOfView).size();
+  return NodesOf(campaign, WaterAxis::kOpticalDepth).size() * NodesOf(campaign, WaterAxis::kFieldOfView).size();
 }
 
 void Append(const DetectedBias& bias, std::vector<Estimate>& estimates) {
@@ -92,8 +91,7 @@ CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
 Provenance ProvenanceOf(const Campaign& campaign) {
   Provenance provenance = CommonProvenance(campaign);
   provenance.attributes.insert({
-      {"source",
-       "Monte Carlo of photons in a homogeneous water over a flat Lambertian bottom, albtpu-generate"},
+      {"source", "Monte Carlo of photons in a homogeneous water over a flat Lambertian bottom, albtpu-generate"},
       {"references",
        "Fournier and Jonasz (1999), doi:10.1117/12.366488; Mobley et al. (2002), doi:10.1364/AO.41.001035"},
       {"component", "water column only: no sea surface, air side, platform or system"},
@@ -131,17 +129,16 @@ absl::StatusOr<Table::Variables> VariablesOf(const Campaign& campaign,
   const std::size_t of_echo = EstimatesOfEcho(campaign), pulses = (of_echo - 2) / 7;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].size() != EchoesOfCase(campaign) * of_echo)
-      return absl::DataLossError(
-          absl::StrCat("water case ", i, " does not have the nodes of its campaign; delete it"));
+      return absl::DataLossError(absl::StrCat("water case ", i, " does not have the nodes of its campaign; delete it"));
     for (std::size_t at = 0; at < cases[i].size(); ++at) {
       const std::size_t in_echo = at % of_echo;
       const std::size_t quantity = in_echo < 7 * pulses ? in_echo % 7 : 7 + in_echo - 7 * pulses;
       if (!std::isfinite(cases[i][at].standard_error)) {
         const std::size_t views = NodesOf(campaign, WaterAxis::kFieldOfView).size();
-        return absl::FailedPreconditionError(absl::StrCat(
-            "the echo of water case ", i, " has no clear end at an optical depth of ",
-            NodesOf(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
-            " (too few photons come back); give a smaller maximum optical depth, or more photons"));
+        return absl::FailedPreconditionError(
+            absl::StrCat("the echo of water case ", i, " has no clear end at an optical depth of ",
+                         NodesOf(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
+                         " (too few photons come back); give a smaller maximum optical depth, or more photons"));
       }
       const Estimate rounded = Rounded(cases[i][at]);
       variables[quantity]->values.push_back(static_cast<float>(rounded.value));
@@ -163,27 +160,23 @@ std::vector<Estimate> ComputeWaterCase(const Campaign& campaign, std::size_t ind
   const std::vector<double>& incidences = NodesOf(campaign, WaterAxis::kIncidence);
   const std::vector<double>& ratios = NodesOf(campaign, WaterAxis::kScatteringOverAbsorption);
   const double ratio = ratios[index / incidences.size() % ratios.size()];
-  const double fraction =
-      NodesOf(campaign, WaterAxis::kBackscatterFraction)[index / incidences.size() / ratios.size()];
+  const double fraction = NodesOf(campaign, WaterAxis::kBackscatterFraction)[index / incidences.size() / ratios.size()];
   std::vector<double> scattering = NodesOf(campaign, WaterAxis::kOpticalDepth);
   for (double& depth : scattering) depth /= OpticalDepthPerScattering(ratio, fraction);
   const std::vector<double> views = ViewsOf(campaign);
   const std::vector<double>& pulses = NodesOf(campaign, WaterAxis::kPulseLength);
-  const std::vector<std::vector<WaterColumnBias>> biases =
-      ComputeWaterColumns(PhaseFunction::FournierForand(fraction),
-                          ColumnOf(campaign, incidences[index % incidences.size()], ratio), scattering, views,
-                          pulses, EffortOf(campaign, ratio));
+  const std::vector<std::vector<WaterColumnBias>> biases = ComputeWaterColumns(
+      PhaseFunction::FournierForand(fraction), ColumnOf(campaign, incidences[index % incidences.size()], ratio),
+      scattering, views, pulses, EffortOf(campaign, ratio));
   std::vector<Estimate> estimates;
   estimates.reserve(EchoesOfCase(campaign) * EstimatesOfEcho(campaign));
   for (const std::vector<WaterColumnBias>& of_depth : biases) {
     for (const WaterColumnBias& bias : of_depth) {
-      for (const std::optional<DetectedBias>& detected : bias.by_pulse) {
-        if (detected) {
+      for (const std::optional<DetectedBias>& detected : bias.by_pulse)
+        if (detected)
           Append(*detected, estimates);
-        } else {
+        else
           estimates.insert(estimates.end(), 7, Estimate{0, kInfinity});
-        }
-      }
       estimates.push_back(bias.spot);
       estimates.push_back(bias.energy);
     }
@@ -193,9 +186,7 @@ std::vector<Estimate> ComputeWaterCase(const Campaign& campaign, std::size_t ind
 
 CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
   UniformStream random(campaign.seed, kCellOfChecks, static_cast<std::uint32_t>(index));
-  const auto between = [&](double least, double most) {
-    return least * std::pow(most / least, random.Next());
-  };
+  const auto between = [&](double least, double most) { return least * std::pow(most / least, random.Next()); };
   const auto along = [&](WaterAxis axis) {
     const std::vector<double>& nodes = NodesOf(campaign, axis);
     return between(nodes.front(), nodes.back());
@@ -211,11 +202,10 @@ CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
     checked.backscatter_fraction = along(WaterAxis::kBackscatterFraction);
     checked.scattering_over_absorption = along(WaterAxis::kScatteringOverAbsorption);
     checked.depth = between(1, 40);
-    checked.beam = {
-        .incidence = incidences.front() + (incidences.back() - incidences.front()) * random.Next(),
-        .optical_depth = between(0.05, 0.5) * checked.depth,
-        .field_of_view = between(1.5, 20) / checked.depth,
-        .pulse_length = PulseLengthOverDepth(between(1, 7), checked.depth, campaign.water->group_index)};
+    checked.beam = {.incidence = incidences.front() + (incidences.back() - incidences.front()) * random.Next(),
+                    .optical_depth = between(0.05, 0.5) * checked.depth,
+                    .field_of_view = between(1.5, 20) / checked.depth,
+                    .pulse_length = PulseLengthOverDepth(between(1, 7), checked.depth, campaign.water->group_index)};
     if (has(WaterAxis::kOpticalDepth, checked.beam.optical_depth) &&
         has(WaterAxis::kFieldOfView, checked.beam.field_of_view) &&
         has(WaterAxis::kPulseLength, checked.beam.pulse_length))
@@ -232,14 +222,12 @@ CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
 
 std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBeam& checked) {
   WaterColumn column = ColumnOf(campaign, checked.beam.incidence, checked.scattering_over_absorption);
-  column.scattering =
-      checked.beam.optical_depth /
-      OpticalDepthPerScattering(checked.scattering_over_absorption, checked.backscatter_fraction);
+  column.scattering = checked.beam.optical_depth /
+                      OpticalDepthPerScattering(checked.scattering_over_absorption, checked.backscatter_fraction);
   column.field_of_view = checked.beam.field_of_view;
   const std::array pulses = {checked.beam.pulse_length};
-  const WaterColumnBias bias =
-      ComputeWaterColumn(PhaseFunction::FournierForand(checked.backscatter_fraction), column, pulses,
-                         EffortOf(campaign, checked.scattering_over_absorption));
+  const WaterColumnBias bias = ComputeWaterColumn(PhaseFunction::FournierForand(checked.backscatter_fraction), column,
+                                                  pulses, EffortOf(campaign, checked.scattering_over_absorption));
   std::vector<Estimate> estimates;
   Append(bias.by_pulse.front().value_or(DetectedBias()), estimates);
   estimates.resize(kCheckedBiases);
@@ -251,8 +239,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBea
   return estimates;
 }
 
-absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign,
-                                      const std::vector<std::vector<Estimate>>& cases,
+absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign, const std::vector<std::vector<Estimate>>& cases,
                                       const std::vector<std::vector<Estimate>>& direct) {
   const absl::StatusOr<Table::Variables> variables = VariablesOf(campaign, cases);
   if (!variables.ok()) return variables.status();

@@ -35,8 +35,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBea
 inline constexpr std::size_t kCheckedBiases = 6, kCheckedEstimates = kCheckedBiases + 1;
 
 // `cases` and `direct` are what the functions above return for all indices. DataLoss if one has another size.
-absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign,
-                                      const std::vector<std::vector<Estimate>>& cases,
+absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign, const std::vector<std::vector<Estimate>>& cases,
                                       const std::vector<std::vector<Estimate>>& direct);
 
 }  // namespace albtpu

@@ -21,18 +21,14 @@ using EightRows = hn::CappedTag<float, 8>;
 #if HWY_TARGET == HWY_SCALAR
 
 // Both functions are documented below.
-inline void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes,
-                               std::size_t lane_stride) {
-  for (int i = 0; i < 4; ++i) {
+inline void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes, std::size_t lane_stride) {
+  for (int i = 0; i < 4; ++i)
     for (int r = 0; r < 8; ++r) lanes[i * lane_stride + r] = rows[r * row_stride + i];
-  }
 }
 
-inline void FourLanesToColumns(const float* lanes, std::size_t lane_stride, float* rows,
-                               std::size_t row_stride) {
-  for (int i = 0; i < 4; ++i) {
+inline void FourLanesToColumns(const float* lanes, std::size_t lane_stride, float* rows, std::size_t row_stride) {
+  for (int i = 0; i < 4; ++i)
     for (int r = 0; r < 8; ++r) rows[r * row_stride + i] = lanes[i * lane_stride + r];
-  }
 }
 
 #else
@@ -54,16 +50,13 @@ HWY_INLINE void TransposeSquares(D d, V* v) {
 // lanes[i lane_stride + r] = rows[r row_stride + i] for i below 4 and r below 8. Rows are aligned to four numbers,
 // lanes to eight.
 template <class D = EightRows>
-HWY_INLINE void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes,
-                                   std::size_t lane_stride) {
+HWY_INLINE void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes, std::size_t lane_stride) {
   const D d;
   hn::Vec<D> v[4];
   if constexpr (hn::MaxLanes(D()) == 8) {
     const hn::Half<D> four;
-    for (int i = 0; i < 4; ++i) {
-      v[i] =
-          hn::Combine(d, hn::Load(four, rows + (i + 4) * row_stride), hn::Load(four, rows + i * row_stride));
-    }
+    for (int i = 0; i < 4; ++i)
+      v[i] = hn::Combine(d, hn::Load(four, rows + (i + 4) * row_stride), hn::Load(four, rows + i * row_stride));
     TransposeSquares(d, v);
     for (int i = 0; i < 4; ++i) hn::Store(v[i], d, lanes + i * lane_stride);
   } else {
@@ -77,8 +70,7 @@ HWY_INLINE void FourColumnsToLanes(const float* rows, std::size_t row_stride, fl
 
 // The inverse: rows[r row_stride + i] = lanes[i lane_stride + r].
 template <class D = EightRows>
-HWY_INLINE void FourLanesToColumns(const float* lanes, std::size_t lane_stride, float* rows,
-                                   std::size_t row_stride) {
+HWY_INLINE void FourLanesToColumns(const float* lanes, std::size_t lane_stride, float* rows, std::size_t row_stride) {
   const D d;
   hn::Vec<D> v[4];
   if constexpr (hn::MaxLanes(D()) == 8) {

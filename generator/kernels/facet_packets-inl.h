@@ -69,9 +69,7 @@ struct Grid {
         y_per_height(hn::Set(d, static_cast<float>(rays.y_per_height()) / surface.spacing)) {}
 
   // From positions [m] about the centre of the beam to steps.
-  HWY_INLINE V Steps(const float* metres) const {
-    return hn::MulAdd(hn::LoadU(d, metres), steps_per_metre, origin);
-  }
+  HWY_INLINE V Steps(const float* metres) const { return hn::MulAdd(hn::LoadU(d, metres), steps_per_metre, origin); }
 };
 
 // The number of rays in a block: few enough to stay in the first-level cache and to be summed in single precision.

@@ -89,8 +89,7 @@ void FoldModes(const PatchTransform& patch, const float* modes, float* folded) {
         Times(patch.half_turn[2 * k], patch.half_turn[2 * k + 1], {hn::Sub(x.re, y.re), hn::Add(x.im, y.im)});
     StoreElement(PlusI(e, o), folded + kElement * patch.rows.Place(k));
     if (k == 0) continue;
-    StoreElement({hn::Add(e.re, o.im), hn::Sub(o.re, e.im)},
-                 folded + kElement * patch.rows.Place(patch.half - k));
+    StoreElement({hn::Add(e.re, o.im), hn::Sub(o.re, e.im)}, folded + kElement * patch.rows.Place(patch.half - k));
   }
 }
 
@@ -114,19 +113,15 @@ void DrawPatch(const PatchTransform& patch, const NormalStream& stream, float* m
   for (int row = 0; row < patch.points; row += kSeries) {
     float *modes = even, *folded = odd;
     GatherRows(patch, spectrum + row * patch.row_stride, modes);
-    for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(Series())) {
+    for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(Series()))
       FoldModes(patch, modes + lane, folded + lane);
-    }
     Transform(patch.rows, folded, begin, end, [&](int pair) { return modes + kElement * (pair - begin); });
 
     float* lines = folded;
-    for (int pair = 0; pair < end - begin; pair += 2) {
+    for (int pair = 0; pair < end - begin; pair += 2)
       FourLanesToColumns(modes + kElement * pair, kSeries, lines + 2 * pair, line);
-    }
-    for (int r = row; r < std::min(row + static_cast<int>(kSeries), patch.points); ++r, lines += line) {
-      std::copy_n(lines + patch.first % 2, patch.points,
-                  heights + static_cast<std::size_t>(r) * patch.points);
-    }
+    for (int r = row; r < std::min(row + static_cast<int>(kSeries), patch.points); ++r, lines += line)
+      std::copy_n(lines + patch.first % 2, patch.points, heights + static_cast<std::size_t>(r) * patch.points);
   }
 }
 

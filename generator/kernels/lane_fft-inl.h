@@ -24,12 +24,8 @@ using SeriesLanes = hn::Vec<Series>;
 struct ComplexLanes {
   SeriesLanes re, im;
 };
-HWY_INLINE ComplexLanes operator+(ComplexLanes a, ComplexLanes b) {
-  return {hn::Add(a.re, b.re), hn::Add(a.im, b.im)};
-}
-HWY_INLINE ComplexLanes operator-(ComplexLanes a, ComplexLanes b) {
-  return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)};
-}
+HWY_INLINE ComplexLanes operator+(ComplexLanes a, ComplexLanes b) { return {hn::Add(a.re, b.re), hn::Add(a.im, b.im)}; }
+HWY_INLINE ComplexLanes operator-(ComplexLanes a, ComplexLanes b) { return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)}; }
 HWY_INLINE ComplexLanes TimesI(ComplexLanes a) { return {hn::Neg(a.im), a.re}; }
 HWY_INLINE ComplexLanes PlusI(ComplexLanes a, ComplexLanes b) {  // a + i b
   return {hn::Sub(a.re, b.im), hn::Add(a.im, b.re)};
@@ -37,9 +33,7 @@ HWY_INLINE ComplexLanes PlusI(ComplexLanes a, ComplexLanes b) {  // a + i b
 HWY_INLINE ComplexLanes MinusI(ComplexLanes a, ComplexLanes b) {  // a - i b
   return {hn::Add(a.re, b.im), hn::Sub(a.im, b.re)};
 }
-HWY_INLINE ComplexLanes operator*(SeriesLanes s, ComplexLanes a) {
-  return {hn::Mul(s, a.re), hn::Mul(s, a.im)};
-}
+HWY_INLINE ComplexLanes operator*(SeriesLanes s, ComplexLanes a) { return {hn::Mul(s, a.re), hn::Mul(s, a.im)}; }
 HWY_INLINE ComplexLanes MulAdd(SeriesLanes s, ComplexLanes a, ComplexLanes b) {  // s a + b
   return {hn::MulAdd(s, a.re, b.re), hn::MulAdd(s, a.im, b.im)};
 }
@@ -128,11 +122,9 @@ HWY_INLINE void RunPass(const LaneFft::Pass& pass, int size, const float* data, 
     const float* twiddle = pass.twiddles.data();
     for (int k = 0; k < length; ++k, twiddle += 2 * (kRadix - 1)) {
       ComplexLanes x[kRadix];
-      for (int q = 0; q < kRadix; ++q)
-        x[q] = LoadElement(data + LaneFft::kElement * (first + q * length + k));
-      if (length > 1) {
+      for (int q = 0; q < kRadix; ++q) x[q] = LoadElement(data + LaneFft::kElement * (first + q * length + k));
+      if (length > 1)
         for (int q = 1; q < kRadix; ++q) x[q] = Times(twiddle[2 * q - 2], twiddle[2 * q - 1], x[q]);
-      }
       Butterfly<kRadix>(x);
       for (int q = 0; q < kRadix; ++q) store(first + q * length + k, x[q]);
     }
@@ -163,12 +155,14 @@ HWY_INLINE void Transform(const LaneFft& fft, float* data, int begin, int end, c
     float* own = data + lane;
     for (const LaneFft::Pass& pass : fft.passes()) {
       if (&pass != &fft.passes().back()) {
-        RunPass(pass, fft.size(), own,
-                [&](int i, ComplexLanes x) { StoreElement(x, own + LaneFft::kElement * i); });
+        RunPass(
+            pass, fft.size(), own, [&](int i, ComplexLanes x) { StoreElement(x, own + LaneFft::kElement * i); });
       } else {
-        RunPass(pass, fft.size(), own, [&](int i, ComplexLanes x) {
-          if (begin <= i && i < end) StoreElement(x, at(i) + lane);
-        });
+        RunPass(
+            pass, fft.size(), own,
+            [&](int i, ComplexLanes x) {
+              if (begin <= i && i < end) StoreElement(x, at(i) + lane);
+            });
       }
     }
   }

@@ -57,9 +57,8 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
   // -2 ln(1 - g) = 2 g + g^2 Q(g), with the minimax polynomial Q on [0, 1/2], within 2^-28 of the logarithm.
   FloatLanes q = number(3.49188614);
   for (const double c :
-       {-4.96464109, 3.95342422, -1.1907326, 0.68209374, 0.351380289, 0.503777087, 0.666524291, 1.00000179}) {
+       {-4.96464109, 3.95342422, -1.1907326, 0.68209374, 0.351380289, 0.503777087, 0.666524291, 1.00000179})
     q = hn::MulAdd(q, g, number(c));
-  }
   const FloatLanes squared =
       hn::MulAdd(halvings, number(1.3862943611198906), hn::MulAdd(hn::Mul(g, g), q, hn::Add(g, g)));
   const FloatLanes radius = hn::Sqrt(squared);
@@ -79,8 +78,7 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
 
   const WordLanes turns = hn::Add(v, hn::Set(w, 0x20000000u));  // the highest two bits count quarter turns
   const WordLanes sign = hn::Set(w, 0x80000000u);
-  const auto odd =
-      hn::RebindMask(f, hn::MaskFromVec(hn::BroadcastSignBit(hn::BitCast(s, hn::ShiftLeft<1>(turns)))));
+  const auto odd = hn::RebindMask(f, hn::MaskFromVec(hn::BroadcastSignBit(hn::BitCast(s, hn::ShiftLeft<1>(turns)))));
   const auto sine_sign = hn::BitCast(f, hn::And(turns, sign));
   const auto cosine_sign = hn::BitCast(f, hn::And(hn::Add(turns, hn::Set(w, 0x40000000u)), sign));
   return {hn::Mul(radius, hn::Xor(hn::IfThenElse(odd, sine, cosine), cosine_sign)),
@@ -120,9 +118,8 @@ class NormalLanes {
     WordLanes even[4], odd[4];
     PhiloxOfEvenLanes(part, hn::BitCast(w, even_blocks), even);
     PhiloxOfEvenLanes(part, hn::BitCast(w, hn::Add(even_blocks, hn::Set(wide, 1))), odd);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; ++i)
       word[i] = hn::OddEven(hn::BitCast(w, hn::ShiftLeft<32>(hn::BitCast(wide, odd[i]))), even[i]);
-    }
   }
 #endif
 

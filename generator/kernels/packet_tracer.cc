@@ -55,9 +55,8 @@ class Block {
       }
     }
     for (int ray = 0; ray < end_; ray += kLanes) Enter(ray, hn::Load(d, z_ + ray));
-    for (int ray = 0; ray < end_; ray += kLanes) {
+    for (int ray = 0; ray < end_; ray += kLanes)
       if (HWY_UNLIKELY(!hn::AllTrue(d, Advance(ray).on_facet))) *unsettled_rays += IntersectFurther(ray);
-    }
     ClearSurplus();
   }
 
@@ -74,9 +73,8 @@ class Block {
   //     tangent - r h / s0 = r h (secant - 1 / s0) + m lift / q.
   void AddRefracted(const StillWater& still, PacketSums* sums) const {
     const V s0 = hn::Set(d, still.s0), s0_squared = hn::Set(d, still.s0 * still.s0),
-            inverse_s0 = hn::Set(d, 1 / still.s0), rc = hn::Set(d, still.rc),
-            two_rc = hn::Set(d, 2 * still.rc), s0_less_rc = hn::Set(d, still.s0 - still.rc),
-            rhx = hn::Set(d, still.rhx), rhy = hn::Set(d, still.rhy),
+            inverse_s0 = hn::Set(d, 1 / still.s0), rc = hn::Set(d, still.rc), two_rc = hn::Set(d, 2 * still.rc),
+            s0_less_rc = hn::Set(d, still.s0 - still.rc), rhx = hn::Set(d, still.rhx), rhy = hn::Set(d, still.rhy),
             one_less_r2 = hn::Set(d, still.one_less_r2);
     V sum[kHeightSecant + 1];
     for (V& s : sum) s = hn::Zero(d);
@@ -94,8 +92,7 @@ class Block {
       const V secant =
           hn::Mul(hn::MulSub(hn::MulAdd(mm, s0_less_rc, mu), both, difference), hn::Mul(inverse, inverse_s0));
       const V gain = hn::Mul(hn::Mul(lift, both), inverse);
-      const V tx = hn::MulAdd(gain, mx, hn::Mul(rhx, secant)),
-              ty = hn::MulAdd(gain, my, hn::Mul(rhy, secant));
+      const V tx = hn::MulAdd(gain, mx, hn::Mul(rhx, secant)), ty = hn::MulAdd(gain, my, hn::Mul(rhy, secant));
       sum[kHeight] = hn::Add(sum[kHeight], z);
       sum[kTangentX] = hn::Add(sum[kTangentX], tx);
       sum[kTangentY] = hn::Add(sum[kTangentY], ty);

@@ -14,9 +14,7 @@ namespace {
 // The interleaved bits of `x` and `y`, x with the higher bit of each pair.
 std::uint32_t Interleave(std::uint16_t x, std::uint16_t y) {
   std::uint32_t both = 0;
-  for (int bit = 0; bit < 16; ++bit) {
-    both |= ((x >> bit & 1u) << (2 * bit + 1)) | ((y >> bit & 1u) << (2 * bit));
-  }
+  for (int bit = 0; bit < 16; ++bit) both |= ((x >> bit & 1u) << (2 * bit + 1)) | ((y >> bit & 1u) << (2 * bit));
   return both;
 }
 
@@ -51,9 +49,8 @@ RayBundle::RayBundle(const std::vector<Ray>& rays, double refractive_index)
     y_[place] = at.y();
   };
   int next = 0;
-  for (int strip = 0; strip < kStrips; ++strip) {
+  for (int strip = 0; strip < kStrips; ++strip)
     for (int place = strip; place < count_; place += kStrips) store(place, next++);
-  }
   for (int place = count_; place < rows * kStrips; ++place) store(place, count_ - 1);
 }
 
@@ -61,9 +58,8 @@ StillWater StillWaterOf(const RayBundle& rays) {
   const double r = 1 / rays.refractive_index();
   const Eigen::Vector3d direction = rays.direction();
   const double s0 = std::sqrt(1 - r * r + r * r * direction.z() * direction.z());
-  return {static_cast<float>(s0), static_cast<float>(-r * direction.z()),
-          static_cast<float>(r * direction.x()), static_cast<float>(r * direction.y()),
-          static_cast<float>(1 - r * r)};
+  return {static_cast<float>(s0), static_cast<float>(-r * direction.z()), static_cast<float>(r * direction.x()),
+          static_cast<float>(r * direction.y()), static_cast<float>(1 - r * r)};
 }
 
 void IntersectOne(const RayBundle& rays, const HeightView& surface, int ray, float& height, float& rise_x,
@@ -82,8 +78,7 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   const Eigen::Vector2d tangent(mean[kTangentX], mean[kTangentY]);  // less the tangent in still water
   TracedBundle traced;
   traced.beam.tangent = still.tangent + tangent;
-  traced.beam.height_tangent =
-      Eigen::Vector2d(mean[kHeightTangentX], mean[kHeightTangentY]) - mean[kHeight] * tangent;
+  traced.beam.height_tangent = Eigen::Vector2d(mean[kHeightTangentX], mean[kHeightTangentY]) - mean[kHeight] * tangent;
   traced.beam.secant = still.secant + mean[kSecant];
   traced.beam.height_secant = mean[kHeightSecant] - mean[kHeight] * mean[kSecant];
   traced.beam.slope = {mean[kSlopeX], mean[kSlopeY]};

@@ -32,9 +32,8 @@ fftw_complex* AsFftw(const InverseFft::Modes& modes) { return reinterpret_cast<f
 int FastSize(double at_least) {
   for (int size = 2 * static_cast<int>(std::ceil(at_least / 2));; size += 2) {
     int rest = size;
-    for (const int factor : {2, 3, 5}) {
+    for (const int factor : {2, 3, 5})
       while (rest % factor == 0) rest /= factor;
-    }
     if (rest == 1) return size;
   }
 }
@@ -84,8 +83,7 @@ std::vector<double> InverseFft::operator()(Modes modes) const {
 
 Eigen::MatrixXcd ForwardFft(const Eigen::MatrixXd& weights) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using RowMajorComplex =
-      Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using RowMajorComplex = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int size = static_cast<int>(weights.rows());
   assert(weights.cols() == size && size % 2 == 0);
   RowMajor in = weights;
@@ -94,8 +92,7 @@ Eigen::MatrixXcd ForwardFft(const Eigen::MatrixXd& weights) {
   {
     const std::lock_guard lock(FftwPlanner());
     // Planning by estimate does not touch the arrays.
-    plan =
-        fftw_plan_dft_r2c_2d(size, size, in.data(), reinterpret_cast<fftw_complex*>(out.data()), kPlanning);
+    plan = fftw_plan_dft_r2c_2d(size, size, in.data(), reinterpret_cast<fftw_complex*>(out.data()), kPlanning);
   }
   fftw_execute(plan);
   {

@@ -36,8 +36,7 @@ void NormalStream::Fill(std::span<double> normals) {
 }
 
 void UniformStream::Draw() {
-  const r123::Philox4x32::ctr_type words =
-      r123::Philox4x32()({{block_++, realization_, cell_, part_}}, KeyOf(seed_));
+  const r123::Philox4x32::ctr_type words = r123::Philox4x32()({{block_++, realization_, cell_, part_}}, KeyOf(seed_));
   std::copy(words.begin(), words.end(), words_.begin());
   used_ = 0;
 }

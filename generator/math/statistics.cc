@@ -25,8 +25,7 @@ Eigen::ArrayXd Corrected(const Eigen::ArrayXd& squares, const Control& control) 
   for (const bool first : {true, false}) {
     const Eigen::Index begin = first ? 0 : half, count = first ? half : n - half;
     const Eigen::Index other_begin = first ? half : 0, other_count = n - count;
-    const double b =
-        Slope(excess.segment(other_begin, other_count), squares.segment(other_begin, other_count));
+    const double b = Slope(excess.segment(other_begin, other_count), squares.segment(other_begin, other_count));
     corrected.segment(begin, count) = squares.segment(begin, count) - b * excess.segment(begin, count);
   }
   return corrected;
@@ -57,9 +56,7 @@ Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double mean_correction
   if (control && squares.size() >= kFewestToFit) {
     const Eigen::ArrayXd corrected = Corrected(squares, *control);
     const double variance = corrected.mean() + mean_correction;
-    if (variance > 0) {
-      return {2 * std::sqrt(variance), std::sqrt(VarianceWithinHalves(corrected) / n / variance)};
-    }
+    if (variance > 0) return {2 * std::sqrt(variance), std::sqrt(VarianceWithinHalves(corrected) / n / variance)};
   }
   const double variance = squares.mean() + mean_correction;
   if (variance <= 0) return {};

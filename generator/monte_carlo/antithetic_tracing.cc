@@ -32,8 +32,8 @@ Eigen::Vector2d ExpectedSlope(const LongWaveModel& long_waves, const BeamOptions
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const LongWaveModel::Wave& wave : long_waves.waves()) {
     const double psi = std::atan2(wave.wavenumber.y(), wave.wavenumber.x());
-    sum -= wave.variance * wave.wavenumber.dot(per_height) *
-           FootprintAverage(beam, wave.wavenumber.norm(), psi) * wave.wavenumber;
+    sum -= wave.variance * wave.wavenumber.dot(per_height) * FootprintAverage(beam, wave.wavenumber.norm(), psi) *
+           wave.wavenumber;
   }
   return sum;
 }
@@ -55,21 +55,19 @@ class AntitheticTracing final : public BeamTracing {
     for (std::size_t b = 0; b < rays.size(); ++b) {
       const BeamOptions& options = traced.beams[b];
       const Eigen::Vector2d per_height = rays[b].front().per_height();
-      PreparedBeam prepared{
-          options,
-          per_height,
-          RayBundle(rays[b], n),
-          Trace(rays[b], model.StillSurface(), n),
-          EffectOfUnresolvedWaves(options, n, traced.unresolved_slopes, traced.resolved_slopes),
-          {}};
+      PreparedBeam prepared{options,
+                            per_height,
+                            RayBundle(rays[b], n),
+                            Trace(rays[b], model.StillSurface(), n),
+                            EffectOfUnresolvedWaves(options, n, traced.unresolved_slopes, traced.resolved_slopes),
+                            {}};
       if (b > 0 && OneBeam(beams_.back().options, options)) {
         prepared.known = beams_.back().known;
       } else {
-        prepared.known = {MomentsOfSlopes(correlation, rays[b], spacing,
-                                          SecantCurvature(options.incidence, options.azimuth, n)),
-                          FootprintSlopeCovariance(correlation, options, spacing),
-                          height_slope.Covariance(options),
-                          ExpectedSlope(model.long_waves(), options, per_height)};
+        prepared.known = {
+            MomentsOfSlopes(correlation, rays[b], spacing, SecantCurvature(options.incidence, options.azimuth, n)),
+            FootprintSlopeCovariance(correlation, options, spacing), height_slope.Covariance(options),
+            ExpectedSlope(model.long_waves(), options, per_height)};
       }
       beams_.push_back(std::move(prepared));
     }
@@ -95,8 +93,8 @@ class AntitheticTracing final : public BeamTracing {
       // The weight of this surface is 1 - lean, that of the inverted one 1 + lean.
       const double lean = beam.per_height.dot(workspace.surface.long_slope);
       const auto part = [&](double weight, const TracedBeam& traced) {
-        return BeamRealization::Part{
-            0.5 * weight, ErrorsOf(WithUnresolvedWaves(traced, beam.unresolved), beam.still_water)};
+        return BeamRealization::Part{0.5 * weight,
+                                     ErrorsOf(WithUnresolvedWaves(traced, beam.unresolved), beam.still_water)};
       };
       const TracedBundle bundle = TracePackets(beam.rays, upright);
       realized[b].parts = {part(1 - lean, bundle.beam), part(1 + lean, Trace(beam.rays, inverted))};
@@ -106,9 +104,7 @@ class AntitheticTracing final : public BeamTracing {
     }
   }
 
-  const std::optional<KnownSlopes>& known_slopes(std::size_t beam) const override {
-    return beams_[beam].known;
-  }
+  const std::optional<KnownSlopes>& known_slopes(std::size_t beam) const override { return beams_[beam].known; }
 
  private:
   struct Workspace {
@@ -117,9 +113,7 @@ class AntitheticTracing final : public BeamTracing {
   };
 
   // At nadir the azimuth has no meaning: one beam stands for all azimuths.
-  static bool OneBeam(const BeamOptions& a, const BeamOptions& b) {
-    return a.incidence == 0 && b.incidence == 0;
-  }
+  static bool OneBeam(const BeamOptions& a, const BeamOptions& b) { return a.incidence == 0 && b.incidence == 0; }
 
   FastSurface surface_;
   std::vector<PreparedBeam> beams_;

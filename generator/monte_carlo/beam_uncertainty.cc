@@ -48,8 +48,8 @@ class Column {
 // are none where no statistics of the slopes are known.
 class ControlVariates {
  public:
-  ControlVariates(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
-                  double refractive_index, const std::optional<KnownSlopes>& known)
+  ControlVariates(const std::vector<BeamRealization>& sample, const BeamOptions& beam, double refractive_index,
+                  const std::optional<KnownSlopes>& known)
       : known_(known), azimuth_(std::cos(beam.azimuth), std::sin(beam.azimuth)) {
     if (!known) return;
     const Eigen::Matrix2d response = TangentResponse(beam.incidence, beam.azimuth, refractive_index);
@@ -87,15 +87,12 @@ class ControlVariates {
   }
   std::optional<Control> SquaredHorizontal(double depth) const {
     if (!known_) return std::nullopt;
-    return Control{
-        Squared(depth * tangent_.col(0), offset_.col(0)) + Squared(depth * tangent_.col(1), offset_.col(1)),
-        depth * depth * covariance_.trace() + offset_covariance_.trace()};
+    return Control{Squared(depth * tangent_.col(0), offset_.col(0)) + Squared(depth * tangent_.col(1), offset_.col(1)),
+                   depth * depth * covariance_.trace() + offset_covariance_.trace()};
   }
   std::optional<Control> SquaredVertical(double depth) const {
     if (!known_) return std::nullopt;
-    const auto both = [&](const Eigen::Matrix2d& covariance) {
-      return vertical_.dot(covariance * vertical_);
-    };
+    const auto both = [&](const Eigen::Matrix2d& covariance) { return vertical_.dot(covariance * vertical_); };
     return Control{
         Squared(-depth * Along(vertical_, tangent_),
                 depth * square_gain_ * (form_ - expected_form_) - Along(vertical_, offset_)),
@@ -114,9 +111,8 @@ class ControlVariates {
   }
   std::optional<Control> Vertical(double depth) const {
     if (!known_) return std::nullopt;
-    return Control{
-        depth * (imbalance_ * Along(vertical_, tangent_) + square_gain_ * form_) - Along(vertical_, offset_),
-        depth * (vertical_.dot(expectation_) + square_gain_ * expected_form_)};
+    return Control{depth * (imbalance_ * Along(vertical_, tangent_) + square_gain_ * form_) - Along(vertical_, offset_),
+                   depth * (vertical_.dot(expectation_) + square_gain_ * expected_form_)};
   }
 
  private:
@@ -161,19 +157,18 @@ BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const 
   result.refraction_cross_wind = refraction(1);
   for (const double depth : depths) {
     const auto horizontal = [&](const Eigen::Vector2d& direction) {
-      return Column(sample, [&](const BeamErrors& e) {
-        return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth);
-      });
+      return Column(
+          sample,
+          [&](const BeamErrors& e) { return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth); });
     };
     const auto squares_along = [&](const Eigen::Vector2d& direction) {
       return horizontal(direction).SquaresAboutMean(controls.Horizontal(depth, direction));
     };
-    const Column::Squares x = squares_along(Eigen::Vector2d::UnitX()),
-                          y = squares_along(Eigen::Vector2d::UnitY());
+    const Column::Squares x = squares_along(Eigen::Vector2d::UnitX()), y = squares_along(Eigen::Vector2d::UnitY());
     result.thu.push_back(TwoSigmaOfSquares(x.sample + y.sample, x.mean_correction + y.mean_correction,
                                            controls.SquaredHorizontal(depth)));
-    const Column vertical(
-        sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
+    const Column vertical(sample,
+                          [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
     const Column::Squares z = vertical.SquaresAboutMean(controls.Vertical(depth));
     result.tvu.push_back(TwoSigmaOfSquares(z.sample, z.mean_correction, controls.SquaredVertical(depth)));
     result.bias_along_beam.push_back(Mean(horizontal(azimuth).Means(), controls.Horizontal(depth, azimuth)));

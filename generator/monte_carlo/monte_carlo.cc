@@ -64,19 +64,15 @@ SeaCaseResult InStillWater(const SeaCase& sea_case) {
 
 }  // namespace
 
-std::string_view Name(Estimator estimator) {
-  return estimator == Estimator::kPlain ? "plain" : "control_variate";
-}
+std::string_view Name(Estimator estimator) { return estimator == Estimator::kPlain ? "plain" : "control_variate"; }
 
 std::optional<Estimator> FindEstimator(std::string_view name) {
-  for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain}) {
+  for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain})
     if (name == Name(estimator)) return estimator;
-  }
   return std::nullopt;
 }
 
-SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed,
-                       std::uint32_t cell) {
+SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed, std::uint32_t cell) {
   assert(!sea_case.beams.empty() && effort.realizations >= 2);
   const SeaState sea(sea_case.sea);
   const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
@@ -116,8 +112,8 @@ SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint6
       if (!wanted[b]) continue;
       std::vector<BeamRealization> sample;
       for (const std::vector<BeamRealization>& realization : realizations) sample.push_back(realization[b]);
-      result.beams[b] = UncertaintyOf(sample, sea_case.beams[b], sea_case.refractive_index,
-                                      tracing->known_slopes(b), sea_case.depths);
+      result.beams[b] = UncertaintyOf(sample, sea_case.beams[b], sea_case.refractive_index, tracing->known_slopes(b),
+                                      sea_case.depths);
       wanted[b] = effort.relative_error > 0 && !HasConverged(result.beams[b], effort.relative_error);
       result.converged = result.converged && !wanted[b];
     }

@@ -14,9 +14,9 @@ class PlainTracing final : public BeamTracing {
       Beam beam(options, traced.rays);
       std::vector<Ray> rays = beam.Rays(0);
       TracedBeam still = Trace(rays, model.StillSurface(), refractive_index_);
-      beams_.push_back({std::move(beam), std::move(rays), still,
-                        EffectOfUnresolvedWaves(options, refractive_index_, traced.unresolved_slopes,
-                                                traced.resolved_slopes)});
+      beams_.push_back(
+          {std::move(beam), std::move(rays), still,
+           EffectOfUnresolvedWaves(options, refractive_index_, traced.unresolved_slopes, traced.resolved_slopes)});
     }
   }
 
@@ -33,10 +33,9 @@ class PlainTracing final : public BeamTracing {
       }
       const SeaSurface::LocalSurface local = surface.SurfaceUnder(prepared.beam);
       const TracedBeam traced =
-          Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(local.elevation),
-                local.heights, refractive_index_);
-      realized[b].parts[0] = {
-          1, ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water)};
+          Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(local.elevation), local.heights,
+                refractive_index_);
+      realized[b].parts[0] = {1, ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water)};
     }
   }
 

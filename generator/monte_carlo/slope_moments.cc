@@ -44,15 +44,11 @@ SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : r
   const double spacing = model.patch().spacing();
   const std::vector<LongWaveModel::Wave>& waves = model.long_waves().waves();
   Eigen::ArrayX2d phase(waves.size(), 2);  // across one cell
-  for (std::size_t m = 0; m < waves.size(); ++m) {
-    phase.row(m) = (spacing * waves[m].wavenumber).transpose().array();
-  }
+  for (std::size_t m = 0; m < waves.size(); ++m) phase.row(m) = (spacing * waves[m].wavenumber).transpose().array();
   const Eigen::MatrixXcd x = Phases(phase.col(0), reach), y = Phases(phase.col(1), reach);
   const auto correlate = [&](const auto& factor) {
     Eigen::VectorXcd power(waves.size());
-    for (std::size_t m = 0; m < waves.size(); ++m) {
-      power[m] = waves[m].variance * factor(phase(m, 0), phase(m, 1));
-    }
+    for (std::size_t m = 0; m < waves.size(); ++m) power[m] = waves[m].variance * factor(phase(m, 0), phase(m, 1));
     Eigen::MatrixXd sum = SumOfWaves(x, power, y);
     AddPatch(model.patch().Correlate(factor), model.patch().size(), sum);
     return sum;
@@ -63,8 +59,7 @@ SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : r
   xx_ = correlate([&](double px, double) { return Complex(std::pow(quotient(px), 2)); });
   yy_ = correlate([&](double, double py) { return Complex(std::pow(quotient(py), 2)); });
   // At lags that are half a cell greater on both axes.
-  xy_ = correlate(
-      [&](double px, double py) { return quotient(px) * quotient(py) * std::polar(1.0, (px + py) / 2); });
+  xy_ = correlate([&](double px, double py) { return quotient(px) * quotient(py) * std::polar(1.0, (px + py) / 2); });
 
   at_points_.height = correlate([](double, double) { return Complex(1); });
   at_points_.height.array() -= at_points_.height(reach, reach);
@@ -87,9 +82,8 @@ Eigen::MatrixXd Wrapped(const Eigen::MatrixXd& centred, int size) {
   const int reach = static_cast<int>(centred.rows() - 1) / 2;
   const auto wrapped = [&](int lag) { return lag < 0 ? lag + size : lag; };
   Eigen::MatrixXd grid = Eigen::MatrixXd::Zero(size, size);
-  for (int y = -reach; y <= reach; ++y) {
+  for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) grid(wrapped(x), wrapped(y)) = centred(x + reach, y + reach);
-  }
   return grid;
 }
 
@@ -112,8 +106,7 @@ Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {
       for (int s = 0; s < kSamples * kSamples; ++s) {
-        const Eigen::Vector2d within((s / kSamples + 0.5) / kSamples - 0.5,
-                                     (s % kSamples + 0.5) / kSamples - 0.5);
+        const Eigen::Vector2d within((s / kSamples + 0.5) / kSamples - 0.5, (s % kSamples + 0.5) / kSamples - 0.5);
         const Eigen::Vector2d at = spacing / beam.footprint * (Eigen::Vector2d(x, y) + within);
         const double squared_radius =
             std::pow(at.dot(along) * std::cos(beam.incidence), 2) + std::pow(at.dot(across), 2);
@@ -146,8 +139,7 @@ HeightSlopeProduct::HeightSlopeProduct(const SurfaceCorrelation& correlation, do
   for (std::size_t e = 0; e < kElements.size(); ++e) {
     const auto [a, b] = kElements[e];
     slopes_[e] = Transform(*slopes[e]);
-    products_[e] =
-        Transform(at.height.cwiseProduct(*slopes[e]) - height_slope[a]->cwiseProduct(*height_slope[b]));
+    products_[e] = Transform(at.height.cwiseProduct(*slopes[e]) - height_slope[a]->cwiseProduct(*height_slope[b]));
   }
 }
 
@@ -171,15 +163,12 @@ Eigen::Matrix2d HeightSlopeProduct::Covariance(const BeamOptions& beam) const {
     return Centred(transform_(std::move(modes)), size_, reach_);
   };
   const Eigen::ArrayXXd height = filtered(height_);
-  const std::array<Eigen::ArrayXXd, 2> height_slope = {filtered(height_slope_[0]),
-                                                       filtered(height_slope_[1])};
+  const std::array<Eigen::ArrayXXd, 2> height_slope = {filtered(height_slope_[0]), filtered(height_slope_[1])};
   std::array<double, 3> elements;
   for (std::size_t e = 0; e < kElements.size(); ++e) {
     const auto [a, b] = kElements[e];
-    const double of_one =
-        (shares.array() * (height * filtered(slopes_[e]) - height_slope[a] * height_slope[b])).sum();
-    elements[e] =
-        SumOver(power, products_[e]) - 2 * of_one + SumOver(power, height_) * SumOver(power, slopes_[e]);
+    const double of_one = (shares.array() * (height * filtered(slopes_[e]) - height_slope[a] * height_slope[b])).sum();
+    elements[e] = SumOver(power, products_[e]) - 2 * of_one + SumOver(power, height_) * SumOver(power, slopes_[e]);
   }
   return (Eigen::Matrix2d() << elements[0], elements[1], elements[1], elements[2]).finished();
 }
@@ -197,10 +186,9 @@ double FarthestOf(const std::vector<Ray>& rays) {
 // The fractions of the rays on the triangles of each kind (beside y, beside x), by cell, transformed on a grid of
 // `size` cells.
 std::array<Waves, 2> SharesOfTriangles(const std::vector<Ray>& rays, double spacing, int cells, int size) {
-  const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0),
-                          cells + 1, spacing);
-  std::array<Eigen::MatrixXd, 2> shares = {Eigen::MatrixXd::Zero(size, size),
-                                           Eigen::MatrixXd::Zero(size, size)};
+  const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0), cells + 1,
+                          spacing);
+  std::array<Eigen::MatrixXd, 2> shares = {Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size)};
   for (const Ray& ray : rays) {
     const HeightField::Triangle triangle = still.TriangleAt(ray.at_zero);
     shares[triangle.beside_x](triangle.ix, triangle.iy) += 1.0 / static_cast<double>(rays.size());
@@ -227,8 +215,7 @@ class Sums {
   }
 
   Eigen::Matrix2d covariance() const {
-    return (Eigen::Matrix2d() << covariance_[0], covariance_[1] / 2, covariance_[1] / 2, covariance_[2])
-        .finished();
+    return (Eigen::Matrix2d() << covariance_[0], covariance_[1] / 2, covariance_[1] / 2, covariance_[2]).finished();
   }
   double variance_of_form() const { return 2 * form_squares_; }
 
@@ -245,15 +232,13 @@ Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, 
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
   const auto overlap = [&](double x, double y) {
     const Eigen::Vector2d lag = spacing / beam.footprint * Eigen::Vector2d(x, y);
-    return FootprintOverlap(beam.profile,
-                            std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
+    return FootprintOverlap(beam.profile, std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
   };
   // The double integral of R over the footprint depends on the lag alone, with the footprint's overlap as the weight.
   double xx = 0, xy = 0, yy = 0, whole_weights = 0, half_weights = 0;
   for (int x = -correlation.reach(); x <= correlation.reach(); ++x) {
     for (int y = -correlation.reach(); y <= correlation.reach(); ++y) {
-      const double whole = overlap(x, y),
-                   half = overlap(x + 0.5, y + 0.5);  // lags of whole and of half cells
+      const double whole = overlap(x, y), half = overlap(x + 0.5, y + 0.5);  // lags of whole and of half cells
       whole_weights += whole;
       half_weights += half;
       xx += whole * correlation.xx(x, y);
@@ -261,16 +246,15 @@ Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, 
       xy += half * correlation.xy(x, y);
     }
   }
-  return (Eigen::Matrix2d() << xx / whole_weights, xy / half_weights, xy / half_weights, yy / whole_weights)
-      .finished();
+  return (Eigen::Matrix2d() << xx / whole_weights, xy / half_weights, xy / half_weights, yy / whole_weights).finished();
 }
 
 int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
   return static_cast<int>(2 * FarthestOf(rays) / spacing) + 3;
 }
 
-SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
-                             double spacing, const Eigen::Matrix2d& form) {
+SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays, double spacing,
+                             const Eigen::Matrix2d& form) {
   const int cells = 2 * (static_cast<int>(FarthestOf(rays) / spacing) + 1);
   const int reach = cells - 1;  // the largest lag between two cells
   assert(reach + 1 <= correlation.reach());
@@ -289,8 +273,7 @@ SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::v
       mixed[row * (size / 2 + 1) + j] = y * std::conj(x) / points;
     }
   }
-  const std::vector<double> same_pairs = transform(std::move(same)),
-                            mixed_pairs = transform(std::move(mixed));
+  const std::vector<double> same_pairs = transform(std::move(same)), mixed_pairs = transform(std::move(mixed));
 
   Sums sums(form);
   const SurfaceCorrelation& r = correlation;

@@ -104,8 +104,8 @@ struct SlopeMoments {
 //     covariance = sum w_a w_b R(a, b),    variance_of_form = 2 sum w_a w_b tr(form R(a, b) form R(a, b)^T).
 // The second is Isserlis' theorem for Gaussian slopes of mean zero, cov(m_ai m_aj, m_bk m_bl) = R_ik R_jl + R_il R_jk,
 // with a symmetric `form`. Exact for the waves of `correlation`, which must reach as far as the rays lie apart.
-SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
-                             double spacing, const Eigen::Matrix2d& form);
+SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays, double spacing,
+                             const Eigen::Matrix2d& form);
 
 // The covariance of the slope averaged over the footprint of a collimated beam itself. Rays only sample it: they alias
 // some of the waves that are too short for their spacing to longer ones.

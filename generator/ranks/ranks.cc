@@ -42,13 +42,11 @@ std::optional<int> LaunchedRanks(const std::function<const char*(const char*)>& 
     return error == std::errc() ? std::optional<int>(value) : std::nullopt;
   };
   // Set by Open MPI's mpirun; by MPICH's, Intel's and `srun --mpi=pmi2`.
-  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const std::optional<int> ranks = number(size)) return ranks;
-  }
   // `srun --mpi=pmix` sets only the number of each rank; Slurm sets the number of tasks of the job step.
-  if (const std::optional<int> rank = number("PMIX_RANK")) {
+  if (const std::optional<int> rank = number("PMIX_RANK"))
     return std::max(*rank + 1, number("SLURM_STEP_NUM_TASKS").value_or(1));
-  }
   return std::nullopt;
 }
 

@@ -39,8 +39,7 @@ class MpiRanks final : public Ranks {
     int count = 0;
     MPI_Get_count(&status, MPI_BYTE, &count);
     Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(static_cast<std::size_t>(count), '\0')};
-    MPI_Recv(message.bytes.data(), count, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
-             MPI_STATUS_IGNORE);
+    MPI_Recv(message.bytes.data(), count, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     return message;
   }
 
@@ -62,10 +61,10 @@ absl::StatusOr<std::unique_ptr<Ranks>> Ranks::Join() {
   if (!launched) return OneRank();
   auto ranks = std::make_unique<MpiRanks>();
   if (ranks->size() < *launched) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "started as one of ", *launched, " ranks, but its MPI sees ", ranks->size(),
-        " (another MPI's mpirun); start it with the mpirun of the MPI that it was built with, or give "
-        "each process its share with --shard"));
+    return absl::FailedPreconditionError(
+        absl::StrCat("started as one of ", *launched, " ranks, but its MPI sees ", ranks->size(),
+                     " (another MPI's mpirun); start it with the mpirun of the MPI that it was built with, or give "
+                     "each process its share with --shard"));
   }
   if (ranks->size() > 1 && !ranks->serialized()) {
     return absl::FailedPreconditionError(

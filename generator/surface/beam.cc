@@ -18,14 +18,11 @@ Beam::Beam(const BeamOptions& options, int ray_count) : options_(options) {
   cross_section_.reserve(ray_count);
   for (int j = 0; j < ray_count; ++j) {
     const double radius = options.footprint * RadiusOfPower(options.profile, (j + 0.5) / ray_count);
-    cross_section_.push_back(radius *
-                             (std::cos(j * golden_angle) * upward + std::sin(j * golden_angle) * across));
+    cross_section_.push_back(radius * (std::cos(j * golden_angle) * upward + std::sin(j * golden_angle) * across));
   }
 }
 
-Eigen::Vector2d Beam::azimuth_direction() const {
-  return {std::cos(options_.azimuth), std::sin(options_.azimuth)};
-}
+Eigen::Vector2d Beam::azimuth_direction() const { return {std::cos(options_.azimuth), std::sin(options_.azimuth)}; }
 
 Eigen::Vector2d Beam::per_height() const { return axis_.head<2>() / axis_.z(); }
 

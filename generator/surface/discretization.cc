@@ -45,18 +45,22 @@ double AliasedSlopeVariance(const SurfaceModel& model, const BeamOptions& beam, 
 }
 
 double SeenSlopeVariance(const SeaState& sea, const BeamOptions& beam) {
-  return SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }).trace();
+  return SlopeCovariance(
+             sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); })
+      .trace();
 }
 
 // Whether the slope variances over the footprint of each beam, along and across the wind, agree with the closed form
 // within kPatchDeparture of half of `least`, the mean square slope that matters.
 bool HasTheSlopesSeen(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams,
                       double least) {
-  return std::all_of(beams.begin(), beams.end(), [&](const BeamOptions& beam) {
-    const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
-    const Eigen::Matrix2d error = model.FacetSlopeCovariance(seen) - SlopeCovariance(sea, seen);
-    return error.diagonal().cwiseAbs().maxCoeff() <= kPatchDeparture * least / 2;
-  });
+  return std::all_of(
+      beams.begin(), beams.end(),
+      [&](const BeamOptions& beam) {
+        const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+        const Eigen::Matrix2d error = model.FacetSlopeCovariance(seen) - SlopeCovariance(sea, seen);
+        return error.diagonal().cwiseAbs().maxCoeff() <= kPatchDeparture * least / 2;
+      });
 }
 
 }  // namespace
@@ -75,13 +79,11 @@ std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams) {
   const auto wider = [](const BeamOptions& a, const BeamOptions& b) {
     return std::pair(-a.incidence, a.azimuth) < std::pair(-b.incidence, b.azimuth);
   };
-  return {*std::min_element(beams.begin(), beams.end(), narrower),
-          *std::min_element(beams.begin(), beams.end(), wider),
+  return {*std::min_element(beams.begin(), beams.end(), narrower), *std::min_element(beams.begin(), beams.end(), wider),
           *std::max_element(beams.begin(), beams.end(), narrower)};
 }
 
-double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
-                              const std::vector<BeamOptions>& beams) {
+double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams) {
   double least = std::numeric_limits<double>::infinity();
   for (const BeamOptions& beam : beams) {
     const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
@@ -97,18 +99,15 @@ Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamO
   const double least = std::max(seen, kMinSeenFraction * SlopeCovariance(sea).trace());
   Discretization choice{kNarrowestPatch, kCoarsestPoints, kFewestRays};
   while (choice.points_per_footprint < kFinestPoints &&
-         GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) > kGridLoss * least) {
+         GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) > kGridLoss * least)
     choice.points_per_footprint *= 1.25;
-  }
   std::optional<SurfaceModel> model(std::in_place, sea, widest, choice);
   while (choice.patch_per_beam < kWidestPatch && !HasTheSlopesSeen(sea, *model, outermost, least)) {
     choice.patch_per_beam *= 1.25;
     model.emplace(sea, widest, choice);
   }
-  while (choice.rays < kMaxRays &&
-         AliasedSlopeVariance(*model, widest, choice.rays) > kAliasedFraction * least) {
+  while (choice.rays < kMaxRays && AliasedSlopeVariance(*model, widest, choice.rays) > kAliasedFraction * least)
     choice.rays = std::min(choice.rays * 5 / 4, kMaxRays);
-  }
   return choice;
 }
 

@@ -36,7 +36,6 @@ std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams);
 
 // The slope variance of a surface's facets over the footprint, divided by that of the closed form; the minimum of all
 // beams.
-double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
-                              const std::vector<BeamOptions>& beams);
+double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams);
 
 }  // namespace albtpu

@@ -15,8 +15,7 @@ namespace {
 template <typename Surface>
 Hit IntersectTriangles(const Surface& surface, const Ray& ray) {
   constexpr int kMaxSteps = 100;
-  constexpr double kMinApproach =
-      0.1;  // keeps the direction of a step right even over a facet that turns away
+  constexpr double kMinApproach = 0.1;  // keeps the direction of a step right even over a facet that turns away
   const Eigen::Vector2d per_height = ray.per_height();
   // Heights at which the ray is known to be below and above the surface: they bracket the intersection.
   double below = -std::numeric_limits<double>::infinity();

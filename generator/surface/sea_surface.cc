@@ -34,8 +34,8 @@ LongWaveModel::Wave WaveOfSlope(double log_k, double psi, double slope_variance)
 // Two waves for the waves of a ring that travel towards `psi` or back, `d_psi` wide. Their slope variance over ln k has
 // the first four moments of the ring's: they are the nodes of Gauss's quadrature of two points with the slope variance
 // as the weight. The mean of any cubic in ln k over the ring is thus exact.
-std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFade& patch_share,
-                                             double k_inner, double k_outer, double psi, double d_psi) {
+std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFade& patch_share, double k_inner,
+                                             double k_outer, double psi, double d_psi) {
   std::array<double, 4 * kPanels> log_k, slope;
   const double panel = std::log(k_outer / k_inner) / kPanels;
   for (int i = 0; i < 4 * kPanels; ++i) {
@@ -82,13 +82,11 @@ double LongWaveModel::elevation_variance() const {
   return sum;
 }
 
-Eigen::Matrix2d LongWaveModel::SlopeCovariance(
-    const std::function<double(double k, double psi)>& weight) const {
+Eigen::Matrix2d LongWaveModel::SlopeCovariance(const std::function<double(double k, double psi)>& weight) const {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const Wave& wave : waves_) {
     const double psi = std::atan2(wave.wavenumber.y(), wave.wavenumber.x());
-    sum +=
-        wave.variance * weight(wave.wavenumber.norm(), psi) * wave.wavenumber * wave.wavenumber.transpose();
+    sum += wave.variance * weight(wave.wavenumber.norm(), psi) * wave.wavenumber * wave.wavenumber.transpose();
   }
   return sum;
 }
@@ -97,18 +95,15 @@ Eigen::VectorXcd LongWaveModel::Draw(NormalStream& stream) const {
   std::vector<double> normals(2 * waves_.size());
   stream.Fill(normals);
   Eigen::VectorXcd amplitudes(waves_.size());
-  for (std::size_t m = 0; m < waves_.size(); ++m) {
+  for (std::size_t m = 0; m < waves_.size(); ++m)
     amplitudes[m] = std::sqrt(waves_[m].variance) * std::complex<double>(normals[2 * m], normals[2 * m + 1]);
-  }
   return amplitudes;
 }
 
-Eigen::VectorXcd LongWaveModel::Shifted(const Eigen::VectorXcd& amplitudes,
-                                        const Eigen::Vector2d& origin) const {
+Eigen::VectorXcd LongWaveModel::Shifted(const Eigen::VectorXcd& amplitudes, const Eigen::Vector2d& origin) const {
   Eigen::VectorXcd shifted(amplitudes.size());
-  for (std::size_t m = 0; m < waves_.size(); ++m) {
+  for (std::size_t m = 0; m < waves_.size(); ++m)
     shifted[m] = amplitudes[m] * std::polar(1.0, waves_[m].wavenumber.dot(origin));
-  }
   return shifted;
 }
 
@@ -171,8 +166,7 @@ double Reach(const SeaState& sea, const BeamOptions& widest) {
   return half_width * (1 + tilt * std::tan(widest.incidence));
 }
 
-WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,
-                         const Discretization& discretization) {
+WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest, const Discretization& discretization) {
   const double length =
       std::max(discretization.patch_per_beam * WidthOnWater(widest), kPatchPerReach * Reach(sea, widest));
   const int size = FastSize(length / widest.footprint * discretization.points_per_footprint);
@@ -182,12 +176,9 @@ WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,
 Eigen::MatrixXcd Phases(const LongWaveModel& long_waves, int half_nodes, double node_spacing, int axis) {
   const int nodes = 2 * half_nodes + 1;
   Eigen::MatrixXcd phases(nodes, static_cast<Eigen::Index>(long_waves.waves().size()));
-  for (int n = 0; n < nodes; ++n) {
-    for (Eigen::Index m = 0; m < phases.cols(); ++m) {
-      phases(n, m) =
-          std::polar(1.0, long_waves.waves()[m].wavenumber[axis] * (n - half_nodes) * node_spacing);
-    }
-  }
+  for (int n = 0; n < nodes; ++n)
+    for (Eigen::Index m = 0; m < phases.cols(); ++m)
+      phases(n, m) = std::polar(1.0, long_waves.waves()[m].wavenumber[axis] * (n - half_nodes) * node_spacing);
   return phases;
 }
 
@@ -212,11 +203,9 @@ Eigen::MatrixXd CubicRefinement(int half_nodes, int stride) {
 
 }  // namespace
 
-SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
-                           const Discretization& discretization)
+SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest, const Discretization& discretization)
     : patch_(MakePatch(sea, widest, discretization)), long_waves_(sea, PatchShare(patch_.length())) {
-  const int stride =
-      std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
+  const int stride = std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
   const double node_spacing = stride * patch_.spacing();
   // The cubic needs one node beyond the reach.
   const int half_nodes = static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;
@@ -225,15 +214,13 @@ SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
   phase_y_ = Phases(long_waves_, half_nodes, node_spacing, 1);
 }
 
-Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
-    const std::function<double(double k, double psi)>& weight) const {
+Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const {
   return patch_.FacetSlopeCovariance(weight) + long_waves_.SlopeCovariance(weight);
 }
 
 HeightField SurfaceModel::StillSurface() const {
   const int points = local_points();
-  return HeightField(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
-                     patch_.spacing());
+  return HeightField(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points, patch_.spacing());
 }
 
 SeaSurface::SeaSurface(const SurfaceModel& model, NormalStream stream)
@@ -255,9 +242,8 @@ SeaSurface::LocalSurface SeaSurface::SurfaceUnder(const Beam& beam) const {
   std::vector<double> heights(static_cast<std::size_t>(points) * points);
   for (int i = 0; i < points; ++i) {
     const double* patch_row = &patch_[static_cast<std::size_t>((first + i) % size) * size];
-    for (int j = 0; j < points; ++j) {
+    for (int j = 0; j < points; ++j)
       heights[static_cast<std::size_t>(i) * points + j] = long_waves(i, j) + patch_row[(first + j) % size];
-    }
   }
   return {HeightField(std::move(heights), points, model_.patch_.spacing()), elevation};
 }

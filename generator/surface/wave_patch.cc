@@ -42,8 +42,7 @@ std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
     stream.Part(PartOfRow(SignedIndex(row, size_))).Fill(normals);
     for (int j = 0; j < half; ++j) {
       const std::size_t mode = static_cast<std::size_t>(row) * half + j;
-      amplitude[mode] =
-          std::sqrt(power_[mode] / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
+      amplitude[mode] = std::sqrt(power_[mode] / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
     }
   }
   // Both halves of the column j = 0 are stored: amplitude(-i, 0) must be the conjugate of amplitude(i, 0).
@@ -74,8 +73,7 @@ double WavePatchModel::elevation_variance() const {
   return sum;
 }
 
-Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(
-    const std::function<double(double k, double psi)>& weight) const {
+Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const {
   const double dk = 2 * std::numbers::pi / length_;
   const double dx = spacing();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();

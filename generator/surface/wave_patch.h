@@ -23,8 +23,7 @@ namespace albtpu {
 // of wavenumbers.
 class CrossFade {
  public:
-  CrossFade(double all_long, double all_patch)
-      : all_long_(all_long), all_patch_(all_patch) {}  // rad/m, increasing
+  CrossFade(double all_long, double all_patch) : all_long_(all_long), all_patch_(all_patch) {}  // rad/m, increasing
 
   double operator()(double k) const {
     const double t = std::clamp(std::log(k / all_long_) / std::log(all_patch_ / all_long_), 0.0, 1.0);

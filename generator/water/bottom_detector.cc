@@ -170,8 +170,7 @@ std::optional<Shape> ShapeOf(const Waveform& wave) {
     if (i == count) return std::nullopt;
     return Crossing(wave, level, time(i), i == top + 1 ? shape.peak : time(i - 1));
   };
-  const std::optional<double> half_after = last_above(shape.height / 2),
-                              gate = last_above(shape.height * kGate);
+  const std::optional<double> half_after = last_above(shape.height / 2), gate = last_above(shape.height * kGate);
   if (!half_after || !gate) return std::nullopt;
   shape.half = first_above(shape.height / 2);
   shape.gate_begin = first_above(shape.height * kGate);
@@ -200,8 +199,7 @@ Window WithLight(const Echo& echo, double margin) {
 }  // namespace
 
 std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length) {
-  const auto factor =
-      static_cast<std::size_t>(std::max(1.0, std::floor(pulse_length / (kStepsOfPulse * echo.step))));
+  const auto factor = static_cast<std::size_t>(std::max(1.0, std::floor(pulse_length / (kStepsOfPulse * echo.step))));
   const double step = echo.step * static_cast<double>(factor), sigma = pulse_length * kSigmaOfWidth;
   const Window window = WithLight(echo, 2 * kReach * sigma);
   const std::vector<double> weights = Coarser(window.Of(echo.weights), factor);
@@ -218,11 +216,9 @@ std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length
   // y' = 0 at the peak, y(half) = y(peak) / 2, and the ratio of two integrals whose limits solve y = y(peak) / 10.
   const Wave peak = wave.At(at.peak), ahead_peak = ahead.At(at.peak);
   bottom.by[Index(Detector::kPeak)] = {at.peak, ahead_peak.curvature / peak.curvature};
-  bottom.by[Index(Detector::kHalf)] = {
-      at.half + pulse_length / 2,
-      (ahead.At(at.half).slope - 0.5 * ahead_peak.slope) / wave.At(at.half).slope};
-  const Area area = wave.Between(at.gate_begin, at.gate_end),
-             ahead_area = ahead.Between(at.gate_begin, at.gate_end);
+  bottom.by[Index(Detector::kHalf)] = {at.half + pulse_length / 2,
+                                       (ahead.At(at.half).slope - 0.5 * ahead_peak.slope) / wave.At(at.half).slope};
+  const Area area = wave.Between(at.gate_begin, at.gate_end), ahead_area = ahead.Between(at.gate_begin, at.gate_end);
   const double centroid = area.moment / area.total;
   double kernel = ahead_area.total;
   for (const double end : {at.gate_begin, at.gate_end}) {

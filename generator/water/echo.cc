@@ -31,8 +31,7 @@ std::vector<Arrival> ArrivalsOf(const Crossings& crossings, double absorption) {
 class NearArrivals {
  public:
   // Squares are as wide as the largest distance of a query. Everything is near if that is not finite.
-  NearArrivals(std::span<const Arrival> arrivals, double width, double height)
-      : per_x_(1 / width), per_y_(1 / height) {
+  NearArrivals(std::span<const Arrival> arrivals, double width, double height) : per_x_(1 / width), per_y_(1 / height) {
     if (per_x_ > 0) {
       begins_.assign(kSide * kSide + 1, 0);
       for (const Arrival& arrival : arrivals) ++begins_[SquareOf(arrival) + 1];
@@ -155,8 +154,8 @@ Echo& Echo::operator*=(double factor) {
   return *this;
 }
 
-Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
-                 std::uint64_t seed, std::uint32_t cell, std::uint32_t pool) {
+Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup, std::uint64_t seed,
+                 std::uint32_t cell, std::uint32_t pool) {
   const std::array one = {setup.field_of_view};
   return std::move(PairPhotons(sources, receivers, setup, one, seed, cell, pool).front());
 }
@@ -170,8 +169,7 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
   const double lag = std::sin(setup.incidence) / (2 * setup.group_index);
   const NearArrivals seen(ArrivalsOf(receivers, setup.absorption), radius / cosine, radius);
   const double spread = setup.footprint / 4;
-  const std::vector<double> pairs_of =
-      PairsOf(lit, seen, setup.pairs_per_photon * static_cast<double>(lit.size()));
+  const std::vector<double> pairs_of = PairsOf(lit, seen, setup.pairs_per_photon * static_cast<double>(lit.size()));
   double made = UniformStream(seed, cell, static_cast<std::uint32_t>(lit.size()), kPairs + pool).Next();
   for (std::size_t i = 0; i < lit.size(); ++i) {
     if (!(pairs_of[i] > 0)) continue;
@@ -199,8 +197,8 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
       const auto least = std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter);
       if (least == fields_of_view.end()) continue;
       const double time = (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x);
-      echoes[static_cast<std::size_t>(least - fields_of_view.begin())].Add(
-          time, x, source.weight * near.weight / pairs_of[i]);
+      echoes[static_cast<std::size_t>(least - fields_of_view.begin())].Add(time, x,
+                                                                           source.weight * near.weight / pairs_of[i]);
     }
   }
   const double pairs = static_cast<double>(sources.launched) * receivers.launched;

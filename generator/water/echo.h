@@ -31,10 +31,9 @@ struct Echo {
   static constexpr double kEarliest = -2, kLatest = 5;  // Pairs outside count in the sums alone.
 
   double step;
-  std::vector<double> weights;  // at kEarliest + i * step; a pair is split between its two neighbours
-  std::vector<double>
-      ahead_weights;  // times the point on the bottom, ahead of where unscattered light meets it
-  double energy = 0;  // of all pairs
+  std::vector<double> weights;        // at kEarliest + i * step; a pair is split between its two neighbours
+  std::vector<double> ahead_weights;  // times the point on the bottom, ahead of where unscattered light meets it
+  double energy = 0;                  // of all pairs
   double ahead = 0, ahead_squared = 0;
 
   explicit Echo(double of_step = 1);
@@ -47,8 +46,8 @@ struct Echo {
 
 // Two walks to the same depth, which may be the same walk: of the photons of the beam, and of photons traced backwards
 // from the receiver. Streams are of (seed, cell, photon, pool).
-Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
-                 std::uint64_t seed, std::uint32_t cell, std::uint32_t pool);
+Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup, std::uint64_t seed,
+                 std::uint32_t cell, std::uint32_t pool);
 
 // The same pairs seen in several fields of view, increasing, the last of which is that of `setup`: an echo for each.
 std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,

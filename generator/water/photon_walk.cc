@@ -80,8 +80,7 @@ PhaseFunction PhaseFunction::HenyeyGreenstein(double g) {
 double PhaseFunction::ShareBelow(double psi) const {
   const auto above = std::upper_bound(psi_.begin() + 1, psi_.end() - 1, psi);
   const auto i = static_cast<std::size_t>(above - psi_.begin());
-  const double fraction =
-      (Square(std::sin(psi / 2)) - sin2_half_[i - 1]) / (sin2_half_[i] - sin2_half_[i - 1]);
+  const double fraction = (Square(std::sin(psi / 2)) - sin2_half_[i - 1]) / (sin2_half_[i] - sin2_half_[i - 1]);
   return share_[i - 1] + std::clamp(fraction, 0.0, 1.0) * (share_[i] - share_[i - 1]);
 }
 
@@ -160,9 +159,8 @@ Heading InCone(const Heading& axis, double cone, UniformStream& random) {
 
 }  // namespace
 
-std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& setup,
-                                   std::span<const double> depths, std::uint32_t photons, std::uint64_t seed,
-                                   std::uint32_t cell, std::uint32_t pool) {
+std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& setup, std::span<const double> depths,
+                                   std::uint32_t photons, std::uint64_t seed, std::uint32_t cell, std::uint32_t pool) {
   std::vector<Crossings> planes(depths.size());
   for (std::size_t i = 0; i < depths.size(); ++i) {
     planes[i].depth = depths[i];

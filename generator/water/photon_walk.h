@@ -76,9 +76,8 @@ struct WalkSetup {
 // until they have passed the last of `depths` (increasing, positive) or left through the surface. Light that the
 // surface does not reflect totally is lost; it returns to the receiver early or never. Element i of the result belongs
 // to depths[i].
-std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& setup,
-                                   std::span<const double> depths, std::uint32_t photons, std::uint64_t seed,
-                                   std::uint32_t cell, std::uint32_t pool);
+std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& setup, std::span<const double> depths,
+                                   std::uint32_t photons, std::uint64_t seed, std::uint32_t cell, std::uint32_t pool);
 
 // A direction as unit vector (x ahead, y sideways, z down), and turning it by a scattering angle.
 struct Heading {

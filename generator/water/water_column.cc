@@ -55,7 +55,8 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
   };
 
   WaterColumnBias bias;
-  bias.energy = estimate(all.energy / count, [&](std::size_t i) { return without[i].energy / (count - 1); });
+  bias.energy = estimate(
+      all.energy / count, [&](std::size_t i) { return without[i].energy / (count - 1); });
   bias.spot = estimate(SpotOf(all), [&](std::size_t i) { return SpotOf(without[i]); });
   const double refracted = RefractedAngle(column.incidence, column.refractive_index);
   const EchoSetup setup = SetupOf(column, pulse_lengths, 1);
@@ -63,9 +64,8 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
     const DetectedBottom clear = ClearBottom(setup, length);
     const std::optional<DetectedBottom> bottom = DetectBottom(all, length);
     std::vector<DetectedBottom> others;
-    for (const Echo& rest : without) {
+    for (const Echo& rest : without)
       if (const std::optional<DetectedBottom> other = DetectBottom(rest, length)) others.push_back(*other);
-    }
     if (!bottom || others.size() < without.size()) {
       bias.by_pulse.emplace_back();
       continue;
@@ -80,7 +80,8 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
       const auto along = [&](const DetectedBottom& of) {
         return deep(of) * std::tan(refracted) - (of.by[d].ahead - clear.by[d].ahead);
       };
-      detected.vertical[d] = estimate(-deep(*bottom), [&](std::size_t i) { return -deep(others[i]); });
+      detected.vertical[d] = estimate(
+          -deep(*bottom), [&](std::size_t i) { return -deep(others[i]); });
       detected.along[d] = estimate(along(*bottom), [&](std::size_t i) { return along(others[i]); });
     }
     detected.stretch =
@@ -93,12 +94,10 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
 WaterColumnBias ComputeWaterColumn(const PhaseFunction& phase, const WaterColumn& column,
                                    std::span<const double> pulse_lengths, const WaterEffort& effort) {
   const std::array scattering = {column.scattering}, fields_of_view = {column.field_of_view};
-  return std::move(
-      ComputeWaterColumns(phase, column, scattering, fields_of_view, pulse_lengths, effort)[0][0]);
+  return std::move(ComputeWaterColumns(phase, column, scattering, fields_of_view, pulse_lengths, effort)[0][0]);
 }
 
-std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunction& phase,
-                                                              const WaterColumn& column,
+std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunction& phase, const WaterColumn& column,
                                                               std::span<const double> scattering,
                                                               std::span<const double> fields_of_view,
                                                               std::span<const double> pulse_lengths,
@@ -111,8 +110,8 @@ std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunctio
     pools[pool] = WalkPhotons(phase, walk, scattering, effort.photons, effort.seed, effort.cell, pool);
   });
   // Few of the pairs in a wide view are in a narrow one, so narrow views get their own pairs.
-  const auto narrow = static_cast<std::size_t>(
-      std::upper_bound(fields_of_view.begin(), fields_of_view.end(), kNarrow) - fields_of_view.begin());
+  const auto narrow = static_cast<std::size_t>(std::upper_bound(fields_of_view.begin(), fields_of_view.end(), kNarrow) -
+                                               fields_of_view.begin());
   std::vector<std::vector<WaterColumnBias>> biases(scattering.size());
   for (std::size_t depth = 0; depth < scattering.size(); ++depth) {
     for (const auto& views : {fields_of_view.first(narrow), fields_of_view.subspan(narrow)}) {
@@ -123,8 +122,7 @@ std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunctio
       std::vector<std::vector<Echo>> echoes(views.size(), std::vector<Echo>(effort.pools));
       tbb::parallel_for(std::uint32_t{0}, effort.pools, [&](std::uint32_t pool) {
         const Crossings& crossings = pools[pool][depth];
-        std::vector<Echo> paired =
-            PairPhotons(crossings, crossings, setup, views, effort.seed, effort.cell, pool);
+        std::vector<Echo> paired = PairPhotons(crossings, crossings, setup, views, effort.seed, effort.cell, pool);
         for (std::size_t view = 0; view < views.size(); ++view) echoes[view][pool] = std::move(paired[view]);
       });
       for (std::size_t view = 0; view < views.size(); ++view) {

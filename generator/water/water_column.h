@@ -19,11 +19,10 @@ struct WaterColumn {
   double incidence = 0;            // in air [radian, below 1]
   double refractive_index = 1.34;  // of phase
   double group_index = 1.36;
-  double scattering = 0;  // b z, above 0
-  double absorption = 0;  // a / b
-  double field_of_view =
-      INFINITY;          // diameter of the disc on the surface that the receiver sees, across the beam
-  double footprint = 0;  // 1/e^2 diameter of the Gaussian beam, across it
+  double scattering = 0;            // b z, above 0
+  double absorption = 0;            // a / b
+  double field_of_view = INFINITY;  // diameter of the disc on the surface that the receiver sees, across the beam
+  double footprint = 0;             // 1/e^2 diameter of the Gaussian beam, across it
 };
 
 // For one pulse length. Lengths are over the depth; reported minus true.
@@ -41,7 +40,7 @@ struct WaterColumnBias {
 
 struct WaterEffort {
   std::uint32_t photons = 200'000;  // of each pool
-  std::uint32_t pools = 8;  // Standard errors are of the scatter of pools: photons of one are paired often.
+  std::uint32_t pools = 8;          // Standard errors are of the scatter of pools: photons of one are paired often.
   int pairs_per_photon = 5;
   std::uint64_t seed = 1;
   std::uint32_t cell = 0;
@@ -59,9 +58,11 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
 // The same for several depths of one water and several fields of view: one walk serves all. `scattering` increases and
 // takes the place of `column.scattering`; `fields_of_view` increase and take the place of its field of view. Element
 // [i][j] is of scattering[i] and fields_of_view[j].
-std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(
-    const PhaseFunction& phase, const WaterColumn& column, std::span<const double> scattering,
-    std::span<const double> fields_of_view, std::span<const double> pulse_lengths, const WaterEffort& effort);
+std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunction& phase, const WaterColumn& column,
+                                                              std::span<const double> scattering,
+                                                              std::span<const double> fields_of_view,
+                                                              std::span<const double> pulse_lengths,
+                                                              const WaterEffort& effort);
 
 // The angle in the water of a beam [radian].
 double RefractedAngle(double incidence, double refractive_index);

@@ -20,8 +20,7 @@
 namespace albtpu::programs {
 CLI::Validator NotEmpty(const std::string& what) {
   return CLI::Validator(
-      [what](const std::string& text) { return text.empty() ? "is empty; name a " + what : std::string(); },
-      "");
+      [what](const std::string& text) { return text.empty() ? "is empty; name a " + what : std::string(); }, "");
 }
 
 CLI::Validator WholeIn(long long least, long long most) {
@@ -31,8 +30,8 @@ CLI::Validator WholeIn(long long least, long long most) {
         const char* last = text.data() + text.size();
         const auto [end, error] = std::from_chars(text.data(), last, number);
         if (error == std::errc() && end == last && number >= least && number <= most) return {};
-        return absl::StrCat("'", text, "' is not a number in the range; give a whole number from ", least,
-                            " to ", most);
+        return absl::StrCat("'", text, "' is not a number in the range; give a whole number from ", least, " to ",
+                            most);
       },
       "");
 }
@@ -42,8 +41,8 @@ CLI::Validator NumberIn(double least, double most, const std::string& unit) {
       [least, most, unit](const std::string& text) -> std::string {
         double number = 0;
         if (absl::SimpleAtod(text, &number) && number >= least && number <= most) return {};
-        return absl::StrCat("'", text, "' is not a number in the range; give one from ", least, " to ", most,
-                            " ", unit);
+        return absl::StrCat("'", text, "' is not a number in the range; give one from ", least, " to ", most, " ",
+                            unit);
       },
       "");
 }
@@ -54,8 +53,7 @@ CLI::Validator OneOf(const std::vector<std::string>& words) {
         if (std::find(words.begin(), words.end(), text) != words.end()) return {};
         const std::string choices = absl::StrJoin(words, ", ");
         const std::optional<std::string> near = formats::NearMatch(text, words);
-        return near ? absl::StrCat("'", text, "' is unknown (there are ", choices, "); did you mean ", *near,
-                                   "?")
+        return near ? absl::StrCat("'", text, "' is unknown (there are ", choices, "); did you mean ", *near, "?")
                     : absl::StrCat("'", text, "' is unknown; give one of ", choices);
       },
       "");
@@ -80,21 +78,19 @@ std::string FullName(const CLI::App& app) {
 
 void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit) {
   program.formatter(std::make_shared<Layout>());
-  program.set_version_flag("--version", absl::StrCat(program.get_name(), " ", std::string(version), " (",
-                                                     std::string(commit), ")"));
+  program.set_version_flag("--version",
+                           absl::StrCat(program.get_name(), " ", std::string(version), " (", std::string(commit), ")"));
 }
 
 void Group(CLI::App& app, const std::string& heading, const std::vector<std::string>& options) {
   for (const std::string& option : options) app.get_option(option)->group(heading);
 }
 
-void EndHelp(CLI::App& app, std::string_view notes, const std::string& example,
-             const std::string& another_example) {
+void EndHelp(CLI::App& app, std::string_view notes, const std::string& example, const std::string& another_example) {
   std::string text(notes);
   absl::StrAppend(&text, notes.empty() ? "" : "\n\n", "Examples:");
-  for (const std::string& arguments : {example, another_example}) {
+  for (const std::string& arguments : {example, another_example})
     absl::StrAppend(&text, "\n  ", FullName(app), arguments.empty() ? "" : " ", arguments);
-  }
   app.footer(text);
 }
 
@@ -114,9 +110,8 @@ std::string CommandList(const CLI::App& program) {
 
 std::vector<std::string> OptionNames(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
   return names;
 }
 
@@ -136,9 +131,8 @@ std::string NotAnOption(const CLI::App& app, const std::string& argument) {
   const std::string problem = absl::StrCat(name, " is not an option of ", FullName(app));
   const CLI::App& program = app.get_parent() == nullptr ? app : *app.get_parent();
   std::vector<std::string> others;
-  for (const CLI::App* command : program.get_subcommands({})) {
+  for (const CLI::App* command : program.get_subcommands({}))
     if (HasOption(*command, name)) others.push_back(command->get_name());
-  }
   if (!others.empty()) {
     return absl::StrCat(problem, " (commands with it: ", absl::StrJoin(others, ", "), "); ",
                         &app == &program ? "put it after the command" : "leave it out");
@@ -147,8 +141,7 @@ std::string NotAnOption(const CLI::App& app, const std::string& argument) {
 }
 
 bool LooksLikeAnOption(const std::string& argument) {
-  return argument.size() > 1 && argument[0] == '-' &&
-         argument.find_first_not_of("+-.0123456789") != std::string::npos;
+  return argument.size() > 1 && argument[0] == '-' && argument.find_first_not_of("+-.0123456789") != std::string::npos;
 }
 
 // About the first of the arguments that `app` could not place, options before words: after an unknown option, CLI11
@@ -159,8 +152,7 @@ std::optional<std::string> LeftOver(const CLI::App& app) {
   const auto option = std::find_if(arguments.begin(), arguments.end(), LooksLikeAnOption);
   if (option != arguments.end()) return NotAnOption(app, *option);
   if (!app.get_subcommands({}).empty()) return NotACommand(app, arguments.front());
-  return absl::StrCat("'", arguments.front(), "' is one word too many for ", FullName(app), "; ",
-                      SeeHelp(app));
+  return absl::StrCat("'", arguments.front(), "' is one word too many for ", FullName(app), "; ", SeeHelp(app));
 }
 
 bool HasCommandToChoose(const CLI::App& app) {
@@ -180,17 +172,13 @@ std::string UsageMessage(const CLI::App& program, const CLI::ParseError& error) 
   const std::vector<CLI::App*> given = program.get_subcommands();
   if (MayComeOfAMisspeltWord(error)) {
     if (const std::optional<std::string> problem = LeftOver(program)) return *problem;
-    for (const CLI::App* command : given) {
+    for (const CLI::App* command : given)
       if (const std::optional<std::string> problem = LeftOver(*command)) return *problem;
-    }
   }
   const CLI::App& app = given.empty() ? program : *given.front();
-  if (HasCommandToChoose(app)) {
-    return absl::StrCat("no command is given ", CommandList(app), "; ", SeeHelp(app));
-  }
-  if (static_cast<CLI::ExitCodes>(error.get_exit_code()) == CLI::ExitCodes::ValidationError) {
+  if (HasCommandToChoose(app)) return absl::StrCat("no command is given ", CommandList(app), "; ", SeeHelp(app));
+  if (static_cast<CLI::ExitCodes>(error.get_exit_code()) == CLI::ExitCodes::ValidationError)
     return error.what();  // It has a suggestion of its own.
-  }
   return absl::StrCat(error.what(), "; ", SeeHelp(app));
 }
 

@@ -36,8 +36,7 @@ void Group(CLI::App& app, const std::string& heading, const std::vector<std::str
 
 // Ends the help of `app` with `notes`, which may be empty, and with two examples: what follows the name of the app, as
 // "--campaign bay.toml --output bay.h5".
-void EndHelp(CLI::App& app, std::string_view notes, const std::string& example,
-             const std::string& another_example);
+void EndHelp(CLI::App& app, std::string_view notes, const std::string& example, const std::string& another_example);
 
 // Messages about arguments that a program does not take.
 

@@ -87,8 +87,8 @@ absl::Status RunValidate(const ValidateOptions& options) {
 
   std::vector<Study> studies;
   for (const NamedStudy& study : kStudies) {
-    std::cerr << "albtpu-generate: study " << studies.size() + 1 << " of " << std::size(kStudies) << ": "
-              << study.name << '\n';
+    std::cerr << "albtpu-generate: study " << studies.size() + 1 << " of " << std::size(kStudies) << ": " << study.name
+              << '\n';
     absl::StatusOr<Study> found = study.run({data / "paper", options.quick, options.seed});
     if (!found.ok()) return found.status();
     studies.push_back(*std::move(found));
@@ -100,9 +100,8 @@ absl::Status RunValidate(const ValidateOptions& options) {
               << Remedy(*why_figures_are_missing) << '\n';
   }
 
-  for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported}) {
+  for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported})
     std::cout << Name(verdict) << ' ' << Count(studies, verdict) << '\n';
-  }
   return absl::OkStatus();
 }
 
@@ -145,14 +144,13 @@ void PrintText(const WaterColumnBias& bias, const WaterPointOptions& options) {
   for (const Detector detector : kDetectors) {
     const Estimate vertical = InMetres(detected.vertical[Index(detector)], options.depth);
     const Estimate along = InMetres(detected.along[Index(detector)], options.depth);
-    std::printf("%-10s %9.4f +- %-12.4f %9.4f +- %-.4f\n", kDetectorNames[Index(detector)].data(),
-                vertical.value, vertical.standard_error, along.value, along.standard_error);
+    std::printf("%-10s %9.4f +- %-12.4f %9.4f +- %-.4f\n", kDetectorNames[Index(detector)].data(), vertical.value,
+                vertical.standard_error, along.value, along.standard_error);
   }
   const Estimate spot = InMetres(bias.spot, options.depth);
   std::printf("spot on the bottom, 1 sigma   %.3f +- %.3f m (resolution, not uncertainty)\n", spot.value,
               spot.standard_error);
-  std::printf("echo's width over the pulse's %.3f +- %.3f\n", detected.stretch.value,
-              detected.stretch.standard_error);
+  std::printf("echo's width over the pulse's %.3f +- %.3f\n", detected.stretch.value, detected.stretch.standard_error);
   std::printf("energy in the field of view   %.4f +- %.4f of unscattered light's\n", bias.energy.value,
               bias.energy.standard_error);
 }
@@ -193,8 +191,7 @@ double SecondsOf(const Work& work) {
 }
 
 double SecondsOf(const SeaCase& sea_case, int realizations, Estimator estimator) {
-  const Effort effort{
-      .realizations = realizations, .most_realizations = realizations, .estimator = estimator};
+  const Effort effort{.realizations = realizations, .most_realizations = realizations, .estimator = estimator};
   return SecondsOf([&] { Simulate(sea_case, effort, 1, 0); });
 }
 
@@ -226,9 +223,7 @@ std::string Clock(double seconds) {
   return seconds < 5400 ? absl::StrFormat("%.0f s", seconds) : absl::StrFormat("%.1f h", seconds / 3600);
 }
 
-void PrintLine(const char* what, const std::string& value) {
-  std::cout << absl::StrFormat("%-24s%s\n", what, value);
-}
+void PrintLine(const char* what, const std::string& value) { std::cout << absl::StrFormat("%-24s%s\n", what, value); }
 
 // `least` and `most` are of one core [s].
 void PrintTimes(double least, double most, int cores) {
@@ -247,15 +242,13 @@ void PlanWater(const Campaign& campaign, int cores) {
   constexpr std::size_t kProbes = 2;
   const std::size_t cases = WaterCaseCount(campaign), probes = std::min(kProbes, cases);
   double seconds = 0;
-  for (std::size_t p = 0; p < probes; ++p) {
+  for (std::size_t p = 0; p < probes; ++p)
     seconds += SecondsOf([&] { ComputeWaterCase(campaign, (2 * p + 1) * cases / (2 * probes)); });
-  }
   seconds *= static_cast<double>(cases) / static_cast<double>(probes);
   seconds += static_cast<double>(campaign.checked_pulses) *
              SecondsOf([&] { ComputeDirectly(campaign, CheckedBeamOf(campaign, 0)); });
   std::size_t values = 0;
-  for (const QuantitySchema& quantity : kWaterColumn.quantities)
-    values += ValueCount(campaign.axes, quantity);
+  for (const QuantitySchema& quantity : kWaterColumn.quantities) values += ValueCount(campaign.axes, quantity);
   PrintLine("waters and incidences", std::to_string(cases));
   PrintLine("cells", std::to_string(ValueCount(campaign.axes, kWaterColumn.quantities.front())));
   PrintLine("checked beams", std::to_string(campaign.checked_pulses));
@@ -289,10 +282,10 @@ absl::Status RunPlan(const PlanOptions& options) {
   PrintLine("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
   PrintLine("checked pulses", std::to_string(campaign->checked_pulses));
   PrintLine("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
-  PrintLine("realizations", effort.most_realizations > effort.realizations
-                                ? absl::StrFormat("%d to %d, by the error of each beam", effort.realizations,
-                                                  effort.most_realizations)
-                                : std::to_string(effort.realizations));
+  PrintLine("realizations",
+            effort.most_realizations > effort.realizations
+                ? absl::StrFormat("%d to %d, by the error of each beam", effort.realizations, effort.most_realizations)
+                : std::to_string(effort.realizations));
   PrintTimes(least, most, options.cores);
   return absl::OkStatus();
 }

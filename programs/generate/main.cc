@@ -44,8 +44,7 @@ std::optional<Shard> ParseShard(const std::string& text) {
   const auto [slash, no_index] = std::from_chars(text.data(), end, shard.index);
   if (no_index != std::errc() || slash == end || *slash != '/') return std::nullopt;
   const auto [last, no_count] = std::from_chars(slash + 1, end, shard.count);
-  if (no_count != std::errc() || last != end || shard.index < 0 || shard.index >= shard.count)
-    return std::nullopt;
+  if (no_count != std::errc() || last != end || shard.index < 0 || shard.index >= shard.count) return std::nullopt;
   return shard;
 }
 
@@ -58,8 +57,7 @@ void AddTable(CLI::App& table, TableOptions& options, int& threads) {
   CLI::Option* work =
       table.add_option("--work", options.work, "Folder that keeps each finished unit; created if absent")
           ->type_name("DIR");
-  table.add_flag("--resume", options.resume, "Use the units that are in the work folder already")
-      ->needs(work);
+  table.add_flag("--resume", options.resume, "Use the units that are in the work folder already")->needs(work);
   table
       .add_option_function<std::string>(
           "--shard", [&options](const std::string& text) { options.shard = ParseShard(text); },
@@ -80,11 +78,10 @@ void AddTable(CLI::App& table, TableOptions& options, int& threads) {
   Group(table, kFiles, {"--campaign", "--output", "--overwrite"});
   Group(table, kWork, {"--work", "--resume", "--shard", "--threads"});
   EndHelp(table,
-          absl::StrCat(
-              kSeeKeys,
-              "\nWith --work, the same command with --resume continues an interrupted run without losing a "
-              "finished unit.\nUnder mpirun the ranks share the units and rank 0 writes the table, if this "
-              "program was built with MPI."),
+          absl::StrCat(kSeeKeys,
+                       "\nWith --work, the same command with --resume continues an interrupted run without losing a "
+                       "finished unit.\nUnder mpirun the ranks share the units and rank 0 writes the table, if this "
+                       "program was built with MPI."),
           "--campaign survey.toml --output survey.h5",
           "--campaign survey.toml --output survey.h5 --work units --resume");
 }
@@ -93,9 +90,7 @@ void AddMerge(CLI::App& merge, MergeOptions& options) {
   merge.add_option("--work", options.work, "Work folder of `table --work` or of all its shards")
       ->required()
       ->type_name("DIR");
-  merge.add_option("--output", options.output, "Table file to write (HDF5)")
-      ->required()
-      ->type_name("FILE.h5");
+  merge.add_option("--output", options.output, "Table file to write (HDF5)")->required()->type_name("FILE.h5");
   merge.add_flag("--overwrite", options.overwrite, "Replace an existing table file");
   Group(merge, kFiles, {"--work", "--output", "--overwrite"});
   EndHelp(merge, "", "--work units --output survey.h5", "--work units --output survey.h5 --overwrite");
@@ -156,8 +151,7 @@ int Run(int argc, char** argv) {
   CLI::App* plan = app.add_subcommand("plan", "Estimate cells, memory and time of a campaign");
   AddPlan(*plan, plan_options, threads);
 
-  CLI::App* keys =
-      app.add_subcommand("keys", "Print the reference of the keys of a campaign file (Markdown)");
+  CLI::App* keys = app.add_subcommand("keys", "Print the reference of the keys of a campaign file (Markdown)");
   albtpu::EndHelp(*keys, "", "", "> campaign.md");
 
   PointOptions point_options;
@@ -165,13 +159,12 @@ int Run(int argc, char** argv) {
   albtpu::AddPoint(*point, point_options, threads);
 
   albtpu::WaterPointOptions water_point_options;
-  CLI::App* water_point = app.add_subcommand(
-      "water-point", "Compute the bias of one beam that the scattering of the water makes");
+  CLI::App* water_point =
+      app.add_subcommand("water-point", "Compute the bias of one beam that the scattering of the water makes");
   albtpu::AddWaterPoint(*water_point, water_point_options, threads);
 
   ValidateOptions validate_options;
-  CLI::App* validate =
-      app.add_subcommand("validate", "Report the tables and figures of the paper beside ours");
+  CLI::App* validate = app.add_subcommand("validate", "Report the tables and figures of the paper beside ours");
   AddValidate(*validate, validate_options, threads);
 
   try {

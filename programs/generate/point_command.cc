@@ -28,8 +28,7 @@ constexpr int kMinRealizations = 1000, kMaxRealizations = 40'000;
 // The azimuths [degree, from the x axis] of the beams of which the worst is taken if none is given.
 std::vector<double> Azimuths(const PointOptions& options, const std::optional<TracedSea>& sea) {
   if (options.azimuth) return {*options.azimuth};
-  if (options.beam_azimuth)
-    return {BeamAzimuth(*options.beam_azimuth, DegreesOfRadians(sea->described.x_azimuth))};
+  if (options.beam_azimuth) return {BeamAzimuth(*options.beam_azimuth, DegreesOfRadians(sea->described.x_azimuth))};
   if (sea) return {0, 30, 60, 90, 120, 150};
   return {0, 90};
 }
@@ -40,9 +39,8 @@ SeaCase SeaCaseAt(const PointOptions& options, const std::optional<TracedSea>& s
   if (sea) {
     sea_case.sea.waves = sea->waves;
   } else {
-    sea_case.sea.waves = WindSea{.wind_speed_10m = options.wind_speed,
-                                 .fetch = options.fetch,
-                                 .model = FindSpectrumModel(options.spectrum)};
+    sea_case.sea.waves = WindSea{
+        .wind_speed_10m = options.wind_speed, .fetch = options.fetch, .model = FindSpectrumModel(options.spectrum)};
   }
   sea_case.refractive_index = options.refractive_index;
   sea_case.depths = options.depth;
@@ -77,8 +75,7 @@ BeamUncertainty WorstOf(const std::vector<BeamUncertainty>& beams) {
 
 bool KnowsAzimuth(const PointOptions& options) { return options.azimuth || options.beam_azimuth; }
 
-void AddToJson(nlohmann::ordered_json& json, const std::string& name,
-               const std::vector<Estimate>& estimates) {
+void AddToJson(nlohmann::ordered_json& json, const std::string& name, const std::vector<Estimate>& estimates) {
   std::vector<double> values, standard_errors;
   for (const Estimate& estimate : estimates) {
     values.push_back(estimate.value);
@@ -110,8 +107,7 @@ void PrintJson(const PointOptions& options, const std::optional<TracedSea>& sea,
   std::cout << json.dump() << '\n';
 }
 
-void PrintText(const PointOptions& options, const std::optional<TracedSea>& sea,
-               const SeaCaseResult& result) {
+void PrintText(const PointOptions& options, const std::optional<TracedSea>& sea, const SeaCaseResult& result) {
   const BeamUncertainty beam = WorstOf(result.beams);
   const auto angle = [](const char* name, const Estimate& estimate) {
     std::printf("%-22s %8.4f +- %.4f degree\n", name, DegreesOfRadians(estimate.value),
@@ -125,21 +121,18 @@ void PrintText(const PointOptions& options, const std::optional<TracedSea>& sea,
     std::printf("azimuth not given: each value is the %s degrees\n",
                 sea ? "largest of those at 0, 30, ..., 150" : "larger of those at 0 and 90");
   }
-  if (result.realizations == 0) {
+  if (result.realizations == 0)
     std::printf("2 sigma, sea surface only; there are no waves, all values are exact\n");
-  } else {
-    std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n",
-                result.realizations);
-  }
+  else
+    std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n", result.realizations);
   angle("refraction along wind", beam.refraction_along_wind);
   angle("refraction cross wind", beam.refraction_cross_wind);
-  std::printf("\n%8s  %-19s %-19s %-21s %-21s\n", "depth m", "THU m", "TVU m", "bias along beam m",
-              "bias vertical m");
+  std::printf("\n%8s  %-19s %-19s %-21s %-21s\n", "depth m", "THU m", "TVU m", "bias along beam m", "bias vertical m");
   for (std::size_t d = 0; d < options.depth.size(); ++d) {
     std::printf("%8g  %8.4f +- %-7.4f %8.4f +- %-7.4f %9.4f +- %-8.4f %9.4f +- %-8.4f\n", options.depth[d],
                 beam.thu[d].value, beam.thu[d].standard_error, beam.tvu[d].value, beam.tvu[d].standard_error,
-                beam.bias_along_beam[d].value, beam.bias_along_beam[d].standard_error,
-                beam.bias_vertical[d].value, beam.bias_vertical[d].standard_error);
+                beam.bias_along_beam[d].value, beam.bias_along_beam[d].standard_error, beam.bias_vertical[d].value,
+                beam.bias_vertical[d].standard_error);
   }
 }
 
@@ -158,26 +151,22 @@ absl::Status RunPoint(const PointOptions& options) {
     if (const auto assumed = sea->attributes.find(std::string(sea_attribute::kAssumptions));
         assumed != sea->attributes.end()) {
       const std::vector<std::string> sentences = absl::StrSplit(std::get<std::string>(assumed->second), '\n');
-      for (const std::string& sentence : sentences) {
-        std::cerr << "albtpu-generate: " << sentence << '\n';
-      }
+      for (const std::string& sentence : sentences) std::cerr << "albtpu-generate: " << sentence << '\n';
     }
   }
   const auto start = std::chrono::steady_clock::now();
   const SeaCaseResult result = Simulate(SeaCaseAt(options, sea), effort, options.seed, 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.converged) {
-    std::fprintf(
-        stderr,
-        "albtpu-generate: not all values reached a relative error of %g (after %d realizations); their "
-        "standard errors are printed beside them\n",
-        options.relative_error, result.realizations);
+    std::fprintf(stderr,
+                 "albtpu-generate: not all values reached a relative error of %g (after %d realizations); their "
+                 "standard errors are printed beside them\n",
+                 options.relative_error, result.realizations);
   }
-  if (options.json) {
+  if (options.json)
     PrintJson(options, sea, result, seconds);
-  } else {
+  else
     PrintText(options, sea, result);
-  }
   return absl::OkStatus();
 }
 

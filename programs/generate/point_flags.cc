@@ -68,22 +68,18 @@ CLI::Validator FieldOfView() {
 }  // namespace
 
 void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
-  CLI::Option* const absorption =
-      point.add_option("--absorption", options.absorption, "Absorption of the water [1/m]")
-          ->check(NumberIn(0.001, 100));
+  CLI::Option* const absorption = point.add_option("--absorption", options.absorption, "Absorption of the water [1/m]")
+                                      ->check(NumberIn(0.001, 100));
   CLI::Option* const scattering =
-      point.add_option("--scattering", options.scattering, "Scattering of the water [1/m]")
-          ->check(NumberIn(1e-6, 100));
+      point.add_option("--scattering", options.scattering, "Scattering of the water [1/m]")->check(NumberIn(1e-6, 100));
   CLI::Option* const kd =
       point
-          .add_option(
-              "--kd", options.kd,
-              "In their place: diffuse attenuation of light from straight above, sqrt(a^2 + 6 B a b) of "
-              "absorption a, scattering b and backscatter fraction B [1/m]")
+          .add_option("--kd", options.kd,
+                      "In their place: diffuse attenuation of light from straight above, sqrt(a^2 + 6 B a b) of "
+                      "absorption a, scattering b and backscatter fraction B [1/m]")
           ->check(NumberIn(0.001, 100));
   CLI::Option* const omega0 =
-      point.add_option("--omega0", options.omega0, "Single-scattering albedo, with --kd")
-          ->check(NumberIn(1e-4, 0.99));
+      point.add_option("--omega0", options.omega0, "Single-scattering albedo, with --kd")->check(NumberIn(1e-4, 0.99));
   point
       .add_option("--backscatter-fraction", options.backscatter_fraction,
                   "Share of scattered light that turns back (default: 0.0183)")
@@ -99,9 +95,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
                   "Diameter of the disc on the surface that the receiver sees, across the beam [m], or inf")
       ->required()
       ->check(FieldOfView());
-  point
-      .add_option("--pulse-length", options.pulse_length,
-                  "Width of the Gaussian pulse at half its maximum [ns]")
+  point.add_option("--pulse-length", options.pulse_length, "Width of the Gaussian pulse at half its maximum [ns]")
       ->required()
       ->check(NumberIn(0.05, 100));
   point
@@ -110,56 +104,47 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
       ->required()
       ->check(NumberIn(0, 1000));
   point
-      .add_option("--refractive-index", options.refractive_index,
-                  "Index of the phase, which refracts (default: 1.342)")
+      .add_option("--refractive-index", options.refractive_index, "Index of the phase, which refracts (default: 1.342)")
       ->check(NumberIn(1.01, 2));
-  point
-      .add_option("--group-index", options.group_index, "Index of the group, which delays (default: 1.3643)")
+  point.add_option("--group-index", options.group_index, "Index of the group, which delays (default: 1.3643)")
       ->check(NumberIn(1.01, 2));
   point.add_option("--photons", options.photons, "Photons of the simulation (default: 1600000)")
       ->check(NumberIn(8000, 1e8));
-  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
-      ->check(Seed());
+  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
   point.add_flag("--json", options.json, "Print one JSON object");
   AddThreads(point, threads);
   point.callback([&options, absorption, scattering, kd, omega0] {
     const bool direct = *absorption && *scattering && !*kd && !*omega0;
-    if (!direct && (!*kd || !*omega0 || *absorption || *scattering)) {
-      throw CLI::ValidationError(
-          "--absorption",
-          "the water needs two numbers; give --absorption and --scattering, or --kd and "
-          "--omega0");
-    }
+    if (!direct && (!*kd || !*omega0 || *absorption || *scattering))
+      throw CLI::ValidationError("--absorption",
+                                 "the water needs two numbers; give --absorption and --scattering, or --kd and "
+                                 "--omega0");
     if (!direct) {
       const double ratio = options.omega0 / (1 - options.omega0);
       options.scattering = options.kd / OpticalDepthPerScattering(ratio, options.backscatter_fraction);
       options.absorption = options.scattering / ratio;
     }
-    if (options.field_of_view < kMinFootprints * options.footprint) {
-      throw CLI::ValidationError(
-          "--field-of-view", absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
-                                          kMinFootprints * options.footprint, " m, 2.5 footprints"));
-    }
+    if (options.field_of_view < kMinFootprints * options.footprint)
+      throw CLI::ValidationError("--field-of-view",
+                                 absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
+                                              kMinFootprints * options.footprint, " m, 2.5 footprints"));
     const double unit = 2 * options.group_index * options.depth / kLightSpeed;  // ns: down and up.
-    if (options.pulse_length < kShortestPulse * unit || options.pulse_length > kLongestPulse * unit) {
-      throw CLI::ValidationError(
-          "--pulse-length",
-          absl::StrCat(options.pulse_length, " ns has no echo to read at ", options.depth, " m; give ",
-                       kShortestPulse * unit, " to ", kLongestPulse * unit, " ns, or another depth"));
-    }
+    if (options.pulse_length < kShortestPulse * unit || options.pulse_length > kLongestPulse * unit)
+      throw CLI::ValidationError("--pulse-length", absl::StrCat(options.pulse_length, " ns has no echo to read at ",
+                                                                options.depth, " m; give ", kShortestPulse * unit,
+                                                                " to ", kLongestPulse * unit, " ns, or another depth"));
   });
   Group(point, "The water",
-        {"--absorption", "--scattering", "--kd", "--omega0", "--backscatter-fraction", "--depth",
-         "--refractive-index", "--group-index"});
+        {"--absorption", "--scattering", "--kd", "--omega0", "--backscatter-fraction", "--depth", "--refractive-index",
+         "--group-index"});
   Group(point, "The system", {"--incidence", "--field-of-view", "--pulse-length", "--footprint"});
   Group(point, kWork, {"--photons", "--seed", "--threads"});
   Group(point, "Output", {"--json"});
-  EndHelp(
-      point, "",
-      "--absorption 0.108 --scattering 0.28 --depth 7 --incidence 15 --field-of-view 5 --pulse-length 2.2 "
-      "--footprint 0.6",
-      "--absorption 0.07 --scattering 0.2 --depth 10 --incidence 20 --field-of-view inf --pulse-length 5 "
-      "--footprint 2 --json");
+  EndHelp(point, "",
+          "--absorption 0.108 --scattering 0.28 --depth 7 --incidence 15 --field-of-view 5 --pulse-length 2.2 "
+          "--footprint 0.6",
+          "--absorption 0.07 --scattering 0.2 --depth 10 --incidence 20 --field-of-view inf --pulse-length 5 "
+          "--footprint 2 --json");
 }
 
 namespace {
@@ -192,8 +177,8 @@ CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
           "A time of the file, UTC, such as 2020-06-08T03:50Z (default: the only one)")
       ->type_name("TIME")
       ->needs(sea);
-  const auto number = [&](const char* flag, std::optional<double> SeaOfFile::*field, const char* meaning,
-                          double least, double most) {
+  const auto number = [&](const char* flag, std::optional<double> SeaOfFile::*field, const char* meaning, double least,
+                          double most) {
     point
         .add_option_function<double>(
             flag, [sea_of_file, field](double value) { sea_of_file().*field = value; }, meaning)
@@ -204,8 +189,8 @@ CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
   number("--sea-depth", &SeaOfFile::water_depth,
          "Depth of the water that the waves travel in [m] (default: the file's, or deep)", 0.1, 20000);
   number("--wind-from", &SeaOfFile::wind_from,
-         "Where the wind comes from, of the compass [degree] (default: the file's, or along the short waves)",
-         -360, 360);
+         "Where the wind comes from, of the compass [degree] (default: the file's, or along the short waves)", -360,
+         360);
   point
       .add_option_function<std::string>(
           "--tail", [sea_of_file](const std::string& name) { sea_of_file().tail = *FindTailRule(name); },
@@ -230,12 +215,10 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
           ->check(Fetch());
   const std::vector<std::string> spectra(kSpectrumKeys.begin(), kSpectrumKeys.end());
   std::string described;  // "apel (default) or elfouhaily"
-  for (const std::string& key : spectra) {
+  for (const std::string& key : spectra)
     described += (described.empty() ? "" : " or ") + key + (key == options.spectrum ? " (default)" : "");
-  }
   CLI::Option* spectrum =
-      point.add_option("--spectrum", options.spectrum, "Spectrum of the waves: " + described)
-          ->check(OneOf(spectra));
+      point.add_option("--spectrum", options.spectrum, "Spectrum of the waves: " + described)->check(OneOf(spectra));
   point
       .add_option("--corrected-above", options.corrected_above,
                   "Leave out waves longer than this [m]: the local slope corrects for them")
@@ -248,9 +231,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
           .add_option("--azimuth", options.azimuth,
                       "Horizontal direction of the beam from downwind [degree] (default: the worst of some)")
           ->check(NumberIn(-1e6, 1e6));
-  point
-      .add_option("--footprint", options.footprint,
-                  "Diameter of the beam at the mean surface, across its axis [m]")
+  point.add_option("--footprint", options.footprint, "Diameter of the beam at the mean surface, across its axis [m]")
       ->required()
       ->check(NumberIn(0, 1000, true));
   point.add_option("--depth", options.depth, "Depths below the surface, separated by commas [m]")
@@ -260,20 +241,15 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
       ->check(NumberIn(0, 1e4));
   point.add_option("--profile", options.profile, "Irradiance across the beam: uniform (default) or gaussian")
       ->check(OneOf({"uniform", "gaussian"}));
-  point
-      .add_option("--refractive-index", options.refractive_index,
-                  "Refractive index of the water (default: 1.33)")
+  point.add_option("--refractive-index", options.refractive_index, "Refractive index of the water (default: 1.33)")
       ->check(NumberIn(1.01, 2));
   point
       .add_option("--relative-error", options.relative_error,
                   "Relative standard error of refraction, THU and TVU to reach (default: 0.01)")
       ->check(NumberIn(1e-4, 0.5));
-  point
-      .add_option("--estimator", options.estimator,
-                  "control_variate (default), or plain for ray tracing alone")
+  point.add_option("--estimator", options.estimator, "control_variate (default), or plain for ray tracing alone")
       ->check(OneOf({"control_variate", "plain"}));
-  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
-      ->check(Seed());
+  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
   point.add_flag("--json", options.json, "Print one JSON object");
   AddThreads(point, threads);
   CLI::Option* sea = AddSea(point, options);
@@ -290,16 +266,13 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
   });
   Group(point, "The sea of a wind",
         {"--wind-speed", "--fetch", "--spectrum", "--corrected-above", "--refractive-index"});
-  Group(point, "The sea of a file",
-        {"--sea", "--sea-time", "--sea-depth", "--wind-from", "--tail", "--tail-from"});
-  Group(point, "The pulse",
-        {"--incidence", "--azimuth", "--beam-azimuth", "--footprint", "--depth", "--profile"});
+  Group(point, "The sea of a file", {"--sea", "--sea-time", "--sea-depth", "--wind-from", "--tail", "--tail-from"});
+  Group(point, "The pulse", {"--incidence", "--azimuth", "--beam-azimuth", "--footprint", "--depth", "--profile"});
   Group(point, kWork, {"--relative-error", "--estimator", "--seed", "--threads"});
   Group(point, "Output", {"--json"});
-  EndHelp(
-      point, "", "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20",
-      "--sea 41010.data_spec --sea-time 2020-06-08T03:50Z --incidence 12 --beam-azimuth 140 --footprint 0.6 "
-      "--depth 10 --json");
+  EndHelp(point, "", "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20",
+          "--sea 41010.data_spec --sea-time 2020-06-08T03:50Z --incidence 12 --beam-azimuth 140 --footprint 0.6 "
+          "--depth 10 --json");
 }
 
 }  // namespace albtpu::programs

@@ -76,15 +76,14 @@ Progress::~Progress() {
 
 void Progress::Reach(std::size_t done) {
   const Clock::time_point now = Clock::now();
-  if (done == 0 || now - last_shown_ < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kPlainLine)))
-    return;
+  if (done == 0 || now - last_shown_ < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kPlainLine))) return;
   last_shown_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double left = elapsed * static_cast<double>(total_ - done) / static_cast<double>(done);
   if (terminal_) {
     const std::string bar(kBarWidth * done / total_, '#');
-    std::fprintf(stderr, "\r%s [%-*s] %zu of %zu, %.0f s left\033[K", label_.c_str(),
-                 static_cast<int>(kBarWidth), bar.c_str(), done, total_, left);
+    std::fprintf(stderr, "\r%s [%-*s] %zu of %zu, %.0f s left\033[K", label_.c_str(), static_cast<int>(kBarWidth),
+                 bar.c_str(), done, total_, left);
   } else {
     std::fprintf(stderr, "%s: %zu of %zu, %.0f s left\n", label_.c_str(), done, total_, left);
   }
@@ -96,26 +95,23 @@ namespace {
 std::vector<UnitId> Share(const std::vector<UnitId>& units, const std::optional<Shard>& shard) {
   if (!shard) return units;
   std::vector<UnitId> share;
-  for (std::size_t i = 0; i < units.size(); ++i) {
+  for (std::size_t i = 0; i < units.size(); ++i)
     if (i % shard->count == static_cast<std::size_t>(shard->index)) share.push_back(units[i]);
-  }
   return share;
 }
 
 // Adds the units that the folder has to `builder`, which needs --resume, and removes them from `units`.
-absl::Status AddFinished(const WorkFolder& work, bool resume, std::vector<UnitId>& units,
-                         TableBuilder& builder) {
+absl::Status AddFinished(const WorkFolder& work, bool resume, std::vector<UnitId>& units, TableBuilder& builder) {
   const absl::StatusOr<std::vector<UnitId>> finished = work.Finished(units);
   if (!finished.ok()) return finished.status();
   if (!finished->empty() && !resume) {
-    return absl::AlreadyExistsError(absl::StrCat(
-        work.PathOf(finished->front()).parent_path().string(), ": has ", finished->size(), " of these ",
-        units.size(), " units already; give --resume to use them, or another folder to start anew"));
+    return absl::AlreadyExistsError(
+        absl::StrCat(work.PathOf(finished->front()).parent_path().string(), ": has ", finished->size(), " of these ",
+                     units.size(), " units already; give --resume to use them, or another folder to start anew"));
   }
-  std::erase_if(units,
-                [&](UnitId unit) { return std::binary_search(finished->begin(), finished->end(), unit); });
-  return work.Read(*finished,
-                   [&](UnitId unit, const std::string& bytes) { return builder.Add(unit, bytes); });
+  std::erase_if(
+      units, [&](UnitId unit) { return std::binary_search(finished->begin(), finished->end(), unit); });
+  return work.Read(*finished, [&](UnitId unit, const std::string& bytes) { return builder.Add(unit, bytes); });
 }
 
 std::string Label(const Campaign& campaign, const std::optional<Shard>& shard, std::size_t taken) {
@@ -130,8 +126,7 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
   if (!campaign.ok()) return campaign.status();
   if (!options.shard) {
-    if (const absl::Status status = CheckOutput(options.output, options.overwrite); !status.ok())
-      return status;
+    if (const absl::Status status = CheckOutput(options.output, options.overwrite); !status.ok()) return status;
   }
   TableBuilder builder(*campaign);
   const std::vector<UnitId> share = Share(UnitsOf(*campaign), options.shard);
@@ -141,9 +136,7 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
     absl::StatusOr<WorkFolder> opened = WorkFolder::Open(options.work, *campaign);
     if (!opened.ok()) return opened.status();
     work = *std::move(opened);
-    if (const absl::Status status = AddFinished(*work, options.resume, units, builder); !status.ok()) {
-      return status;
-    }
+    if (const absl::Status status = AddFinished(*work, options.resume, units, builder); !status.ok()) return status;
     // With shards, other processes may be writing temporary files.
     if (!options.shard) {
       if (const absl::Status status = work->RemoveTemporaries(); !status.ok()) return status;
@@ -154,13 +147,12 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   {
     Progress progress(Label(*campaign, options.shard, share.size() - units.size()), units.size());
     std::size_t done = 0;
-    computed = ComputeUnits(
-        *campaign, units, ranks, [&](UnitId unit, const std::string& bytes, const std::string& from) {
+    computed =
+        ComputeUnits(*campaign, units, ranks, [&](UnitId unit, const std::string& bytes, const std::string& from) {
           const absl::Status added = builder.Add(unit, bytes);
-          if (!added.ok()) {
-            return absl::Status(added.code(), absl::StrCat(Name(unit), ", computed by ", from, ": ",
-                                                           std::string(added.message())));
-          }
+          if (!added.ok())
+            return absl::Status(added.code(),
+                                absl::StrCat(Name(unit), ", computed by ", from, ": ", std::string(added.message())));
           const absl::Status stored = work ? work->Store(unit, bytes) : absl::OkStatus();
           progress.Reach(++done);
           return stored;
@@ -173,8 +165,7 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   }
   const absl::StatusOr<Table> table = builder.Build();
   if (!table.ok()) return table.status();
-  if (const absl::Status status = Publish(*table, options.output, options.overwrite); !status.ok())
-    return status;
+  if (const absl::Status status = Publish(*table, options.output, options.overwrite); !status.ok()) return status;
   Dismiss(ranks);
   return absl::OkStatus();
 }
@@ -196,8 +187,7 @@ absl::Status RunTable(const TableOptions& options) {
     status = absl::InternalError(error.what());
   }
   if (!status.ok()) {
-    std::cerr << "albtpu-generate: rank " << ranks.rank() << ": " << std::string(status.message())
-              << std::endl;
+    std::cerr << "albtpu-generate: rank " << ranks.rank() << ": " << std::string(status.message()) << std::endl;
     ranks.EndAll();
   }
   return status;
@@ -256,14 +246,11 @@ absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite) {
   const std::string name = output.string();
   std::error_code error;
   const std::filesystem::file_status there = std::filesystem::status(output, error);
-  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
     return absl::InvalidArgumentError(absl::StrCat(name, ": is not a regular file; name a file to write"));
-  }
-  if (std::filesystem::exists(there) && !overwrite) {
+  if (std::filesystem::exists(there) && !overwrite)
     return absl::AlreadyExistsError(absl::StrCat(name, ": exists already; --overwrite replaces it"));
-  }
-  const std::filesystem::path folder =
-      output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, error)) {
     return absl::NotFoundError(
         absl::StrCat(name, ": there is no folder ", folder.string(), "; create it, or name another file"));
@@ -284,11 +271,10 @@ absl::Status Publish(const Table& table, const std::filesystem::path& output, bo
   if (!written.ok()) return written;
   std::cout << "id " << table.provenance().id << "\nversion " << table.provenance().version << "\ndigest "
             << table.digest() << '\n';
-  if (&table.schema() == &kWaterColumn) {
+  if (&table.schema() == &kWaterColumn)
     PrintErrorsOfWater(table.provenance());
-  } else {
+  else
     PrintInterpolationErrors(table.provenance());
-  }
   return absl::OkStatus();
 }
 

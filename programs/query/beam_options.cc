@@ -40,8 +40,8 @@ absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::Traj
   for (const WayFlag& way : WayFlags(options, trajectory)) {
     if (!way.given) continue;
     if (chosen.has_value()) {
-      return formats::UsageError(absl::StrCat("las: ", chosen->flag, " and ", way.flag,
-                                              " both say where each beam went; give one of them"));
+      return formats::UsageError(
+          absl::StrCat("las: ", chosen->flag, " and ", way.flag, " both say where each beam went; give one of them"));
     }
     chosen = way;
   }
@@ -72,12 +72,10 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
   for (const auto& flag : checked) {
     if (!flag.given || (flag.ways & way.way) != 0) continue;
     std::vector<std::string> others;
-    for (const WayFlag& other : WayFlags(options, flags.trajectory)) {
+    for (const WayFlag& other : WayFlags(options, flags.trajectory))
       if ((flag.ways & other.way) != 0) others.emplace_back(other.flag);
-    }
     return formats::UsageError(absl::StrCat("las: ", flag.flag, " has no effect with ", way.flag,
-                                            "; leave it out (it belongs to ", absl::StrJoin(others, " and "),
-                                            ")"));
+                                            "; leave it out (it belongs to ", absl::StrJoin(others, " and "), ")"));
   }
   return absl::OkStatus();
 }
@@ -96,14 +94,13 @@ absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOption
     case kReturns:
       return annotate::TrajectoryFromReturns{.crs = options.crs};
     case kScanner:
-      return annotate::AcrossTrackScan{.flight_direction = options.flight_direction,
-                                       .altitude = options.altitude};
+      return annotate::AcrossTrackScan{.flight_direction = options.flight_direction, .altitude = options.altitude};
     case kIncidence:
       break;
   }
   if (*options.incidence >= 90) {
-    return formats::UsageError(absl::StrCat("las: --incidence is ", *options.incidence,
-                                            " degrees; give an angle from the vertical below 90"));
+    return formats::UsageError(
+        absl::StrCat("las: --incidence is ", *options.incidence, " degrees; give an angle from the vertical below 90"));
   }
   return annotate::ConstantIncidence{
       .incidence = *options.incidence, .beam_azimuth = options.beam_azimuth, .altitude = options.altitude};
@@ -124,9 +121,8 @@ absl::Status SetFootprint(const BeamOptions& options, bool details, annotate::Be
         absl::StrCat("las: the size of the beam is missing or given twice; give either --footprint, or ",
                      track ? "--divergence" : "--altitude and --divergence"));
   }
-  if (options.aperture.has_value()) {
+  if (options.aperture.has_value())
     return formats::UsageError("las: --aperture has no effect without --divergence; leave it out");
-  }
   plan.footprint = *footprint;
   return absl::OkStatus();
 }
@@ -174,17 +170,15 @@ absl::Status SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan
   }
   plan.water_classes = {surface.classes.begin(), surface.classes.end()};
   if (!surface.level.has_value()) return absl::OkStatus();
-  if (const auto* file = std::get_if<std::string>(&*surface.level)) {
+  if (const auto* file = std::get_if<std::string>(&*surface.level))
     plan.water_level_file = *file;
-  } else {
+  else
     plan.water_level = std::get<double>(*surface.level);
-  }
   return absl::OkStatus();
 }
 
 void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
-  AddFlags(command,
-           {"--trajectory", "--trajectory-errors", "--trajectory-time", "--geoid-separation", "--lever-arm"},
+  AddFlags(command, {"--trajectory", "--trajectory-errors", "--trajectory-time", "--geoid-separation", "--lever-arm"},
            group::kBeam, flags);
   command
       .add_option("--crs", options.crs,
@@ -193,20 +187,18 @@ void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
       ->check(NotEmpty("coordinate system"))
       ->group(group::kBeam);
   AddFlags(command, {"--trajectory-from-returns"}, group::kBeam, flags);
-  command
-      .add_option("--scanner", options.scanner,
-                  "The scanner swings across the track: incidence is |scan angle|")
+  command.add_option("--scanner", options.scanner, "The scanner swings across the track: incidence is |scan angle|")
       ->type_name("across-track")
       ->check(OneOf({"across-track"}))
       ->group(group::kBeam);
-  AddNumber(command, "--flight-direction", Sign::kAny,
-            "Direction of flight, for --scanner across-track [degree, true]", options.flight_direction)
+  AddNumber(command, "--flight-direction", Sign::kAny, "Direction of flight, for --scanner across-track [degree, true]",
+            options.flight_direction)
       ->group(group::kBeam);
   AddNumber(command, "--incidence", Sign::kNotNegative,
             "One angle of all beams from the vertical, in air, as of a cone [degree]", options.incidence)
       ->group(group::kBeam);
-  AddNumber(command, "--beam-azimuth", Sign::kAny,
-            "Where the beams travel to, for --incidence [degree, true]", options.beam_azimuth)
+  AddNumber(command, "--beam-azimuth", Sign::kAny, "Where the beams travel to, for --incidence [degree, true]",
+            options.beam_azimuth)
       ->group(group::kBeam);
 }
 
@@ -224,8 +216,7 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags)
             options.divergence)
       ->group(group::kPulse);
   AddNumber(command, "--aperture", Sign::kNotNegative,
-            "Diameter of the beam where it leaves the sensor, with --divergence [m] (default: 0)",
-            options.aperture)
+            "Diameter of the beam where it leaves the sensor, with --divergence [m] (default: 0)", options.aperture)
       ->group(group::kPulse);
   command
       .add_option_function<std::string>(

@@ -39,8 +39,7 @@ nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSe
   for (std::size_t i = 0; i < annotate::kPulseInputCount; ++i) {
     const auto input = static_cast<annotate::PulseInput>(i);
     const std::optional<float>& value = stated[input];
-    json[std::string(Name(input))] =
-        value.has_value() ? formats::JsonNumber(*value) : nlohmann::ordered_json();
+    json[std::string(Name(input))] = value.has_value() ? formats::JsonNumber(*value) : nlohmann::ordered_json();
   }
   if (sea.has_waves()) json["sea"] = Parameters(sea);
   json.update(programs::Parameters(options.style));
@@ -50,8 +49,7 @@ nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSe
 // None where only the columns of each file give it.
 std::optional<bool> IsFootprintFromBeam(const annotate::FixedInputs& fixed) {
   if (fixed[annotate::PulseInput::kFootprint].has_value()) return false;
-  if (fixed[annotate::PulseInput::kAltitude].has_value() ||
-      fixed[annotate::PulseInput::kDivergence].has_value())
+  if (fixed[annotate::PulseInput::kAltitude].has_value() || fixed[annotate::PulseInput::kDivergence].has_value())
     return true;
   return std::nullopt;
 }
@@ -109,19 +107,17 @@ absl::Status RunCsv(const CsvOptions& given) {
                               total->has_value() ? &**total : nullptr);
     if (!csv.ok()) return csv.status();
     const std::string outcomes = csv->summary.outcomes().Text(annotate::WithoutAzimuth(source.table()));
-    if (!total->has_value()) {
+    if (!total->has_value())
       return annotate::AnnotatedFile{std::move(csv->file),
                                      annotate::Findings{.input_bytes = csv->input_bytes,
                                                         .input = answerer->SeaJson(),
                                                         .answers = csv->summary.Json(),
                                                         .tally = csv->summary.Tally()},
                                      absl::StrCat(" ", outcomes, notes)};
-    }
     annotate::TotalPlan plan = (*total)->plan;
     if (csv->took_divergence) plan.numbers.push_back(annotate::AssumedDivergence(*plan.divergence));
     std::string text = absl::StrCat(
-        " ", outcomes,
-        csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));
+        " ", outcomes, csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));
     for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
     return annotate::AnnotatedFile{
         std::move(csv->file),
@@ -136,19 +132,18 @@ absl::Status RunCsv(const CsvOptions& given) {
     parameters["details"] = (*total)->details;
     parameters["total"] = Parameters((*total)->plan);
   }
-  return annotate::AnnotateFiles(*jobs,
-                                 {.command = "csv",
-                                  .records = "pulses",
-                                  .record = "pulse",
-                                  .parameters = parameters,
-                                  .files = files,
-                                  .resume = options.files.resume,
-                                  .existing = options.existing,
-                                  .annotate = annotate,
-                                  .cause = {.axes = source.table().axes,
-                                            .water_level = {},
-                                            .footprint_from_beam = IsFootprintFromBeam(fixed)}},
-                                 source.table());
+  return annotate::AnnotateFiles(
+      *jobs,
+      {.command = "csv",
+       .records = "pulses",
+       .record = "pulse",
+       .parameters = parameters,
+       .files = files,
+       .resume = options.files.resume,
+       .existing = options.existing,
+       .annotate = annotate,
+       .cause = {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)}},
+      source.table());
 }
 
 }  // namespace
@@ -169,11 +164,11 @@ void AddCsvCommand(CLI::App& program, Run& run) {
   AddFlags(*command, {"--details"}, group::kOutput, options->flags);
   AddSourceOptions(*command, options->source);
   AddStyleFlags(*command, options->flags, options->style);
-  EndHelp(*command,
-          absl::StrCat("A column that is missing can be given once for all pulses by its option.\n",
-                       kWhereAnswersComeFrom),
-          "pulses.csv with_uncertainty.csv --wind-speed 5 --footprint 0.5",
-          "surveys --output-dir annotated --recursive --resume --server 127.0.0.1:50051");
+  EndHelp(
+      *command,
+      absl::StrCat("A column that is missing can be given once for all pulses by its option.\n", kWhereAnswersComeFrom),
+      "pulses.csv with_uncertainty.csv --wind-speed 5 --footprint 0.5",
+      "surveys --output-dir annotated --recursive --resume --server 127.0.0.1:50051");
   command->callback([options, &run] { run = [options] { return RunCsv(*options); }; });
 }
 

@@ -40,22 +40,18 @@ std::string Markdown(const std::vector<ListedKey>& keys) {
   for (const ListedKey& key : keys) {
     if (key.section != section) {
       const bool many = key.section == "sea.waves";
-      absl::StrAppend(
-          &page, "\n## ", many ? "[[" : "[", key.section, many ? "]]" : "]",
-          "\n\n| key | type, unit | range | default | flag | meaning |\n|---|---|---|---|---|---|\n");
+      absl::StrAppend(&page, "\n## ", many ? "[[" : "[", key.section, many ? "]]" : "]",
+                      "\n\n| key | type, unit | range | default | flag | meaning |\n|---|---|---|---|---|---|\n");
     }
     section = key.section;
-    absl::StrAppend(&page, "| `", key.key, "` | ", TypeText(key), " | ", RangeText(key.values), " | ",
-                    key.absent, " | ", key.flag.empty() ? "" : absl::StrCat("`", key.flag, "`"), " | ",
-                    key.help, " |\n");
+    absl::StrAppend(&page, "| `", key.key, "` | ", TypeText(key), " | ", RangeText(key.values), " | ", key.absent,
+                    " | ", key.flag.empty() ? "" : absl::StrCat("`", key.flag, "`"), " | ", key.help, " |\n");
   }
   return page;
 }
 
 ordered_json Json(const std::vector<ListedKey>& keys) {
-  const auto or_null = [](const std::string& text) {
-    return text.empty() ? ordered_json() : ordered_json(text);
-  };
+  const auto or_null = [](const std::string& text) { return text.empty() ? ordered_json() : ordered_json(text); };
   const auto limit = [](const std::optional<double>& number) {
     return number.has_value() && std::isfinite(*number) ? ordered_json(*number) : ordered_json();
   };
@@ -84,8 +80,8 @@ absl::Status RunKeys(bool json) {
 
 void AddKeysCommand(CLI::App& program, Run& run) {
   const auto json = std::make_shared<bool>(false);
-  CLI::App* command = program.add_subcommand(
-      "keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
+  CLI::App* command =
+      program.add_subcommand("keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
   command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
   EndHelp(*command, "", "", "--json");
   command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
@@ -102,8 +98,7 @@ struct SensorsCommandOptions {
 
 std::string DivergenceText(const config::SourcedDivergence& divergence) {
   std::string text = absl::StrCat(divergence.value);
-  if (divergence.least.has_value())
-    absl::StrAppend(&text, " (", *divergence.least, " to ", *divergence.greatest, ")");
+  if (divergence.least.has_value()) absl::StrAppend(&text, " (", *divergence.least, " to ", *divergence.greatest, ")");
   return text;
 }
 
@@ -117,8 +112,8 @@ std::string Row(const config::Sensor& sensor) {
 }
 
 std::string Rows(const std::vector<config::Sensor>& sensors) {
-  std::string text = absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan",
-                                     "bottom_range", "divergence", "degree", "m", "mrad");
+  std::string text = absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan", "bottom_range",
+                                     "divergence", "degree", "m", "mrad");
   for (const config::Sensor& sensor : sensors) absl::StrAppend(&text, Row(sensor));
   return text;
 }
@@ -133,17 +128,13 @@ std::string Text(const config::Sensor& sensor) {
     if (!sensor.errors.stated[i]) continue;
     const ErrorSource& source = kErrorSources[i];
     const std::string numbers = absl::StrJoin(source.In(sensor.errors.values), ", ");
-    line(source.name, source.size() > 1 ? absl::StrCat("[", numbers, "]") : numbers, source.unit,
-         sensor.origins[i]);
+    line(source.name, source.size() > 1 ? absl::StrCat("[", numbers, "]") : numbers, source.unit, sensor.origins[i]);
   }
-  if (const auto& known = sensor.divergence)
-    line("divergence", DivergenceText(*known), "mrad", known->source);
+  if (const auto& known = sensor.divergence) line("divergence", DivergenceText(*known), "mrad", known->source);
   std::vector<std::string> unknown = config::UnknownOf(sensor);
   const bool no_divergence = std::erase(unknown, "divergence") > 0;
-  if (!unknown.empty()) {
-    absl::StrAppend(
-        &text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "), "\n");
-  }
+  if (!unknown.empty())
+    absl::StrAppend(&text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "), "\n");
   if (no_divergence) absl::StrAppend(&text, "  not known; give it by --divergence: divergence\n");
   return text;
 }
@@ -161,8 +152,7 @@ ordered_json Json(const config::Sensor& sensor) {
   }
   if (const auto& known = sensor.divergence) {
     ordered_json& divergence = json["divergence"] = {{"value", known->value}};
-    if (known->least.has_value())
-      divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
+    if (known->least.has_value()) divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
     divergence["unit"] = "mrad";
     divergence["source"] = known->source;
   }

@@ -20,14 +20,12 @@ namespace {
 // The message for a file that has no point of the given classes.
 std::string ClassHint(const annotate::Job& job, const annotate::AnnotatedLas& annotated) {
   const int min_class = *annotated.chosen_classes.begin();
-  const bool never =
-      annotated.point_format < formats::kFirstModernFormat && formats::kLegacyClassMask < min_class;
-  return absl::StrCat(
-      job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
-      never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ",
-                           formats::kLegacyClassMask, "; ")
-            : "",
-      "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
+  const bool never = annotated.point_format < formats::kFirstModernFormat && formats::kLegacyClassMask < min_class;
+  return absl::StrCat(job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
+                      never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ",
+                                           formats::kLegacyClassMask, "; ")
+                            : "",
+                      "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
 }
 
 nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
@@ -42,8 +40,7 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
 }
 
 // The contribution of the sea, and the total beside it.
-nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation,
-                                   const annotate::AnnotatedLas& annotated) {
+nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
   return annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
@@ -55,33 +52,29 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
                                   annotated.totals.Text(annotation.style.coverage, order));
-  for (const std::string& assumed : annotate::Assumptions(*annotation.total))
-    absl::StrAppend(&text, "\n  ", assumed);
+  for (const std::string& assumed : annotate::Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
   return text;
 }
 
 class LasFiles {
  public:
-  LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation,
-           std::optional<formats::LasKind> kind, const annotate::AnswerSource& source)
+  LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation, std::optional<formats::LasKind> kind,
+           const annotate::AnswerSource& source)
       : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
 
-  absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job,
-                                                   annotate::FileProgress& progress) {
-    absl::StatusOr<annotate::AnnotatedLas> annotated = annotate::AnnotateLas(
-        job.input, job.output, options_.existing, annotation_, source_, progress, kind_);
+  absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job, annotate::FileProgress& progress) {
+    absl::StatusOr<annotate::AnnotatedLas> annotated =
+        annotate::AnnotateLas(job.input, job.output, options_.existing, annotation_, source_, progress, kind_);
     if (!annotated.ok()) return annotated.status();
     const std::uint64_t points = annotated->classes.points();
     const std::uint64_t bathymetric = annotated->summary.outcomes().total();
     const bool none = points > 0 && bathymetric == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
-    if (none && options_.files.output_folder.empty()) {
+    if (none && options_.files.output_folder.empty())
       return absl::FailedPreconditionError(ClassHint(job, *annotated) + "; nothing was written");
-    }
     if (none) annotate::Note(ClassHint(job, *annotated) + "; all its points get no-data");
-    if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source)) {
+    if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
       NoteResolution(annotated->point_format);
-    }
     points_ += points;
     bathymetric_ += bathymetric;
     return annotate::AnnotatedFile{
@@ -91,10 +84,9 @@ class LasFiles {
                            .output = {{"format", std::string(Name(annotated->output_kind))}},
                            .answers = AnswersJson(annotation_, *annotated),
                            .tally = annotated->summary.Tally()},
-        absl::StrCat(
-            "\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
-            absl::StrJoin(annotated->notes, "",
-                          [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
+        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
+                     absl::StrJoin(annotated->notes, "",
+                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
   }
 
   bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }
@@ -137,9 +129,8 @@ annotate::CauseContext ContextOf(const annotate::BeamPlan& plan, const client::T
       .water_level = {},
       .water_level_by_time = plan.water_level_file.has_value(),
       .footprint_from_beam = std::holds_alternative<annotate::DivergingBeam>(plan.footprint)};
-  if (plan.water_level.has_value() && plan.water_classes.empty()) {
+  if (plan.water_level.has_value() && plan.water_classes.empty())
     context.water_level = *plan.water_level * plan.metres_per_unit.value_or(1);
-  }
   return context;
 }
 
@@ -154,8 +145,7 @@ absl::Status RunLas(const LasOptions& options) {
   annotate::FileOptions file_options = options.files;
   if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
   const absl::StatusOr<std::vector<annotate::Job>> jobs = annotate::FindJobs(
-      "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)},
-      file_options);
+      "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)}, file_options);
   if (!jobs.ok()) return jobs.status();
   if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
   absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
@@ -187,10 +177,8 @@ absl::Status RunLas(const LasOptions& options) {
        .cause = ContextOf(annotation->plan, source.table())},
       source.table());
   // With --resume, the files that were skipped may have such points.
-  if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
-    return absl::FailedPreconditionError(
-        "no file has a point of the bathymetric classes; name them with --classes");
-  }
+  if (status.ok() && !options.files.resume && files.found_no_bathymetry())
+    return absl::FailedPreconditionError("no file has a point of the bathymetric classes; name them with --classes");
   return status;
 }
 

@@ -22,17 +22,14 @@ absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settin
                                             const annotate::BeamPlan& plan, bool is_divergence_given,
                                             Coverage coverage) {
   if (!plan.has_track() && !beams.altitude.has_value())
-    return formats::UsageError(
-        "las: --altitude is missing; a total needs the height of the sensor above the water");
-  annotate::TotalContext context{
-      .coverage = coverage,
-      .has_surface_returns = !plan.water_classes.empty(),
-      .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
-      .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"};
+    return formats::UsageError("las: --altitude is missing; a total needs the height of the sensor above the water");
+  annotate::TotalContext context{.coverage = coverage,
+                                 .has_surface_returns = !plan.water_classes.empty(),
+                                 .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
+                                 .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"};
   absl::StatusOr<annotate::TotalPlan> total = annotate::PlanTotal(settings, context);
   if (!total.ok()) return total.status();
-  if (const auto* beam = std::get_if<annotate::DivergingBeam>(&plan.footprint);
-      beam != nullptr && !is_divergence_given)
+  if (const auto* beam = std::get_if<annotate::DivergingBeam>(&plan.footprint); beam != nullptr && !is_divergence_given)
     total->numbers.push_back(annotate::AssumedDivergence(beam->divergence));
   if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
@@ -48,10 +45,9 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFlags(command, {"--classes"}, group::kPoints, options.flags);
   AddFlags(command, {"--details"}, group::kOutput, options.flags);
   command
-      .add_flag(
-          "--replace", options.replace,
-          "Where the points have dimensions of these names already, as floats or doubles, replace their "
-          "values")
+      .add_flag("--replace", options.replace,
+                "Where the points have dimensions of these names already, as floats or doubles, replace their "
+                "values")
       ->group(group::kOutput);
   command
       .add_option_function<std::string>(
@@ -66,20 +62,18 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
       ->group(group::kOutput);
   AddSourceOptions(command, options.source);
   AddStyleFlags(command, options.flags, options.style);
-  EndHelp(
-      command,
-      absl::StrCat(
-          "OUT.laz is compressed, as by LASzip, OUT.las is not.\n"
-          "Where each beam went is given in one of four ways: --trajectory, --trajectory-from-returns,\n"
-          "--scanner across-track or --incidence. The water surface is --water-classes, --water-level or "
-          "both.\n"
-          "The beam's size is --footprint or --divergence; the latter needs --altitude where there is no\n"
-          "trajectory.\n",
-          kWhereAnswersComeFrom),
-      "line.laz with_uncertainty.laz --trajectory-from-returns --water-level -23.09 --classes 26 "
-      "--divergence 1.5 --wind-speed 5",
-      "surveys --output-dir annotated --recursive --trajectory sbet --water-classes 41 --divergence 1.5 "
-      "--wind-speed 5 --wind-from 250 --details");
+  EndHelp(command,
+          absl::StrCat("OUT.laz is compressed, as by LASzip, OUT.las is not.\n"
+                       "Where each beam went is given in one of four ways: --trajectory, --trajectory-from-returns,\n"
+                       "--scanner across-track or --incidence. The water surface is --water-classes, --water-level or "
+                       "both.\n"
+                       "The beam's size is --footprint or --divergence; the latter needs --altitude where there is no\n"
+                       "trajectory.\n",
+                       kWhereAnswersComeFrom),
+          "line.laz with_uncertainty.laz --trajectory-from-returns --water-level -23.09 --classes 26 "
+          "--divergence 1.5 --wind-speed 5",
+          "surveys --output-dir annotated --recursive --trajectory sbet --water-classes 41 --divergence 1.5 "
+          "--wind-speed 5 --wind-from 250 --details");
 }
 
 absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
@@ -89,8 +83,7 @@ absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
   return settings;
 }
 
-absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options,
-                                                   const config::SurveySettings& settings) {
+absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings) {
   if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
   annotate::LasAnnotation annotation;
   annotation.replace = options.replace;
@@ -120,10 +113,9 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options,
   for (const int point_class :
        annotation.classes.value_or(std::set<int>{formats::DefaultClass(formats::kFirstModernFormat)})) {
     if (!plan->water_classes.contains(point_class)) continue;
-    return formats::UsageError(
-        absl::StrCat("las: class ", point_class,
-                     " is both a class of the water surface and of the bottom; name different "
-                     "classes by --water-classes and --classes"));
+    return formats::UsageError(absl::StrCat("las: class ", point_class,
+                                            " is both a class of the water surface and of the bottom; name different "
+                                            "classes by --water-classes and --classes"));
   }
   annotation.plan = *std::move(plan);
   return annotation;
@@ -133,9 +125,8 @@ absl::StatusOr<std::optional<formats::LasKind>> OutputKind(const LasOptions& opt
   const std::vector<std::string>& files = options.files.files;
   if (!options.files.output_folder.empty() || files.size() != 2) return options.format;
   std::optional<formats::LasKind> named;
-  for (const formats::LasKind kind : {formats::LasKind::kLas, formats::LasKind::kLaz}) {
+  for (const formats::LasKind kind : {formats::LasKind::kLas, formats::LasKind::kLaz})
     if (annotate::HasExtension(files[1], formats::Extension(kind))) named = kind;
-  }
   if (options.format.has_value() && named.has_value() && *options.format != *named) {
     return formats::UsageError(absl::StrCat("las: --format ", formats::Extension(*options.format).substr(1),
                                             " and the name of the output, ", files[1],

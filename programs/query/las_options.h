@@ -33,8 +33,7 @@ void AddLasOptions(CLI::App& command, LasOptions& options);
 absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options);
 
 // IsUsageError if something needed is missing, is given in two ways or has no effect.
-absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options,
-                                                   const config::SurveySettings& settings);
+absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings);
 
 // The kind that --format or the name of a single output asks for; absent: that of each input. IsUsageError when the two
 // contradict each other.

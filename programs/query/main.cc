@@ -22,12 +22,11 @@ int Main(int argc, char** argv) {
   program.name("albtpu-query");
   program.require_subcommand(1);
   albtpu::SetUpProgram(program, albtpu::Version(), albtpu::Commit());
-  albtpu::EndHelp(
-      program,
-      absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
-      "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
-      "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
-      "--divergence 1");
+  albtpu::EndHelp(program,
+                  absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
+                  "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
+                  "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
+                  "--divergence 1");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);

@@ -27,8 +27,8 @@ void CheckNumber(const std::string& flag, const std::string& text, std::optional
 std::string CheckHostAndPort(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   int port = 0;
-  const bool number = colon != std::string::npos && colon > 0 &&
-                      absl::SimpleAtoi(absl::string_view(text).substr(colon + 1), &port);
+  const bool number =
+      colon != std::string::npos && colon > 0 && absl::SimpleAtoi(absl::string_view(text).substr(colon + 1), &port);
   if (number && port > 0 && port <= 65535) return "";
   return absl::StrCat("'", text, "' is not an address; give HOST:PORT, such as 127.0.0.1:50051");
 }
@@ -65,8 +65,7 @@ void AddCredentialOptions(CLI::App& command, CLI::Option* server, client::Creden
         ->group(group::kAccess);
   };
   add("--tls-ca", credentials.ca, "Use TLS and trust these certificate authorities (PEM)");
-  CLI::Option* certificate =
-      add("--tls-cert", credentials.certificate, "Use TLS and present this certificate (PEM)");
+  CLI::Option* certificate = add("--tls-cert", credentials.certificate, "Use TLS and present this certificate (PEM)");
   CLI::Option* key = add("--tls-key", credentials.key, "Private key of --tls-cert (PEM)");
   certificate->needs(key);
   key->needs(certificate);
@@ -110,12 +109,11 @@ void AddFileOptions(CLI::App& command, const std::string& extension, annotate::F
                                ", or with --output-dir any number of input files and folders"))
       ->required()
       ->type_name("FILE" + extension);
-  CLI::Option* output_folder =
-      command
-          .add_option("--output-dir", options.output_folder,
-                      "Write each output into this folder, under the name of its input")
-          ->type_name("DIR")
-          ->group(group::kFiles);
+  CLI::Option* output_folder = command
+                                   .add_option("--output-dir", options.output_folder,
+                                               "Write each output into this folder, under the name of its input")
+                                   ->type_name("DIR")
+                                   ->group(group::kFiles);
   command
       .add_flag("--recursive", options.recursive,
                 "Also take the files in subfolders; --output-dir gets the same subfolders")
@@ -141,15 +139,13 @@ nlohmann::ordered_json Parameters(const annotate::AnswerStyle& style) {
 }
 
 void AddInput(CLI::App& command, annotate::PulseInput input, annotate::FixedInputs& fixed) {
-  const bool is_direction =
-      input == annotate::PulseInput::kBeamAzimuth || input == annotate::PulseInput::kAzimuth;
+  const bool is_direction = input == annotate::PulseInput::kBeamAzimuth || input == annotate::PulseInput::kAzimuth;
   command
       .add_option_function<std::string>(
           annotate::FlagName(input),
           [input, is_direction, &fixed](const std::string& text) {
             const std::optional<float> value = formats::ParseFloat(text);
-            CheckNumber(annotate::FlagName(input), text, value,
-                        is_direction ? Sign::kAny : Sign::kNotNegative);
+            CheckNumber(annotate::FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative);
             fixed[input] = value;
           },
           DescribeInput(input))
@@ -163,8 +159,8 @@ void AddInputs(CLI::App& command, annotate::FixedInputs& fixed) {
       AddInput(command, input, fixed);
 }
 
-void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
-               const std::string& description, std::optional<std::array<double, 3>>& value) {
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
+               std::optional<std::array<double, 3>>& value) {
   command
       .add_option_function<std::string>(
           flag,
@@ -177,8 +173,7 @@ void AddTriple(CLI::App& command, const std::string& flag, const std::string& ty
               good = number.has_value() && std::isfinite(*number);
               numbers[i] = number.value_or(0);
             }
-            if (!good)
-              throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
+            if (!good) throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
             value = numbers;
           },
           description)

@@ -19,8 +19,7 @@ namespace albtpu::programs {
 // The headings under which --help lists options.
 namespace group {
 inline constexpr char kPulse[] = "The pulse";
-inline constexpr char kBeam[] =
-    "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
+inline constexpr char kBeam[] = "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
 inline constexpr char kSea[] = "The sea";
 inline constexpr char kTotal[] = "The total";
 inline constexpr char kPoints[] = "The points";
@@ -49,8 +48,8 @@ void AddInput(CLI::App& command, annotate::PulseInput input, annotate::FixedInpu
 void AddInputs(CLI::App& command, annotate::FixedInputs& fixed);
 
 // Three numbers, of the motion of the aircraft at one pulse.
-void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
-               const std::string& description, std::optional<std::array<double, 3>>& value);
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
+               std::optional<std::array<double, 3>>& value);
 
 // Whether numbers below zero make sense.
 enum class Sign { kAny, kNotNegative };

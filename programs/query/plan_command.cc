@@ -39,8 +39,7 @@ struct PlanOptions {
 
 absl::StatusOr<annotate::TotalPlan> PlanOf(const config::SurveySettings& settings) {
   const bool level = settings.surface.level.has_value();
-  return annotate::PlanTotal(settings,
-                             {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
+  return annotate::PlanTotal(settings, {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
 }
 
 // In ascending order, each once. Values too small for float32, the precision of table queries, become 0.
@@ -55,8 +54,7 @@ std::vector<double> Rising(std::vector<double> values) {
 // The sea with its waves scaled to this significant height in total.
 config::SeaSettings WithHeight(config::SeaSettings sea, double height) {
   double energy = 0;
-  for (const JonswapWaves& each : sea.waves)
-    energy += each.significant_wave_height * each.significant_wave_height;
+  for (const JonswapWaves& each : sea.waves) energy += each.significant_wave_height * each.significant_wave_height;
   for (JonswapWaves& each : sea.waves) each.significant_wave_height *= height / std::sqrt(energy);
   return sea;
 }
@@ -76,8 +74,7 @@ class Planner {
     for (std::size_t i = 0; i < plan_.seas.size(); ++i) {
       absl::Status status = waves ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
       if (!status.ok() && i > 0) {  // Waves that are too steep for their period.
-        annotate::Note(
-            absl::StrCat("--wave-heights: ", plan_.seas[i], " m and more left out: ", status.message()));
+        annotate::Note(absl::StrCat("--wave-heights: ", plan_.seas[i], " m and more left out: ", status.message()));
         plan_.seas.resize(i);
         break;
       }
@@ -86,8 +83,7 @@ class Planner {
       ++done_;
       shown.Reach(done_, done_);
     }
-    if (std::ranges::none_of(plan_.planned,
-                             [](const quality::Reaches& reaches) { return reaches.back().is_known(); }))
+    if (std::ranges::none_of(plan_.planned, [](const quality::Reaches& reaches) { return reaches.back().is_known(); }))
       return formats::UsageError(
           "plan: no table knows the planned beam over any of these seas; give another --incidence, "
           "--altitude or "
@@ -102,8 +98,7 @@ class Planner {
           "plan: a file of the sea is of one survey; give the waves by --hs and --tp, or the wind alone");
     const config::SeaSettings& flags = options_.flags.settings.sea;
     if (!sea_.has_waves() && (flags.wind_speed || flags.wind_from))
-      return formats::UsageError(
-          "plan: one wind has no effect without waves (all winds are planned); give --winds");
+      return formats::UsageError("plan: one wind has no effect without waves (all winds are planned); give --winds");
     if (sea_.has_waves() &&
         std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
       return formats::UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
@@ -134,10 +129,8 @@ class Planner {
     std::vector<double> incidences = Rising(options_.incidences);
     if (!waves) {
       if (absl::Status status = Open(sea_); !status.ok()) return status;
-      if (absl::Status status = KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas); !status.ok())
-        return status;
-      if (absl::Status status = KeepWithin(AxisId::kIncidence, "--incidences", incidences); !status.ok())
-        return status;
+      if (absl::Status status = KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas); !status.ok()) return status;
+      if (absl::Status status = KeepWithin(AxisId::kIncidence, "--incidences", incidences); !status.ok()) return status;
     }
     plan_.axes = {{"altitude", "m", Rising(options_.altitudes), {}}, {"incidence", "degree", incidences, {}}};
     return PrepareWaters(shown);
@@ -183,8 +176,7 @@ class Planner {
     std::erase_if(values, is_outside);
     const std::string what =
         absl::StrCat(flag, ": ", left_out, " left out (the table has ", range.first, " to ", range.last, ")");
-    if (values.empty())
-      return formats::UsageError(absl::StrCat("plan: ", what, "; nothing is left, give others"));
+    if (values.empty()) return formats::UsageError(absl::StrCat("plan: ", what, "; nothing is left, give others"));
     if (!left_out.empty()) annotate::Note(what);
     return absl::OkStatus();
   }
@@ -196,17 +188,16 @@ class Planner {
     for (quality::PlannedAxis& axis : plan_.axes)
       for (std::size_t i = 0; i < axis.values.size(); ++i) {
         const double value = axis.values[i];
-        reaches = At(sea, axis.name == "kd" ? of_waters_[i] : planned_,
-                     axis.name == "altitude" ? value : options_.altitude,
-                     axis.name == "incidence" ? value : options_.incidence);
+        reaches =
+            At(sea, axis.name == "kd" ? of_waters_[i] : planned_, axis.name == "altitude" ? value : options_.altitude,
+               axis.name == "incidence" ? value : options_.incidence);
         if (!reaches.ok()) return reaches.status();
         axis.reaches[i].push_back(*reaches);
       }
     return absl::OkStatus();
   }
 
-  absl::StatusOr<quality::Reaches> At(double sea, annotate::TotalPlan plan, double altitude,
-                                      double incidence) {
+  absl::StatusOr<quality::Reaches> At(double sea, annotate::TotalPlan plan, double altitude, double incidence) {
     const annotate::AnswerSource source = answerer_->source();
     quality::PlannedBeam beam{.altitude = altitude,
                               .incidence = incidence,
@@ -254,15 +245,13 @@ absl::Status RunPlan(const PlanOptions& options) {
   std::optional<quality::NewFolder> folder;
   if (!options.output.empty()) {
     folder.emplace(options.output);
-    if (absl::Status status = quality::PrepareFolder(options.output, options.existing); !status.ok())
-      return status;
+    if (absl::Status status = quality::PrepareFolder(options.output, options.existing); !status.ok()) return status;
   }
   absl::StatusOr<quality::SurveyPlan> plan = Planner(options, *settings).Make();
   if (!plan.ok()) return plan.status();
   const nlohmann::ordered_json json = quality::PlanJson(*plan);
   if (!options.output.empty())
-    if (absl::Status status = quality::WritePlan(json, !options.no_page, options.output); !status.ok())
-      return status;
+    if (absl::Status status = quality::WritePlan(json, !options.no_page, options.output); !status.ok()) return status;
   std::cout << (options.json ? json.dump(2) + "\n" : quality::PlanText(*plan));
   return FlushStandardOutput();
 }
@@ -272,37 +261,29 @@ absl::Status RunPlan(const PlanOptions& options) {
 void AddPlanCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* command = program.add_subcommand(
-      "plan",
-      "The depth down to which each order of S-44 can be met: for wind or waves, altitude, incidence, water");
+      "plan", "The depth down to which each order of S-44 can be met: for wind or waves, altitude, incidence, water");
   AddSeaFlags(*command, options->flags, {});
   AddTotalFlags(*command, options->flags);
   const auto number = [&](const char* flag, auto& value, const char* help, double least, double most,
                           const char* unit) {
     return command->add_option(flag, value, help)->check(NumberIn(least, most, unit));
   };
-  const auto list = [&](const char* flag, std::vector<double>& values, const char* help, double least,
-                        double most,
+  const auto list = [&](const char* flag, std::vector<double>& values, const char* help, double least, double most,
                         const char* unit) { number(flag, values, help, least, most, unit)->delimiter(','); };
-  number("--altitude", options->altitude, "Planned height above the water [m]", 10, 5000, "m")
+  number("--altitude", options->altitude, "Planned height above the water [m]", 10, 5000, "m")->capture_default_str();
+  number("--incidence", options->incidence, "Planned angle of the beams from the vertical [degree]", 0, 60, "degree")
       ->capture_default_str();
-  number("--incidence", options->incidence, "Planned angle of the beams from the vertical [degree]", 0, 60,
-         "degree")
-      ->capture_default_str();
-  number("--divergence", options->divergence, "Full angle of the beam [mrad] (default: that of the sensor)",
-         0.01, 100, "mrad");
+  number("--divergence", options->divergence, "Full angle of the beam [mrad] (default: that of the sensor)", 0.01, 100,
+         "mrad");
   list("--altitudes", options->altitudes, "Others to compare [m]", 10, 5000, "m");
   list("--incidences", options->incidences, "Others to compare [degree]", 0, 60, "degree");
   list("--kds", options->kds, "Diffuse attenuations at 532 nm to compare [1/m]", 0.001, 10, "1/m");
   list("--winds", options->winds, "Wind speeds, where no waves are given [m/s]", 0, 100, "m/s");
-  list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01,
-       30, "m");
+  list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01, 30, "m");
   std::vector<std::string> orders;
   for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
-  command->add_option("--order", options->order, "Required order of S-44")
-      ->check(OneOf(orders))
-      ->capture_default_str();
-  command->add_option("--output", options->output, "Folder for plan.html and plan.json")
-      ->check(NotEmpty("folder"));
+  command->add_option("--order", options->order, "Required order of S-44")->check(OneOf(orders))->capture_default_str();
+  command->add_option("--output", options->output, "Folder for plan.html and plan.json")->check(NotEmpty("folder"));
   command->add_flag("--no-page", options->no_page, "Only plan.json, which needs no Python");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag_callback(

@@ -37,13 +37,11 @@ struct PulseOptions {
 // Adds the inputs that only a total takes, and a footprint from the divergence of the sensor.
 absl::Status TakeForTotal(annotate::FixedInputs& inputs, annotate::PulseTotal& total) {
   if (!inputs[annotate::PulseInput::kAltitude].has_value())
-    return formats::UsageError(
-        "pulse: --altitude is missing; a total needs the height of the sensor above the water");
+    return formats::UsageError("pulse: --altitude is missing; a total needs the height of the sensor above the water");
   total.altitude = *inputs[annotate::PulseInput::kAltitude];
   total.beam_azimuth = inputs[annotate::PulseInput::kBeamAzimuth];
   if (inputs[annotate::PulseInput::kFootprint].has_value()) {
-    if (!inputs[annotate::PulseInput::kDivergence].has_value())
-      inputs[annotate::PulseInput::kAltitude].reset();
+    if (!inputs[annotate::PulseInput::kDivergence].has_value()) inputs[annotate::PulseInput::kAltitude].reset();
   } else if (const std::optional<double>& divergence = total.plan.divergence;
              divergence.has_value() && !inputs[annotate::PulseInput::kDivergence].has_value()) {
     inputs[annotate::PulseInput::kDivergence] = static_cast<float>(*divergence);
@@ -108,11 +106,10 @@ absl::Status RunPulse(const PulseOptions& options) {
   const annotate::AnswerSource source = answerer->source();
   const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, style, source, from_north);
   if (!answer.ok()) return answer.status();
-  if (options.json) {
+  if (options.json)
     std::cout << PulseJson(*answer, source.table(), answerer->SeaJson());
-  } else {
+  else
     std::cout << PulseText(*answer, source.table(), answerer->SeaText());
-  }
   return FlushStandardOutput();
 }
 
@@ -124,8 +121,7 @@ void AddPulseCommand(CLI::App& program, Run& run) {
   AddInputs(*command, options->inputs);
   AddSeaFlags(*command, options->flags, {});
   AddTotalFlags(*command, options->flags);
-  AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]",
-            options->motion.attitude);
+  AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]", options->motion.attitude);
   AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
   AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
             options->motion.rates);
@@ -133,8 +129,7 @@ void AddPulseCommand(CLI::App& program, Run& run) {
   AddStyleFlags(*command, options->flags, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")
       ->group(group::kOutput);
-  EndHelp(*command, kWhereAnswersComeFrom,
-          "--wind-speed 7 --incidence 12 --footprint 0.5 --depth 8 --standard-errors",
+  EndHelp(*command, kWhereAnswersComeFrom, "--wind-speed 7 --incidence 12 --footprint 0.5 --depth 8 --standard-errors",
           "--wind-speed 7 --fetch 20000 --incidence 12 --azimuth 30 --footprint 0.5 --depth 8 "
           "--server 127.0.0.1:50051 --json");
   command->callback([options, &run] { run = [options] { return RunPulse(*options); }; });
@@ -169,8 +164,7 @@ std::string ValueText(Quantity quantity, const PulseAnswer& answer) {
   std::string text = absl::StrFormat("%.6g", value);
   if (style.standard_errors) {
     const float error = answer.stated.standard_errors[Index(quantity)][0];
-    absl::StrAppend(
-        &text, std::isfinite(error) ? absl::StrFormat(" +- %.2g", error) : " (standard error not known)");
+    absl::StrAppend(&text, std::isfinite(error) ? absl::StrFormat(" +- %.2g", error) : " (standard error not known)");
   }
   absl::StrAppend(&text, " ", std::string(Describe(quantity).units));
   if (Describe(quantity).is_bias) return text + ", mean";
@@ -187,9 +181,8 @@ std::string InterpolationErrorText(const client::TableSummary& table) {
   const std::vector<annotate::InterpolationError> errors = annotate::InterpolationErrors(table);
   if (errors.empty()) return Line("interpolation error", "not known (the table does not state it)");
   std::string text = Line("interpolation error", "relative, at random pulses all over the table:");
-  for (const annotate::InterpolationError& error : errors) {
+  for (const annotate::InterpolationError& error : errors)
     text += Line(absl::StrCat("  ", std::string(Describe(error.quantity).name)), annotate::Text(error));
-  }
   return text;
 }
 
@@ -199,16 +192,14 @@ std::string S44Text(const PulseAnswer& answer) {
   const std::uint8_t best = answer.p95.best_s44_orders[0];
   std::string text = absl::StrFormat("\n%s, all at 95 %%: the sea surface alone has THU %.6g m, TVU %.6g m\n",
                                      std::string(kS44Edition), thu, tvu);
-  absl::StrAppend(&text,
-                  "best order left open: ", best > 0 ? std::string(Name(kS44Orders[best - 1])) : "none", "\n",
-                  absl::StrFormat("%-12s %12s %12s %26s\n", "order", "THU limit", "TVU limit",
-                                  "left for all else: THU, TVU"));
+  absl::StrAppend(
+      &text, "best order left open: ", best > 0 ? std::string(Name(kS44Orders[best - 1])) : "none", "\n",
+      absl::StrFormat("%-12s %12s %12s %26s\n", "order", "THU limit", "TVU limit", "left for all else: THU, TVU"));
   for (const S44Order order : kS44Orders) {
     if (answer.style.s44_order.value_or(order) != order) continue;
     const double thu_limit = ThuLimit(order, depth), tvu_limit = TvuLimit(order, depth);
-    absl::StrAppend(
-        &text, absl::StrFormat("%-12s %10.3f m %10.3f m %13s %13s\n", std::string(Name(order)), thu_limit,
-                               tvu_limit, RemainderText(thu_limit, thu), RemainderText(tvu_limit, tvu)));
+    absl::StrAppend(&text, absl::StrFormat("%-12s %10.3f m %10.3f m %13s %13s\n", std::string(Name(order)), thu_limit,
+                                           tvu_limit, RemainderText(thu_limit, thu), RemainderText(tvu_limit, tvu)));
   }
   return text;
 }
@@ -218,9 +209,9 @@ void AddInterpolationErrors(const client::TableSummary& table, Json& object) {
   const std::vector<annotate::InterpolationError> errors = annotate::InterpolationErrors(table);
   for (const Quantity quantity : kQuantities) {
     if (Describe(quantity).is_bias) continue;  // They pass through zero: a relative error has no meaning.
-    const auto error =
-        std::find_if(errors.begin(), errors.end(),
-                     [quantity](const annotate::InterpolationError& e) { return e.quantity == quantity; });
+    const auto error = std::find_if(errors.begin(), errors.end(), [quantity](const annotate::InterpolationError& e) {
+      return e.quantity == quantity;
+    });
     const std::string name = absl::StrCat(std::string(Describe(quantity).name), "_interpolation_error_");
     object[name + "rms"] = error == errors.end() ? Json() : Json(error->rms);
     object[name + "percentile_99"] = error == errors.end() ? Json() : Json(error->percentile_99);
@@ -232,33 +223,30 @@ std::string WhyNoNumber(const annotate::AnswerBatch& answer, const client::Table
   if (number == 0) return "no number";
   const AxisSchema& axis = Describe(kAxes[number - 1]);
   const client::AxisRange& range = table.axes[number - 1];
-  return absl::StrFormat("no number (the table covers %s from %g to %g %s)", std::string(axis.name),
-                         range.first, range.last, std::string(axis.units));
+  return absl::StrFormat("no number (the table covers %s from %g to %g %s)", std::string(axis.name), range.first,
+                         range.last, std::string(axis.units));
 }
 
 }  // namespace
 
 absl::StatusOr<PulseAnswer> AskPulse(const annotate::FixedCoordinates& pulse, annotate::AnswerStyle style,
                                      const annotate::AnswerSource& source, bool azimuth_from_north) {
-  PulseAnswer answer{
-      .pulse = pulse, .azimuth_from_north = azimuth_from_north, .style = style, .stated = {}, .p95 = {}};
+  PulseAnswer answer{.pulse = pulse, .azimuth_from_north = azimuth_from_north, .style = style, .stated = {}, .p95 = {}};
   annotate::PulseBatch batch = annotate::OnePulse(pulse);
   batch.azimuths_from_north = azimuth_from_north;
   annotate::AnswerSelection surface;
   annotate::UncertaintySummary::Select(surface);
-  absl::Status status = annotate::AnswerPulses(source, style.query(), batch,
-                                               annotate::AnswerCells(style).selection(), answer.stated);
-  if (status.ok()) {
-    status = annotate::AnswerPulses(source, {.coverage = Coverage::kP95, .s44_order = {}}, batch, surface,
-                                    answer.p95);
-  }
+  absl::Status status =
+      annotate::AnswerPulses(source, style.query(), batch, annotate::AnswerCells(style).selection(), answer.stated);
+  if (status.ok())
+    status = annotate::AnswerPulses(source, {.coverage = Coverage::kP95, .s44_order = {}}, batch, surface, answer.p95);
   if (!status.ok()) return status;
   return answer;
 }
 
 std::string PulseText(const PulseAnswer& answer, const client::TableSummary& table, const std::string& sea) {
-  std::string text = Line("table", absl::StrCat(table.id, " ", table.version, ": ", table.title)) +
-                     Line("digest", table.digest);
+  std::string text =
+      Line("table", absl::StrCat(table.id, " ", table.version, ": ", table.title)) + Line("digest", table.digest);
   if (!sea.empty()) text += absl::StrCat("the sea", sea, "\n");
   for (const AxisId axis : kAxes) {
     if (!sea.empty() && annotate::IsOfSea(annotate::InputOf(axis))) continue;
@@ -266,9 +254,7 @@ std::string PulseText(const PulseAnswer& answer, const client::TableSummary& tab
   }
   text += Line("outcome", annotate::OutcomeName(answer.stated, 0));
   if (!answer.stated.interpolated(0)) return text + WhyNoNumber(answer.stated, table) + "\n";
-  for (const Quantity quantity : kQuantities) {
-    text += Line(Describe(quantity).name, ValueText(quantity, answer));
-  }
+  for (const Quantity quantity : kQuantities) text += Line(Describe(quantity).name, ValueText(quantity, answer));
   if (!table.sea.has_value()) text += InterpolationErrorText(table);
   return text + S44Text(answer);
 }

@@ -24,14 +24,12 @@ absl::StatusOr<PulseAnswer> AskPulse(const annotate::FixedCoordinates& pulse, an
 
 // Lines with units, coverage, the table, its interpolation error and every order of S-44; for a pulse out of domain,
 // the range that the table covers. `sea` are lines about the sea, each after a line feed; empty for a table of winds.
-std::string PulseText(const PulseAnswer& answer, const client::TableSummary& table,
-                      const std::string& sea = "");
+std::string PulseText(const PulseAnswer& answer, const client::TableSummary& table, const std::string& sea = "");
 
 // One flat object and a newline: the coordinates by the names of the axes, the columns of AnswerCells, then
 // `azimuth_absent`, `table`, `version`, `digest`, `coverage` (2sigma or p95), and of each quantity but the biases
 // `*_interpolation_error_rms` and `*_interpolation_error_percentile_99` (fractions). Null where there is no number; so
 // is the fetch of a fully developed sea. Over any sea wind_speed and fetch are null, and the members of `sea` follow.
-std::string PulseJson(const PulseAnswer& answer, const client::TableSummary& table,
-                      const nlohmann::ordered_json& sea);
+std::string PulseJson(const PulseAnswer& answer, const client::TableSummary& table, const nlohmann::ordered_json& sea);
 
 }  // namespace albtpu::programs

@@ -28,13 +28,11 @@ struct CrossCheckOptions {
 };
 
 absl::Status RunCrossCheck(const CrossCheckOptions& options) {
-  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files =
-      quality::OpenAnnotated(options.annotated);
+  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files = quality::OpenAnnotated(options.annotated);
   if (!files.ok()) return files.status();
   const absl::StatusOr<quality::CrossCheck> check = quality::CrossCheckOf(*files, options.patch);
   if (!check.ok()) return check.status();
-  std::cout << (options.json ? quality::CrossCheckJson(*check).dump(2) + "\n"
-                             : quality::CrossCheckText(*check));
+  std::cout << (options.json ? quality::CrossCheckJson(*check).dump(2) + "\n" : quality::CrossCheckText(*check));
   return FlushStandardOutput();
 }
 
@@ -44,9 +42,7 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
   const auto options = std::make_shared<CrossCheckOptions>();
   CLI::App* command = program.add_subcommand(
       "crosscheck", "Whether the predicted uncertainty explains the differences between overlapping lines");
-  command
-      ->add_option("OUT_DIR", options->annotated,
-                   "Folder that albtpu-query las --details wrote, or a file in it")
+  command->add_option("OUT_DIR", options->annotated, "Folder that albtpu-query las --details wrote, or a file in it")
       ->required();
   command->add_option("--patch", options->patch, "Side of the patches in which lines are compared [m]")
       ->check(NumberIn(0.5, 100, "m"))
@@ -54,8 +50,7 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
   command->add_flag("--json", options->json, "JSON, with every band and every two lines");
   Group(*command, "How points are gathered", {"--patch"});
   Group(*command, "Output", {"--json"});
-  EndHelp(*command, "Lines are distinguished by the point source ID.", "annotated",
-          "annotated --patch 3 --json");
+  EndHelp(*command, "Lines are distinguished by the point source ID.", "annotated", "annotated --patch 3 --json");
   command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
 }
 
@@ -83,11 +78,9 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
     absl::StatusOr<quality::Specification> wanted = quality::FindSpecification(flags.specification);
     if (!wanted.ok()) return wanted.status();
     options.specification = wanted->name;
-    const bool own =
-        flags.specification.ends_with(".toml") || flags.specification.find('/') != std::string::npos;
-    if (own && std::ranges::any_of(options.specifications, [&](const quality::Specification& each) {
-          return each.name == wanted->name;
-        })) {
+    const bool own = flags.specification.ends_with(".toml") || flags.specification.find('/') != std::string::npos;
+    if (own && std::ranges::any_of(options.specifications,
+                                   [&](const quality::Specification& each) { return each.name == wanted->name; })) {
       return absl::InvalidArgumentError(absl::StrCat(flags.specification, ": ", wanted->name,
                                                      " is the name of an installed specification; give the "
                                                      "file another name"));
@@ -96,8 +89,7 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
     std::erase_if(options.specifications,
                   [&](const quality::Specification& each) { return each.name == wanted->name; });
     // S-44 stays first, because maps show its orders.
-    options.specifications.insert(options.specifications.begin() + (wanted->name == "s44" ? 0 : 1),
-                                  *std::move(wanted));
+    options.specifications.insert(options.specifications.begin() + (wanted->name == "s44" ? 0 : 1), *std::move(wanted));
   }
   if (!flags.wanted_class.empty()) options.wanted_class = flags.wanted_class;
   std::size_t classes = 0;
@@ -114,15 +106,13 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
 
 absl::Status RunReport(const ReportCommandOptions& flags) {
   if (!flags.s44_order.empty() && !(flags.specification.empty() && flags.wanted_class.empty()))
-    return formats::UsageError(
-        "report: --s44-order names a class of S-44; give it alone, or --spec and --class");
+    return formats::UsageError("report: --s44-order names a class of S-44; give it alone, or --spec and --class");
   const absl::StatusOr<quality::ReportOptions> options = Options(flags);
   if (!options.ok()) return options.status();
   if (!flags.no_page) {
     if (absl::Status status = quality::CheckPageCanBeDrawn(); !status.ok()) return status;
   }
-  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files =
-      quality::OpenAnnotated(flags.annotated);
+  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files = quality::OpenAnnotated(flags.annotated);
   if (!files.ok()) return files.status();
   if (flags.resume && quality::HasReport(flags.output, *files, *options, !flags.no_page)) {
     annotate::Note(absl::StrCat(flags.output, ": has the report of these files already"));
@@ -134,8 +124,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   absl::StatusOr<quality::SurveyReport> report = quality::MakeReport(*files, *options);
   if (!report.ok()) return report.status();
   const std::string verdict = quality::ReportText(*report->json);
-  if (absl::Status status = quality::WriteReport(*std::move(report), !flags.no_page, flags.output);
-      !status.ok())
+  if (absl::Status status = quality::WriteReport(*std::move(report), !flags.no_page, flags.output); !status.ok())
     return status;
   std::cout << flags.output << "\n  " << verdict;
   return FlushStandardOutput();
@@ -145,11 +134,9 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
 
 void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   const auto options = std::make_shared<ReportCommandOptions>();
-  CLI::App* command = program.add_subcommand(
-      "report", "Whether a survey passes, from its annotated files: a page, a grid and JSON");
-  command
-      ->add_option("OUT_DIR", options->annotated,
-                   "Folder that albtpu-query las --details wrote, or a file in it")
+  CLI::App* command =
+      program.add_subcommand("report", "Whether a survey passes, from its annotated files: a page, a grid and JSON");
+  command->add_option("OUT_DIR", options->annotated, "Folder that albtpu-query las --details wrote, or a file in it")
       ->required();
   command->add_option("--output", options->output, "Folder for report.html, report.json and grid.nc")
       ->required()
@@ -165,19 +152,15 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
       ->add_option("--spec", options->specification,
                    "Another specification: s44, catzoc, noaa, usgs, asprs or the path of a TOML file")
       ->check(NotEmpty("specification"));
-  command->add_option("--class", options->wanted_class,
-                      "Class of --spec that was asked for (default: its first)");
+  command->add_option("--class", options->wanted_class, "Class of --spec that was asked for (default: its first)");
   command->add_option("--pass", options->pass_share, "Share of the points that must meet it [%]")
       ->check(NumberIn(0, 100, "%"))
       ->capture_default_str();
-  command
-      ->add_option("--patch", options->patch,
-                   "Side of the patches in which overlapping lines are compared [m]")
+  command->add_option("--patch", options->patch, "Side of the patches in which overlapping lines are compared [m]")
       ->check(NumberIn(0.5, 100, "m"))
       ->capture_default_str();
   command->add_flag("--no-page", options->no_page, "Only report.json and grid.nc, which need no Python");
-  command->add_flag("--resume", options->resume,
-                    "Do nothing if the folder has the report of these files already");
+  command->add_flag("--resume", options->resume, "Do nothing if the folder has the report of these files already");
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier report");
   Group(*command, "What was asked for", {"--s44-order", "--spec", "--class", "--pass"});
@@ -186,8 +169,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"
           "Exit code: 0 if the report was made, whatever it says.",
-          "annotated --output report --s44-order 1b",
-          "annotated --output report --spec usgs --class QL2B --cell 2");
+          "annotated --output report --s44-order 1b", "annotated --output report --spec usgs --class QL2B --cell 2");
   command->callback([options, &run] { run = [options] { return RunReport(*options); }; });
 }
 

@@ -39,17 +39,15 @@ constexpr char kHeading[] =
     "0.2 m       0.6 m       1 m         2 m         5 m         own error  tail rules at 0.6 m\n";
 
 std::string Row(const annotate::SeaFacts& facts, const annotate::SlopeFacts& slopes) {
-  std::string row =
-      absl::StrFormat("%-20s %5.2f %6.1f %5.0f %6.1f %6.4f %7.4f %7.4f %7.3f",
-                      facts.time.has_value() ? SeaTimeText(*facts.time) : "-", facts.significant_wave_height,
-                      facts.peak_period, facts.axis, facts.sea.wind_speed_10m, slopes.mean_square_slope,
-                      slopes.below_11, slopes.below_20, facts.share_measured);
+  std::string row = absl::StrFormat(
+      "%-20s %5.2f %6.1f %5.0f %6.1f %6.4f %7.4f %7.4f %7.3f", facts.time.has_value() ? SeaTimeText(*facts.time) : "-",
+      facts.significant_wave_height, facts.peak_period, facts.axis, facts.sea.wind_speed_10m, slopes.mean_square_slope,
+      slopes.below_11, slopes.below_20, facts.share_measured);
   for (const annotate::SlopeFacts::Footprint& footprint : slopes.footprints)
     absl::StrAppendFormat(&row, "   %4.2f/%-4.2f", footprint.refraction_along, footprint.refraction_cross);
   if (facts.error.has_value()) absl::StrAppendFormat(&row, "  %7.3f", facts.error->total / 2);
   if (!slopes.by_tail_rule.empty()) {
-    const auto [least, greatest] =
-        std::minmax_element(slopes.by_tail_rule.begin(), slopes.by_tail_rule.end() - 1);
+    const auto [least, greatest] = std::minmax_element(slopes.by_tail_rule.begin(), slopes.by_tail_rule.end() - 1);
     absl::StrAppendFormat(&row, "    %.2f to %.2f", *least, *greatest);
   }
   return row + "\n";
@@ -70,12 +68,12 @@ std::vector<std::size_t> RecordsOf(const annotate::SeaTimeline& seas) {
 absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions& options) {
   const std::vector<std::size_t> records = RecordsOf(seas);
   if (records.size() != 1) {
-    return formats::UsageError(absl::StrCat(
-        "sea: --output holds the table of one sea (there are ", records.size(), " records ",
-        seas.by_time() ? annotate::SpanText(seas) : absl::StrCat("around ", *seas.settings().time),
-        "); choose the time of a record by "
-        "--sea-time, such as ",
-        SeaTimeText(*seas.record(records.back()).time)));
+    return formats::UsageError(
+        absl::StrCat("sea: --output holds the table of one sea (there are ", records.size(), " records ",
+                     seas.by_time() ? annotate::SpanText(seas) : absl::StrCat("around ", *seas.settings().time),
+                     "); choose the time of a record by "
+                     "--sea-time, such as ",
+                     SeaTimeText(*seas.record(records.back()).time)));
   }
   const absl::StatusOr<UncertaintyTable> table = CompileSea(SeaCompiler(), seas.sea(records.front()));
   if (!table.ok()) return table.status();
@@ -106,11 +104,10 @@ absl::Status RunSea(const SeaCommandOptions& options) {
     json["records"].push_back(annotate::Json(facts));
     json["records"].back().update(annotate::Json(slopes));
   }
-  if (options.json) {
+  if (options.json)
     std::cout << json.dump(2) << "\n";
-  } else if (!seas->series().assumed.empty()) {
+  else if (!seas->series().assumed.empty())
     std::cout << "assumed: " << absl::StrJoin(seas->series().assumed, "; ") << "\n";
-  }
   return FlushStandardOutput();
 }
 
@@ -120,21 +117,17 @@ void AddSeaCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SeaCommandOptions>();
   CLI::App* command =
       program.add_subcommand("sea", "Show the states of the sea that a file has, and the slopes under beams");
-  command
-      ->add_option("file", options->flags.settings.sea.file,
-                   "Spectra or heights of waves; or give --survey or --hs")
+  command->add_option("file", options->flags.settings.sea.file, "Spectra or heights of waves; or give --survey or --hs")
       ->type_name("FILE");
   AddSeaFlags(*command, options->flags, kFlagsOfWinds);
-  command->add_flag("--json", options->json, "Print one JSON object with an array `records`")
-      ->group(group::kOutput);
+  command->add_flag("--json", options->json, "Print one JSON object with an array `records`")->group(group::kOutput);
   command->add_option("--output", options->output, "Write the table of the sea, of one instant, to this file")
       ->type_name("FILE.h5")
       ->check(NotEmpty("file"))
       ->group(group::kOutput);
   command
       ->add_flag_callback(
-          "--overwrite", [options] { options->existing = Existing::kReplace; },
-          "Replace the output if it exists")
+          "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace the output if it exists")
       ->group(group::kOutput);
   EndHelp(*command, "", "41010.data_spec --sea-depth 12",
           "41010.data_spec --sea-time 2020-06-08T03:50Z --output sea.h5");

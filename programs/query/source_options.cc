@@ -19,8 +19,7 @@ namespace {
 
 absl::Status CheckName(const SourceOptions& options) {
   if (options.file.empty() || options.name.empty()) return absl::OkStatus();
-  return formats::UsageError(
-      "--table-name cannot be used with --table (a file holds one table); leave it out");
+  return formats::UsageError("--table-name cannot be used with --table (a file holds one table); leave it out");
 }
 
 absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string name,
@@ -32,11 +31,10 @@ absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string 
 
 // Adds the other ways to choose a table, for when no installed table answers.
 absl::Status Advised(const absl::Status& status) {
-  return absl::Status(
-      status.code(),
-      absl::StrCat(status.message(),
-                   "; choose one with --table-name, a file with --table, a service with --server, or "
-                   "a folder of tables with $ALBTPU_TABLES"));
+  return absl::Status(status.code(),
+                      absl::StrCat(status.message(),
+                                   "; choose one with --table-name, a file with --table, a service with --server, or "
+                                   "a folder of tables with $ALBTPU_TABLES"));
 }
 
 absl::StatusOr<std::vector<TableFile>> InstalledTables() {
@@ -79,9 +77,7 @@ bool HasName(const client::TableSummary& table, const std::string& name) {
 absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options) {
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   if (!options.file.empty()) return OpenFile("", options.file);
-  if (!options.server.empty()) {
-    return client::OpenServer(options.server, options.name, {}, options.credentials);
-  }
+  if (!options.server.empty()) return client::OpenServer(options.server, options.name, {}, options.credentials);
   const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
   if (!tables.ok()) return tables.status();
   const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);
@@ -92,10 +88,9 @@ absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const Sour
 absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options) {
   for (const auto& [flag, value] : {std::pair("--table", &options.file), {"--table-name", &options.name}}) {
     if (value->empty()) continue;
-    return formats::UsageError(
-        absl::StrCat(flag,
-                     " cannot be used with a sea (its table is compiled from its waves); leave "
-                     "out one of them"));
+    return formats::UsageError(absl::StrCat(flag,
+                                            " cannot be used with a sea (its table is compiled from its waves); leave "
+                                            "out one of them"));
   }
   if (options.server.empty()) return client::LocalSeas();
   return client::ServerSeas(options.server, {}, options.credentials);
@@ -120,10 +115,8 @@ absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions
   }
   if (options.name.empty()) return tables;
   std::erase_if(tables, [&](const client::TableSummary& table) { return !HasName(table, options.name); });
-  if (tables.empty()) {
-    return absl::NotFoundError(
-        absl::StrCat("there is no table '", options.name, "'; `albtpu-query tables` lists all"));
-  }
+  if (tables.empty())
+    return absl::NotFoundError(absl::StrCat("there is no table '", options.name, "'; `albtpu-query tables` lists all"));
   return tables;
 }
 
@@ -164,16 +157,15 @@ nlohmann::ordered_json Answerer::SeaJson() const {
 std::string Answerer::SeaText() const {
   std::string text;
   if (seas_ == nullptr) return text;
-  for (const std::string& note :
-       annotate::SeasNotes(*timeline_, timeline_->fixed().first, timeline_->fixed().second))
+  for (const std::string& note : annotate::SeasNotes(*timeline_, timeline_->fixed().first, timeline_->fixed().second))
     absl::StrAppend(&text, "\n  ", note);
   return text;
 }
 
 absl::Status Answerer::CheckOneTime(const std::string& command) const {
   if (timeline_ == nullptr || !timeline_->by_time()) return absl::OkStatus();
-  return formats::UsageError(absl::StrCat(command, ": ", *timeline_->settings().file, " has ",
-                                          timeline_->size(), " records ", annotate::SpanText(*timeline_),
+  return formats::UsageError(absl::StrCat(command, ": ", *timeline_->settings().file, " has ", timeline_->size(),
+                                          " records ", annotate::SpanText(*timeline_),
                                           " (pulses have no time here); choose one by --sea-time, such as ",
                                           SeaTimeText(timeline_->end())));
 }

@@ -38,9 +38,7 @@ class Answerer {
   // Opens a table, unless `sea` has waves. UsageError if both are given.
   static absl::StatusOr<Answerer> Open(const config::SeaSettings& sea, const SourceOptions& options);
 
-  annotate::AnswerSource source() {
-    return seas_ != nullptr ? seas_->source() : annotate::AnswerSource(*table_);
-  }
+  annotate::AnswerSource source() { return seas_ != nullptr ? seas_->source() : annotate::AnswerSource(*table_); }
   // Null where a table answers.
   std::shared_ptr<const annotate::SeaTimeline> timeline() const { return timeline_; }
   annotate::SeaAnswers* seas() { return seas_.get(); }

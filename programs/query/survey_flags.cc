@@ -81,17 +81,15 @@ std::optional<float> Rounded(const std::optional<double>& number) {
 
 }  // namespace
 
-void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading,
-              SurveyFlags& flags) {
+void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading, SurveyFlags& flags) {
   for (const char* name : names) AddFlag(command, name, heading, flags.settings);
 }
 
 void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without) {
   command
-      .add_option(
-          "--survey", flags.survey,
-          "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output "
-          "(albtpu-query keys)")
+      .add_option("--survey", flags.survey,
+                  "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output "
+                  "(albtpu-query keys)")
       ->type_name("FILE.toml")
       ->check(NotEmpty("file"))
       ->group(group::kSea);
@@ -105,16 +103,14 @@ void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::str
 }
 
 void AddTotalFlags(CLI::App& command, SurveyFlags& flags) {
-  AddFlags(command, {"--sensor", "--surface-located", "--datum-sigma", "--water-column"}, group::kTotal,
-           flags);
+  AddFlags(command, {"--sensor", "--surface-located", "--datum-sigma", "--water-column"}, group::kTotal, flags);
 }
 
 void AddStyleFlags(CLI::App& command, SurveyFlags& flags, annotate::AnswerStyle& style) {
   AddFlags(command, {"--coverage", "--s44-order"}, group::kOutput, flags);
   command
       .add_flag_callback(
-          "--standard-errors", [&style] { style.standard_errors = true; },
-          "Give the standard error of each value, too")
+          "--standard-errors", [&style] { style.standard_errors = true; }, "Give the standard error of each value, too")
       ->group(group::kOutput);
 }
 
@@ -132,14 +128,12 @@ absl::StatusOr<SurveySettings> SettingsOf(const SurveyFlags& flags) {
 absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& settings) {
   if (settings.wants_total()) return absl::OkStatus();
   const SurveySettings& given = flags.settings;
-  const std::pair<const char*, bool> flags_of_total[] = {
-      {"--surface-located", given.surface.located.has_value()},
-      {"--datum-sigma", given.datum.sigma.has_value()},
-      {"--water-column", given.water.column.has_value()}};
+  const std::pair<const char*, bool> flags_of_total[] = {{"--surface-located", given.surface.located.has_value()},
+                                                         {"--datum-sigma", given.datum.sigma.has_value()},
+                                                         {"--water-column", given.water.column.has_value()}};
   for (const auto& [flag, is_given] : flags_of_total)
     if (is_given)
-      return formats::UsageError(
-          absl::StrCat(flag, " has no effect without --sensor; give both or none of them"));
+      return formats::UsageError(absl::StrCat(flag, " has no effect without --sensor; give both or none of them"));
   if (settings.sigma.any())
     return formats::UsageError("[sigma] has no effect without a sensor; give [sensor] name, or --sensor");
   return absl::OkStatus();

@@ -22,8 +22,7 @@ struct SurveyFlags {
 };
 
 // Each adds flags under a heading of --help. `flags` must live as long as `command`.
-void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading,
-              SurveyFlags& flags);
+void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading, SurveyFlags& flags);
 // --survey and those of [sea] and [[sea.waves]], but for some.
 void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without);
 // --sensor and those that go with it on all commands.
@@ -32,8 +31,8 @@ void AddTotalFlags(CLI::App& command, SurveyFlags& flags);
 void AddStyleFlags(CLI::App& command, SurveyFlags& flags, annotate::AnswerStyle& style);
 
 // The flags of `sea`, `pulse` and `plan` that the survey file has for the other commands.
-inline constexpr std::array<std::string_view, 5> kRareSeaFlags = {"--gamma", "--tail", "--tail-from",
-                                                                  "--sea-gap", "--anemometer-height"};
+inline constexpr std::array<std::string_view, 5> kRareSeaFlags = {"--gamma", "--tail", "--tail-from", "--sea-gap",
+                                                                  "--anemometer-height"};
 
 // What flags and survey file give together. Fails where what they say of the sea contradicts itself or has no effect.
 absl::StatusOr<config::SurveySettings> SettingsOf(const SurveyFlags& flags);

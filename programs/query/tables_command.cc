@@ -29,8 +29,8 @@ std::string Text(const client::TableSummary& table) {
   for (const AxisId id : kAxes) {
     const client::AxisRange& range = table.axes[Index(id)];
     line(Describe(id).name,
-         absl::StrFormat("%g to %g %s, %d %s", range.first, range.last, std::string(Describe(id).units),
-                         range.nodes, range.nodes == 1 ? "node" : "nodes"));
+         absl::StrFormat("%g to %g %s, %d %s", range.first, range.last, std::string(Describe(id).units), range.nodes,
+                         range.nodes == 1 ? "node" : "nodes"));
   }
   for (const auto& [name, value] : table.attributes) line(name, value);
   return text;
@@ -74,8 +74,8 @@ void AddHealthCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SourceOptions>();
   CLI::App* command = program.add_subcommand("health", "Check whether a service is serving");
   AddServerOptions(*command, *options)->required();
-  EndHelp(*command, "Exit code: 0 if the service is serving, 2 for bad usage, 1 otherwise.",
-          "--server 127.0.0.1:50051", "--server lidar.example:50051 --tls-ca ca.pem --token-file token");
+  EndHelp(*command, "Exit code: 0 if the service is serving, 2 for bad usage, 1 otherwise.", "--server 127.0.0.1:50051",
+          "--server lidar.example:50051 --tls-ca ca.pem --token-file token");
   command->callback([options, &run] { run = [options] { return RunHealth(*options); }; });
 }
 

@@ -28,19 +28,12 @@ absl::StatusOr<std::vector<std::string>> FilesOf(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return std::vector<std::string>{path};
   std::vector<std::string> files;
-  for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->is_regular_file(error) && !entry->path().filename().string().starts_with('.')) {
+  for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_regular_file(error) && !entry->path().filename().string().starts_with('.'))
       files.push_back(entry->path().string());
-    }
-  }
-  if (error) {
-    return absl::UnavailableError(
-        absl::StrCat(path, ": ", error.message(), "; give a folder that can be read"));
-  }
-  if (files.empty()) {
-    return absl::NotFoundError(absl::StrCat(path, ": is a folder without files; give trajectories"));
-  }
+  if (error)
+    return absl::UnavailableError(absl::StrCat(path, ": ", error.message(), "; give a folder that can be read"));
+  if (files.empty()) return absl::NotFoundError(absl::StrCat(path, ": is a folder without files; give trajectories"));
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -51,11 +44,10 @@ absl::Status RunTrajectory(const TrajectoryOptions& options) {
   std::size_t texts = 0;
   const auto show = [&](const std::string& path, const absl::StatusOr<TrajectorySummary>& summary) {
     if (!summary.ok()) failures.push_back(summary.status());
-    if (options.json) {
+    if (options.json)
       json["files"].push_back(TrajectoryJson(path, summary));
-    } else if (summary.ok()) {
+    else if (summary.ok())
       std::cout << (texts++ > 0 ? "\n" : "") << TrajectoryText(path, *summary);
-    }
   };
   for (const std::string& path : options.files) {
     const absl::StatusOr<std::vector<std::string>> files = FilesOf(path);
@@ -68,8 +60,7 @@ absl::Status RunTrajectory(const TrajectoryOptions& options) {
   if (options.json) std::cout << json.dump(2) << "\n";
   if (absl::Status status = FlushStandardOutput(); !status.ok()) return status;
   if (failures.empty()) return absl::OkStatus();
-  for (std::size_t i = 0; i + 1 < failures.size(); ++i)
-    annotate::Note(annotate::MessageWithDetails(failures[i]));
+  for (std::size_t i = 0; i + 1 < failures.size(); ++i) annotate::Note(annotate::MessageWithDetails(failures[i]));
   return failures.back();
 }
 

@@ -36,8 +36,7 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-TimeGaps FindGaps(std::size_t records, double longest_step,
-                  const std::function<double(std::size_t)>& time_at) {
+TimeGaps FindGaps(std::size_t records, double longest_step, const std::function<double(std::size_t)>& time_at) {
   TimeGaps gaps;
   for (std::size_t i = 1; i < records; ++i) {
     const double step = time_at(i) - time_at(i - 1);
@@ -52,8 +51,7 @@ TimeGaps FindGaps(std::size_t records, double longest_step,
 }
 
 std::optional<formats::TrajectorySigma> MedianSigma(
-    std::size_t records,
-    const std::function<std::optional<formats::TrajectorySigma>(std::size_t)>& sigma_at) {
+    std::size_t records, const std::function<std::optional<formats::TrajectorySigma>(std::size_t)>& sigma_at) {
   static constexpr std::array kFields = {
       &formats::TrajectorySigma::north,         &formats::TrajectorySigma::east,
       &formats::TrajectorySigma::down,          &formats::TrajectorySigma::velocity_north,
@@ -65,13 +63,11 @@ std::optional<formats::TrajectorySigma> MedianSigma(
   for (std::size_t i = 0; i < samples; ++i) {
     const std::optional<formats::TrajectorySigma> sigma = sigma_at(i * records / samples);
     if (!sigma.has_value()) return std::nullopt;
-    for (std::size_t field = 0; field < kFields.size(); ++field)
-      values[field].push_back((*sigma).*kFields[field]);
+    for (std::size_t field = 0; field < kFields.size(); ++field) values[field].push_back((*sigma).*kFields[field]);
   }
   formats::TrajectorySigma median;
-  for (std::size_t field = 0; field < kFields.size(); ++field) {
+  for (std::size_t field = 0; field < kFields.size(); ++field)
     median.*kFields[field] = Median(std::move(values[field]));
-  }
   return median;
 }
 
@@ -109,16 +105,15 @@ TrajectorySummary Summarize(const formats::SmrmsgFile& errors) {
   summary.records = errors.size();
   summary.start = errors.TimeAt(0);
   summary.end = errors.TimeAt(errors.size() - 1);
-  summary.gaps = FindGaps(errors.size(), formats::SmrmsgFile::kLongestGap,
-                          [&](std::size_t i) { return errors.TimeAt(i); });
+  summary.gaps = FindGaps(
+      errors.size(), formats::SmrmsgFile::kLongestGap, [&](std::size_t i) { return errors.TimeAt(i); });
   summary.sigma = MedianSigma(errors.size(), [&](std::size_t i) { return std::optional(errors.SigmaOf(i)); });
   return summary;
 }
 
 // GPS time in s since 1980, where times are not seconds of an unnamed week.
 std::optional<double> GpsTimeOf(double start, double time) {
-  constexpr double kLastWeekTime =
-      formats::kSecondsPerWeek + 86400;  // A flight that began before the end of the week.
+  constexpr double kLastWeekTime = formats::kSecondsPerWeek + 86400;  // A flight that began before the end of the week.
   if (start >= 0 && start <= kLastWeekTime) return std::nullopt;
   return start < formats::kAdjustedGpsOffset ? time + formats::kAdjustedGpsOffset : time;
 }
@@ -133,8 +128,8 @@ std::string WeekText(double seconds) {
   constexpr std::array kDays = {"Sunday", "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday"};
   const auto whole = static_cast<long>(seconds);
   const long second = whole % 86400;
-  return absl::StrFormat("%s %02d:%02d:%02d", kDays[static_cast<std::size_t>(whole / 86400 % 7)],
-                         second / 3600, second / 60 % 60, second % 60);
+  return absl::StrFormat("%s %02d:%02d:%02d", kDays[static_cast<std::size_t>(whole / 86400 % 7)], second / 3600,
+                         second / 60 % 60, second % 60);
 }
 
 std::string TimeText(double start, double time) {
@@ -146,8 +141,8 @@ std::string TimeText(double start, double time) {
 
 std::string GapText(const TrajectorySummary& summary) {
   const TimeGaps& gaps = summary.gaps;
-  const double limit = summary.format == "SMRMSG" ? formats::SmrmsgFile::kLongestGap
-                                                  : std::round(formats::kLongestStep * 10) / 10;
+  const double limit =
+      summary.format == "SMRMSG" ? formats::SmrmsgFile::kLongestGap : std::round(formats::kLongestStep * 10) / 10;
   if (gaps.count == 0) return absl::StrFormat("none above %g s", limit);
   return absl::StrFormat("%d above %g s, the longest of %.3f s from %.3f s", gaps.count, limit, gaps.longest,
                          gaps.longest_start);
@@ -206,22 +201,19 @@ std::string TrajectoryText(const std::string& path, const TrajectorySummary& sum
   line("end", TimeText(summary.start, summary.end));
   line("duration", absl::StrFormat("%.3f s", summary.duration()));
   line("gaps", GapText(summary));
-  if (summary.min_height.has_value()) {
-    line("height",
-         absl::StrFormat("%.2f m to %.2f m above the ellipsoid", *summary.min_height, *summary.max_height));
-  }
+  if (summary.min_height.has_value())
+    line("height", absl::StrFormat("%.2f m to %.2f m above the ellipsoid", *summary.min_height, *summary.max_height));
   if (summary.speed.has_value()) line("speed", absl::StrFormat("%.1f m/s, median", *summary.speed));
   if (summary.sigma.has_value()) {
     const formats::TrajectorySigma& sigma = *summary.sigma;
-    line("sigma", absl::StrFormat("north %.3f m, east %.3f m, down %.3f m, medians", sigma.north, sigma.east,
-                                  sigma.down));
+    line("sigma",
+         absl::StrFormat("north %.3f m, east %.3f m, down %.3f m, medians", sigma.north, sigma.east, sigma.down));
     line("", absl::StrFormat("roll %.4f, pitch %.4f, heading %.4f degrees", DegreesOfRadians(sigma.roll),
                              DegreesOfRadians(sigma.pitch), DegreesOfRadians(sigma.heading)));
   }
   if (summary.velocity_difference.has_value()) {
-    line("velocity check",
-         absl::StrFormat("passed: %.3f m/s rms from differences of position, at most %g m/s",
-                         *summary.velocity_difference, formats::kLargestVelocityDifference));
+    line("velocity check", absl::StrFormat("passed: %.3f m/s rms from differences of position, at most %g m/s",
+                                           *summary.velocity_difference, formats::kLargestVelocityDifference));
   } else if (summary.speed.has_value()) {
     line("velocity check", "none: the file states no velocities; speed and heading are those of an aircraft");
   }

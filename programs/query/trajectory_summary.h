@@ -41,7 +41,6 @@ absl::StatusOr<TrajectorySummary> SummarizeTrajectory(const std::filesystem::pat
 std::string TrajectoryText(const std::string& path, const TrajectorySummary& summary);
 
 // The object of a file in --json: numbers in s, m, m/s and degrees, null where there is none.
-nlohmann::ordered_json TrajectoryJson(const std::string& path,
-                                      const absl::StatusOr<TrajectorySummary>& summary);
+nlohmann::ordered_json TrajectoryJson(const std::string& path, const absl::StatusOr<TrajectorySummary>& summary);
 
 }  // namespace albtpu::programs

@@ -45,9 +45,8 @@ struct Options {
 
 void AddFlags(CLI::App& app, Options& options) {
   SetUpProgram(app, Version(), Commit());
-  app.add_option(
-         "--tables", options.tables,
-         "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
+  app.add_option("--tables", options.tables,
+                 "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
       ->type_name("DIR");
   app.add_option("--default-table", options.default_table,
                  "Table for requests that name none (default: survey, else the only one)")
@@ -92,20 +91,18 @@ sigset_t BlockSignals() {
 int WaitForStop(const sigset_t& signals, server::LiveTables& tables) {
   while (true) {
     const int signal = sigwaitinfo(&signals, nullptr);
-    if (signal == SIGHUP) {
+    if (signal == SIGHUP)
       tables.Reload([](const server::LiveTables::ReloadResult&) {});
-    } else if (signal > 0) {
+    else if (signal > 0)
       return signal;
-    }
   }
 }
 
 std::string Summary(const server::TableCatalog& catalog) {
   const std::size_t count = catalog.entries().size();
   const absl::StatusOr<const server::TableCatalog::Entry*> default_entry = catalog.Find("");
-  return absl::StrCat(
-      count, count == 1 ? " table" : " tables", ", ",
-      default_entry.ok() ? absl::StrCat("default '", (*default_entry)->name, "'") : "no default");
+  return absl::StrCat(count, count == 1 ? " table" : " tables", ", ",
+                      default_entry.ok() ? absl::StrCat("default '", (*default_entry)->name, "'") : "no default");
 }
 
 int Fail(int exit_code, const absl::Status& status) {
@@ -137,8 +134,7 @@ absl::StatusOr<Addresses> ReadAddresses(const Options& options) {
   return Addresses{*service, *metrics};
 }
 
-server::Access MakeAccess(const server::CredentialFiles& files,
-                          std::shared_ptr<grpc::ServerCredentials> credentials) {
+server::Access MakeAccess(const server::CredentialFiles& files, std::shared_ptr<grpc::ServerCredentials> credentials) {
   const bool callers_are_authenticated = !files.tokens.empty() || !files.certificates.client_ca.empty();
   return {std::move(credentials),
           callers_are_authenticated ? server::AdminCallers::kAll : server::AdminCallers::kLocal};
@@ -146,8 +142,8 @@ server::Access MakeAccess(const server::CredentialFiles& files,
 
 // Serves until a signal stops it; returns the exit code.
 int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Access access,
-          std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics,
-          const server::Recorders& recorders, const sigset_t& signals) {
+          std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics, const server::Recorders& recorders,
+          const sigset_t& signals) {
   server::LiveTables tables(std::move(catalog), [&metrics](const server::LiveTables::ReloadResult& result) {
     metrics.reloads.Count(result);
     server::LogReload(result);
@@ -155,8 +151,8 @@ int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Acce
   const auto table_metrics = std::make_shared<server::TableMetrics>(tables);
   std::unique_ptr<server::MetricsEndpoint> endpoint;
   if (addresses.metrics.has_value()) {
-    absl::StatusOr<std::unique_ptr<server::MetricsEndpoint>> started = server::MetricsEndpoint::Start(
-        *addresses.metrics, {metrics.registry, table_metrics, metrics.process});
+    absl::StatusOr<std::unique_ptr<server::MetricsEndpoint>> started =
+        server::MetricsEndpoint::Start(*addresses.metrics, {metrics.registry, table_metrics, metrics.process});
     if (!started.ok()) return Fail(formats::kExitFailure, WithFlag("--metrics", started.status()));
     endpoint = *std::move(started);
   }
@@ -184,8 +180,7 @@ int Run(const Options& options) {
   const absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials =
       server::MakeCredentials(files, recorders);
   if (!credentials.ok()) return Fail(formats::kExitFailure, credentials.status());
-  const std::filesystem::path folder =
-      options.tables.has_value() ? *options.tables : DefaultTablesDirectory();
+  const std::filesystem::path folder = options.tables.has_value() ? *options.tables : DefaultTablesDirectory();
   absl::StatusOr<server::TableCatalog> catalog = server::TableCatalog::Load(folder, options.default_table);
   if (!catalog.ok()) {
     return Fail(formats::kExitFailure,

@@ -27,8 +27,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kRunPoints = 1 << 16;
-constexpr char kRemedy[] =
-    "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
+constexpr char kRemedy[] = "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
 
 struct FloatOfPoint {
   std::string_view name;
@@ -123,8 +122,8 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   coverage_ = *coverage;
   const Json size = read["output"].value("bytes", Json());
   if (size != reader_.file_size()) {
-    return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ",
-                                       size.dump(), " (the file was changed later)", kRemedy));
+    return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ", size.dump(),
+                                       " (the file was changed later)", kRemedy));
   }
   const Json beams = read["parameters"].value("incidence_from", Json());
   may_lack_surface_ = beams.is_string() && annotate::IsByAngle(beams.get<std::string>()) &&
@@ -183,8 +182,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
       crs_name_ = (*frame)->crs_name();
       crs_wkt_ = (*frame)->wkt();
       metres_per_unit_ = metres_per_height_unit_ = (*frame)->unit();
-      if ((*frame)->metres_per_height_unit().has_value())
-        metres_per_height_unit_ = *(*frame)->metres_per_height_unit();
+      if ((*frame)->metres_per_height_unit().has_value()) metres_per_height_unit_ = *(*frame)->metres_per_height_unit();
     } else {
       crs_name_ = "not understood";
     }
@@ -226,14 +224,13 @@ absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const V
       point.z = fields.Z(record) * metres_per_height_unit_;
       if (fields.has_gps_time()) point.time = fields.GpsTime(record);
       point.line = fields.PointSourceId(record);
-      for (std::size_t k = 0; k < kFloats.size(); ++k)
-        point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      for (std::size_t k = 0; k < kFloats.size(); ++k) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
       point.gap = GapOf(point, may_lack_surface_);
       for (float AnnotatedPoint::*const length :
-           {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea,
-            &AnnotatedPoint::tvu_water, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+           {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
+            &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
         point.*length = KnownOrZero(point.*length, false);
       for (float AnnotatedPoint::*const bias :
            {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,
@@ -257,8 +254,8 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
     std::ranges::sort(paths);
     if (error) return Invalid(folder_or_file, absl::StrCat("cannot be read: ", error.message()));
     if (paths.empty())
-      return absl::NotFoundError(absl::StrCat(
-          folder_or_file.string(), ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
+      return absl::NotFoundError(absl::StrCat(folder_or_file.string(),
+                                              ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
   } else {
     paths.push_back(folder_or_file);
   }
@@ -270,16 +267,14 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
     const AnnotatedLasFile &first = files.front(), &last = files.back();
     const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
                             const std::string& remedy) {
-      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last,
-                                                     " (in ", first.path().string(), " it is ", in_first,
-                                                     "); ", remedy));
+      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last, " (in ",
+                                                     first.path().string(), " it is ", in_first, "); ", remedy));
     };
     if (last.crs_name() != first.crs_name() || last.metres_per_unit() != first.metres_per_unit())
       return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
     if (last.coverage() != first.coverage()) {
       return differ("coverage", std::string(annotate::CoverageName(first.coverage())),
-                    std::string(annotate::CoverageName(last.coverage())),
-                    "annotate all files with one --coverage");
+                    std::string(annotate::CoverageName(last.coverage())), "annotate all files with one --coverage");
     }
     if (last.table_digest() != first.table_digest())
       return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");

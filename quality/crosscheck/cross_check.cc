@@ -103,8 +103,7 @@ nlohmann::ordered_json EstimateJson(const Estimate& estimate) {
 nlohmann::ordered_json BandsJson(const std::vector<CrossBand>& bands) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const CrossBand& band : bands) {
-    list.push_back(
-        {{"from", band.from}, {"to", nullptr}, {"pairs", band.pairs}, {"chi_square", band.chi_square}});
+    list.push_back({{"from", band.from}, {"to", nullptr}, {"pairs", band.pairs}, {"chi_square", band.chi_square}});
     if (std::isfinite(band.to)) list.back()["to"] = band.to;
   }
   return list;
@@ -118,9 +117,8 @@ std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs) {
   check.median_factor = MedianFactor(pairs, 0);
   const double most = kOutlier * std::max(check.median_factor, 1.0);
   const std::size_t before = pairs.size();
-  std::erase_if(pairs, [most](const CrossPair& pair) {
-    return std::abs(pair.difference) > most * std::sqrt(pair.variance());
-  });
+  std::erase_if(
+      pairs, [most](const CrossPair& pair) { return std::abs(pair.difference) > most * std::sqrt(pair.variance()); });
   check.outliers = before - pairs.size();
   check.pairs = pairs.size();
   const VarianceFit fit = FitVariance(pairs, check.median_factor);
@@ -148,8 +146,10 @@ std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs) {
   constexpr std::array<double, 9> kDepths = {0, 2, 5, 10, 15, 20, 30, 50, kNoEnd};
   constexpr std::array<double, 8> kIncidences = {0, 5, 10, 15, 20, 25, 30, 90};
   constexpr std::array<double, 5> kShares = {0, 0.25, 0.5, 0.75, 1.001};
-  check.by_depth = Bands(pairs, rough, kDepths, [](const CrossPair& pair) { return pair.depth; });
-  check.by_incidence = Bands(pairs, rough, kIncidences, [](const CrossPair& pair) { return pair.incidence; });
+  check.by_depth = Bands(
+      pairs, rough, kDepths, [](const CrossPair& pair) { return pair.depth; });
+  check.by_incidence = Bands(
+      pairs, rough, kIncidences, [](const CrossPair& pair) { return pair.incidence; });
   check.by_sea_share = Bands(pairs, rough, kShares, [](const CrossPair& pair) {
     return pair.variance_sea / (pair.variance_sea + pair.variance_air);
   });
@@ -208,11 +208,10 @@ std::string CrossCheckText(const CrossCheck& check) {
   constexpr std::size_t kShown = 5;
   for (std::size_t i = 0; i < std::min(kShown, check.lines.size()); ++i) {
     const LineDifference& line = check.lines[i];
-    const std::string error = std::isfinite(line.standard_error)
-                                  ? absl::StrFormat("%.3f m", line.standard_error)
-                                  : "not known from one place";
-    absl::StrAppendFormat(&text, "line %d lies %+.3f m above line %d (standard error %s, %d pairs)\n",
-                          line.line_a, line.mean, line.line_b, error, line.pairs);
+    const std::string error = std::isfinite(line.standard_error) ? absl::StrFormat("%.3f m", line.standard_error)
+                                                                 : "not known from one place";
+    absl::StrAppendFormat(&text, "line %d lies %+.3f m above line %d (standard error %s, %d pairs)\n", line.line_a,
+                          line.mean, line.line_b, error, line.pairs);
   }
   return text;
 }
@@ -234,8 +233,7 @@ absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, OverlapPatc
   annotate::FileProgress progress = ProgressOver(files);
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
-    absl::Status status =
-        file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); });
+    absl::Status status = file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); });
     if (!status.ok()) return status;
   }
   return absl::OkStatus();

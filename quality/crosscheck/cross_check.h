@@ -25,8 +25,7 @@ namespace albtpu::quality {
 struct CrossBand {
   double from = 0, to = 0;
   std::size_t pairs = 0;
-  double chi_square =
-      0;  // Reduced: the mean of the squared differences in units of their predicted variance.
+  double chi_square = 0;  // Reduced: the mean of the squared differences in units of their predicted variance.
 };
 
 // The height difference between two lines.
@@ -46,10 +45,10 @@ struct CrossCheck {
   double median_factor = 0;            // The factor below by the median, which heavy tails do not raise.
   Estimate factor;                     // The factor that would make the predicted standard deviations fit.
   Estimate factor_air,
-      factor_sea;  // The same for air side and sea, from how differences depend on their contributions.
+      factor_sea;              // The same for air side and sea, from how differences depend on their contributions.
   std::string interval_units;  // The units left out in turn by the jackknife: "lines" or "places".
   double air_in_variance = 0;  // The fraction of the air side in the predicted variance.
-  double roughness = 0;  // m in a metre of distance, of the bottom around its plane; 0: not significant.
+  double roughness = 0;        // m in a metre of distance, of the bottom around its plane; 0: not significant.
   // "air" or "sea": the contribution whose factor differs from 1 by kMinDifference and beyond an interval of 99 %,
   // and that explains most; empty: none.
   std::string guilty;

@@ -19,8 +19,7 @@ std::uint64_t Hash(std::uint64_t key) {
 }
 
 std::uint64_t Pack(std::int32_t column, std::int32_t row) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
-         static_cast<std::uint32_t>(row);
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 | static_cast<std::uint32_t>(row);
 }
 
 }  // namespace
@@ -49,7 +48,8 @@ void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
 
 void OverlapPatches::Thin() {
   mask_ = mask_ << 1 | 1;
-  std::erase_if(known_, [this](const auto& each) { return (Hash(each.first) & mask_) != 0; });
+  std::erase_if(
+      known_, [this](const auto& each) { return (Hash(each.first) & mask_) != 0; });
   std::erase_if(chosen_, [this](const auto& each) { return (Hash(each.first) & mask_) != 0; });
 }
 
@@ -134,8 +134,7 @@ std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
   Slope slope;
   slope.x = (syy * sxz - sxy * syz) / determinant;
   slope.y = (sxx * syz - sxy * sxz) / determinant;
-  const double left =
-      std::max(szz - slope.x * sxz - slope.y * syz, 0.0) / static_cast<double>(count - unknowns);
+  const double left = std::max(szz - slope.x * sxz - slope.y * syz, 0.0) / static_cast<double>(count - unknowns);
   slope.xx = left * syy / determinant;
   slope.yy = left * sxx / determinant;
   slope.xy = -left * sxy / determinant;
@@ -149,8 +148,8 @@ struct HeightVariance {
 // Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
 // lies too far down the slope is too high above it.
 HeightVariance AboveSlope(const PatchPoint& point, const Slope& slope) {
-  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy +
-                       2 * slope.x * slope.y * point.xy - 2 * (slope.x * point.xz + slope.y * point.yz);
+  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy + 2 * slope.x * slope.y * point.xy -
+                       2 * (slope.x * point.xz + slope.y * point.yz);
   const double level = point.variance_air + point.variance_sea;
   if (added < 0) {
     const double left = level > 0 ? std::max(1 + added / level, 0.0) : 0;

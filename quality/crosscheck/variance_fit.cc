@@ -63,9 +63,7 @@ struct Sums {
   }
 };
 
-Terms TermsOf(const CrossPair& pair) {
-  return {pair.variance_air, pair.variance_sea, std::pow(pair.distance, 2)};
-}
+Terms TermsOf(const CrossPair& pair) { return {pair.variance_air, pair.variance_sea, std::pow(pair.distance, 2)}; }
 
 double VarianceBy(const Terms& factors, const CrossPair& pair) {
   const Terms terms = TermsOf(pair);
@@ -217,8 +215,7 @@ Estimate IntervalOf(const std::vector<double>& factors, double tail) {
 }
 
 double OneFactor(const Sums& sums) {
-  return sums.variance_squares > 0 ? std::sqrt(std::max(sums.variance_targets / sums.variance_squares, 0.0))
-                                   : 0;
+  return sums.variance_squares > 0 ? std::sqrt(std::max(sums.variance_targets / sums.variance_squares, 0.0)) : 0;
 }
 
 }  // namespace
@@ -247,8 +244,7 @@ VarianceFit FitVariance(const std::vector<CrossPair>& pairs, double factor) {
   cells = SumCells(pairs, units, factors, factors[kRough]);
   const unsigned allowed = smooth ? kSmooth : kAll;
   const auto of_share = [&](Term term) {
-    return Jackknife(cells, units,
-                     [=](const Sums& sums) { return std::sqrt(SolveNonNegative(sums, allowed)[term]); });
+    return Jackknife(cells, units, [=](const Sums& sums) { return std::sqrt(SolveNonNegative(sums, allowed)[term]); });
   };
   const std::vector<double> air = of_share(kAir), sea = of_share(kSea);
   return {.factor = IntervalOf(Jackknife(cells, units, OneFactor), kTail95),

@@ -38,7 +38,7 @@ struct VarianceFit {
   Estimate air, sea;  // The same for air side and sea.
   bool air_differs = false, sea_differs = false;  // From 1, beyond intervals of 99 %.
   double rough = 0;                               // As above; 0 where it is not significant.
-  std::string units;  // "lines" or "places": what was left out in turn for the intervals.
+  std::string units;                              // "lines" or "places": what was left out in turn for the intervals.
 };
 
 // Fits E[d^2] = k_air^2 V_air + k_sea^2 V_sea + V_slope + rough h^2, with the distance h of the two points, by weighted

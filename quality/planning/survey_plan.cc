@@ -41,8 +41,7 @@ absl::StatusOr<Reaches> ReachOf(const annotate::TotalPlan& plan, const annotate:
   annotate::AnswerSelection selection;
   annotate::SelectForTotals(selection);
   annotate::AnswerBatch sea;
-  if (absl::Status status = annotate::AnswerPulses(source, {}, pulses, selection, sea); !status.ok())
-    return status;
+  if (absl::Status status = annotate::AnswerPulses(source, {}, pulses, selection, sea); !status.ok()) return status;
   annotate::TotalBatch totals;
   annotate::AddWater(plan.water, pulses, sea, totals.water);
   AircraftColumns aircraft;
@@ -138,10 +137,8 @@ Json PlanJson(const SurveyPlan& plan) {
   }
   for (const PlannedAxis& axis : plan.axes) json["axes"].push_back(AxisJson(axis));
   for (const annotate::StatedNumber& number : plan.numbers) {
-    json["numbers"].push_back({{"name", number.name},
-                               {"value", number.value},
-                               {"source", number.source},
-                               {"assumed", number.assumed}});
+    json["numbers"].push_back(
+        {{"name", number.name}, {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}});
   }
   return json;
 }
@@ -149,8 +146,7 @@ Json PlanJson(const SurveyPlan& plan) {
 std::string PlanText(const SurveyPlan& plan) {
   const std::string sea = absl::StrReplaceAll(plan.sea_name, {{"_", " "}});
   std::string text = absl::StrCat("depth in m down to which each order of S-44 is met, by ", sea, ";");
-  absl::StrAppend(&text, " altitude ", Json(plan.altitude).dump(), " incidence ",
-                  Json(plan.incidence).dump());
+  absl::StrAppend(&text, " altitude ", Json(plan.altitude).dump(), " incidence ", Json(plan.incidence).dump());
   absl::StrAppendFormat(&text, "\n%10s", plan.sea_unit);
   for (const S44Order order : kS44Orders) absl::StrAppendFormat(&text, "%11s", std::string(Name(order)));
   absl::StrAppendFormat(&text, "  limit of %s\n", std::string(Name(plan.order)));
@@ -166,13 +162,11 @@ std::string PlanText(const SurveyPlan& plan) {
   for (const double depth : kAskedDepths) {
     const std::optional<double> greatest = HighestSea(plan, plan.order, depth);
     absl::StrAppend(&text, depth == kAskedDepths.front() ? " " : ", ",
-                    greatest.has_value() ? absl::StrCat(*greatest, " ", plan.sea_unit) : "none", " to ",
-                    depth, " m");
+                    greatest.has_value() ? absl::StrCat(*greatest, " ", plan.sea_unit) : "none", " to ", depth, " m");
   }
   absl::StrAppend(&text, "\n");
   for (const annotate::StatedNumber& number : plan.numbers)
-    if (number.assumed)
-      absl::StrAppend(&text, "  ", number.name, " ", number.value, " (", number.source, ")\n");
+    if (number.assumed) absl::StrAppend(&text, "  ", number.name, " ", number.value, " (", number.source, ")\n");
   return text;
 }
 

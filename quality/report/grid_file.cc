@@ -44,15 +44,13 @@ class Writing {
   }
   int Variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
     int id = -1;
-    if (ok())
-      Check(nc_def_var(file_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &id));
+    if (ok()) Check(nc_def_var(file_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &id));
     return id;
   }
   // Compressed, in chunks of whole tiles.
   void Compress(int variable, std::size_t rows, std::size_t columns) {
-    const std::array<std::size_t, 2> chunk = {
-        std::min<std::size_t>(rows, SurveyGrid::kTile),
-        std::min<std::size_t>(columns, std::size_t{4} * SurveyGrid::kTile)};
+    const std::array<std::size_t, 2> chunk = {std::min<std::size_t>(rows, SurveyGrid::kTile),
+                                              std::min<std::size_t>(columns, std::size_t{4} * SurveyGrid::kTile)};
     if (ok()) Check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()));
     if (ok()) Check(nc_def_var_deflate(file_, variable, 1, 1, kCompression));
     // Chunks are written whole, so that the library, which keeps 16 MB of each variable, need keep none.
@@ -98,15 +96,13 @@ class Writing {
 
  private:
   template <typename Value, typename Function>
-  void PutRows(int variable, std::size_t row, std::size_t columns, const std::vector<Value>& values,
-               Function put) {
+  void PutRows(int variable, std::size_t row, std::size_t columns, const std::vector<Value>& values, Function put) {
     const std::array<std::size_t, 2> start = {row, 0}, count = {values.size() / columns, columns};
     if (ok()) Check(put(file_, variable, start.data(), count.data(), values.data()));
   }
   bool Check(int result) {
     if (result != NC_NOERR)
-      status_ =
-          absl::DataLossError(absl::StrCat(path_.string(), ": cannot be written: ", nc_strerror(result)));
+      status_ = absl::DataLossError(absl::StrCat(path_.string(), ": cannot be written: ", nc_strerror(result)));
     return result == NC_NOERR;
   }
 
@@ -131,8 +127,7 @@ float ShareOf(const GridCell& cell) {
 }
 
 constexpr std::array kLayers = {
-    Layer{"depth", "mean depth of the bottom below the water surface", "m",
-          [](const GridCell& c) { return c.depth; }},
+    Layer{"depth", "mean depth of the bottom below the water surface", "m", [](const GridCell& c) { return c.depth; }},
     Layer{"thu", "mean total horizontal uncertainty", "m", [](const GridCell& c) { return c.thu; }},
     Layer{"tvu", "mean total vertical uncertainty", "m", [](const GridCell& c) { return c.tvu; }},
     Layer{"share_air", "share of the air side in the vertical variance", "1", ShareOf<0>},
@@ -160,8 +155,7 @@ std::optional<double> ParameterOf(const std::string& wkt, const std::string& nam
   double number = 0;
   if (at == std::string::npos) return std::nullopt;
   const std::size_t from = at + begin.size(), end = wkt.find(']', from);
-  if (end == std::string::npos || !absl::SimpleAtod(wkt.substr(from, end - from), &number))
-    return std::nullopt;
+  if (end == std::string::npos || !absl::SimpleAtod(wkt.substr(from, end - from), &number)) return std::nullopt;
   return number;
 }
 
@@ -173,10 +167,8 @@ void DescribeTransverseMercator(const GridFileFacts& facts, int crs, Writing& fi
                                       {"longitude_of_central_meridian", "central_meridian"},
                                       {"scale_factor_at_central_meridian", "scale_factor"},
                                       {"false_easting", "false_easting"},
-                                      {"false_northing", "false_northing"}}) {
-    if (const std::optional<double> number = ParameterOf(facts.crs_wkt, of_wkt))
-      file.Number(crs, of_cf, *number);
-  }
+                                      {"false_northing", "false_northing"}})
+    if (const std::optional<double> number = ParameterOf(facts.crs_wkt, of_wkt)) file.Number(crs, of_cf, *number);
 }
 
 void DescribeCrs(const SurveyGrid& grid, const GridFileFacts& facts, int crs, Writing& file) {
@@ -187,29 +179,25 @@ void DescribeCrs(const SurveyGrid& grid, const GridFileFacts& facts, int crs, Wr
   }
   DescribeTransverseMercator(facts, crs, file);
   const double west = static_cast<double>(grid.first_column()) * grid.cell();
-  const double north =
-      static_cast<double>(grid.first_row() + static_cast<std::int64_t>(grid.rows())) * grid.cell();
+  const double north = static_cast<double>(grid.first_row() + static_cast<std::int64_t>(grid.rows())) * grid.cell();
   file.Text(crs, "GeoTransform",
             absl::StrFormat("%.10g %.10g 0 %.10g 0 %.10g", west, grid.cell(), north, -grid.cell()));
 }
 
 }  // namespace
 
-absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
-                       const std::filesystem::path& path) {
+absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const std::filesystem::path& path) {
   const std::size_t rows = grid.rows(), columns = grid.columns();
   Writing file(path);
   file.Text(NC_GLOBAL, "Conventions", "CF-1.8");
-  file.Text(NC_GLOBAL, "title",
-            "Depth and total propagated uncertainty of a survey by airborne lidar bathymetry");
+  file.Text(NC_GLOBAL, "title", "Depth and total propagated uncertainty of a survey by airborne lidar bathymetry");
   file.Text(NC_GLOBAL, "source", absl::StrCat("albtpu-query ", std::string(Version())));
   file.Text(NC_GLOBAL, "coverage", annotate::CoverageName(facts.coverage));
   const int y = file.Dimension("y", rows), x = file.Dimension("x", columns);
   const double metres = facts.metres_per_unit;
-  const char* const unit = std::abs(metres - 1) < 1e-9 ? "m"
-                           : std::abs(metres - 0.3048) < 1e-8
-                               ? "foot"  // The US survey foot is longer by 6e-7 m.
-                               : "US_survey_foot";
+  const char* const unit = std::abs(metres - 1) < 1e-9        ? "m"
+                           : std::abs(metres - 0.3048) < 1e-8 ? "foot"  // The US survey foot is longer by 6e-7 m.
+                                                              : "US_survey_foot";
   const auto axis = [&](const char* name, int dimension) {
     const int variable = file.Variable(name, NC_DOUBLE, {dimension});
     file.Text(variable, "standard_name", absl::StrCat("projection_", name, "_coordinate"));
@@ -233,8 +221,7 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
   }
   for (const std::size_t k : {1, 2}) file.Text(layers[k], "coverage", annotate::CoverageText(facts.coverage));
   const int points = of_cells("points", "points of the bottom", NC_INT);
-  const int without =
-      of_cells("points_without_number", "points of the bottom without an uncertainty", NC_INT);
+  const int without = of_cells("points_without_number", "points of the bottom without an uncertainty", NC_INT);
   for (const int variable : {points, without}) file.Text(variable, "units", "1");
   const auto codes = [&](const char* name, const char* long_name, std::uint8_t count, const char* meanings) {
     const int variable = of_cells(name, long_name, NC_UBYTE);
@@ -249,9 +236,8 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
                           "exclusive special order_1a order_1b order_2 none");
   const int dominant = codes("dominant_share", "largest share of the vertical variance",
                              static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum");
-  const int gap =
-      codes("gap", "why points have no uncertainty, the most severe reason", 4,
-            "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
+  const int gap = codes("gap", "why points have no uncertainty, the most severe reason", 4,
+                        "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
   file.EndDefinitions();
   file.Put(ys, Centres(grid.first_row(), rows, grid.cell(), true));
   file.Put(xs, Centres(grid.first_column(), columns, grid.cell(), false));

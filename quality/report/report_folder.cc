@@ -60,13 +60,11 @@ class HiddenFolder {
 };
 
 absl::Status NotWritable(const fs::path& folder) {
-  return absl::PermissionDeniedError(absl::StrCat(
-      folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
+  return absl::PermissionDeniedError(
+      absl::StrCat(folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
 }
 
-std::string TextOf(const Json& json) {
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string TextOf(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 absl::Status Move(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -76,8 +74,8 @@ absl::Status Move(const fs::path& from, const fs::path& to) {
 }
 
 // Writes the JSON, the last of `names`, draws the page, and gives all files their names, the page last.
-absl::Status Finish(const HiddenFolder& hidden, const Json& json, const std::vector<const char*>& names,
-                    bool with_page, const char* page, const fs::path& folder) {
+absl::Status Finish(const HiddenFolder& hidden, const Json& json, const std::vector<const char*>& names, bool with_page,
+                    const char* page, const fs::path& folder) {
   absl::Status status = WriteFileAtomically(hidden.path() / names.back(), TextOf(json), Existing::kReplace);
   if (status.ok() && with_page) status = DrawPage(hidden.path());
   for (const char* const name : names)
@@ -95,8 +93,8 @@ absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (!fs::is_directory(folder)) {
-    return absl::NotFoundError(absl::StrCat(
-        folder.string(), ": cannot be made; give a folder, or a new name in a folder that exists"));
+    return absl::NotFoundError(
+        absl::StrCat(folder.string(), ": cannot be made; give a folder, or a new name in a folder that exists"));
   }
   if (!fs::is_empty(folder, error) && existing == Existing::kKeep) {
     return absl::AlreadyExistsError(absl::StrCat(
@@ -105,8 +103,8 @@ absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
   return access(folder.c_str(), W_OK) == 0 ? absl::OkStatus() : NotWritable(folder);
 }
 
-bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files,
-               const ReportOptions& options, bool with_page) {
+bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files, const ReportOptions& options,
+               bool with_page) {
   std::ifstream stream(folder / kJson, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   const Json json = Json::parse(text, nullptr, false);
@@ -128,8 +126,7 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
   if (hidden.path().empty()) return NotWritable(folder);
   {
     const SurveyGrid grid = std::move(report.grid);
-    if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok())
-      return status;
+    if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok()) return status;
   }
   return Finish(hidden, *report.json, {kGrid, kJson}, with_page, kPage, folder);
 }
@@ -173,8 +170,8 @@ absl::Status RunPython(std::vector<std::string> arguments) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
   pid_t child = 0;
-  const int failure = posix_spawn(&child, kPython, &actions, nullptr, Pointers(arguments).data(),
-                                  Pointers(environment).data());
+  const int failure =
+      posix_spawn(&child, kPython, &actions, nullptr, Pointers(arguments).data(), Pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   close(pipe_ends[1]);
   std::string said;
@@ -207,39 +204,34 @@ absl::Status CheckPageCanBeDrawn() {
 absl::Status DrawPage(const std::filesystem::path& folder) {
   const absl::Status status = RunPython({"-m", "albtpu.report", folder.string()});
   if (status.ok()) return status;
-  return absl::InternalError(absl::StrCat("the page cannot be drawn: ", status.message(),
-                                          "; --no-page leaves it out, please report this"));
+  return absl::InternalError(
+      absl::StrCat("the page cannot be drawn: ", status.message(), "; --no-page leaves it out, please report this"));
 }
 
 std::string ReportText(const nlohmann::ordered_json& report) {
   const auto& wanted = report["wanted"];
-  const auto points = wanted["points"].get<std::uint64_t>(),
-             numbers = wanted["with_number"].get<std::uint64_t>();
-  std::string text =
-      absl::StrFormat("%s %s: %s; %.2f %% of %d points meet it (at least %g %% asked)\n",
-                      wanted["specification"].get<std::string>(), wanted["class"].get<std::string>(),
-                      wanted["passes"].get<bool>() ? "PASSES" : "DOES NOT PASS",
-                      100 * wanted["fraction"].get<double>(), points, wanted["pass_share"].get<double>());
+  const auto points = wanted["points"].get<std::uint64_t>(), numbers = wanted["with_number"].get<std::uint64_t>();
+  std::string text = absl::StrFormat(
+      "%s %s: %s; %.2f %% of %d points meet it (at least %g %% asked)\n", wanted["specification"].get<std::string>(),
+      wanted["class"].get<std::string>(), wanted["passes"].get<bool>() ? "PASSES" : "DOES NOT PASS",
+      100 * wanted["fraction"].get<double>(), points, wanted["pass_share"].get<double>());
   if (numbers < points) {
     std::vector<std::string> why;
     for (const auto& [outcome, count] : wanted["without_number"].items())
       why.push_back(absl::StrCat(count.get<std::uint64_t>(), " ", outcome));
-    absl::StrAppend(&text, "  ", points - numbers, " points have no number (", absl::StrJoin(why, ", "),
-                    ")\n");
+    absl::StrAppend(&text, "  ", points - numbers, " points have no number (", absl::StrJoin(why, ", "), ")\n");
   }
   const auto& check = report["crosscheck"];
   if (check.is_null())
     return text + "  no lines overlap, so that the files cannot show whether the prediction is true\n";
   const auto& factor = check["factor"];
-  absl::StrAppendFormat(
-      &text,
-      "  %d pairs of points of overlapping lines: reduced chi-square %.2f, sigma would have to be "
-      "%.2f times as large",
-      check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>(), factor["value"].get<double>());
-  if (factor["low"].is_number()) {
-    absl::StrAppendFormat(&text, " (%.2f to %.2f)", factor["low"].get<double>(),
-                          factor["high"].get<double>());
-  }
+  absl::StrAppendFormat(&text,
+                        "  %d pairs of points of overlapping lines: reduced chi-square %.2f, sigma would have to be "
+                        "%.2f times as large",
+                        check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>(),
+                        factor["value"].get<double>());
+  if (factor["low"].is_number())
+    absl::StrAppendFormat(&text, " (%.2f to %.2f)", factor["low"].get<double>(), factor["high"].get<double>());
   return text + "\n";
 }
 

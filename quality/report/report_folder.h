@@ -42,8 +42,7 @@ class NewFolder {
 };
 
 // The same for plan.json and plan.html of a planned survey.
-absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page,
-                       const std::filesystem::path& folder);
+absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page, const std::filesystem::path& folder);
 
 // The page of a report or a plan, which the Python package draws: python3 -m albtpu.report FOLDER.
 

@@ -80,10 +80,9 @@ std::vector<std::string> InstalledNames() {
 }
 
 absl::Status NotInstalled() {
-  return absl::NotFoundError(
-      absl::StrCat("there are no specifications in ", SpecificationsDirectory().string(),
-                   "; name their folder by ALBTPU_SPECIFICATIONS, or give the path of a "
-                   "file by --spec"));
+  return absl::NotFoundError(absl::StrCat("there are no specifications in ", SpecificationsDirectory().string(),
+                                          "; name their folder by ALBTPU_SPECIFICATIONS, or give the path of a "
+                                          "file by --spec"));
 }
 
 }  // namespace
@@ -118,20 +117,17 @@ absl::StatusOr<Specification> ParseSpecification(std::string_view text) {
   std::set<std::string> names;
   for (TomlKeys& keys : root.Tables("class")) {
     read.classes.push_back(ReadClass(keys));
-    if (!names.insert(read.classes.back().name).second)
-      keys.Fail("has the name of another class; give each its own");
+    if (!names.insert(read.classes.back().name).second) keys.Fail("has the name of another class; give each its own");
   }
   root.Finish();
   for (const std::string_view key : {"title", "source", "class"})
-    if (!root.Has(key))
-      root.Fail(absl::StrCat(std::string(key), " is missing; give title, source and each [[class]]"));
+    if (!root.Has(key)) root.Fail(absl::StrCat(std::string(key), " is missing; give title, source and each [[class]]"));
   if (!problem.status().ok()) return problem.status();
   return read;
 }
 
 fs::path SpecificationsDirectory() {
-  if (const char* folder = std::getenv("ALBTPU_SPECIFICATIONS"); folder != nullptr && *folder != '\0')
-    return folder;
+  if (const char* folder = std::getenv("ALBTPU_SPECIFICATIONS"); folder != nullptr && *folder != '\0') return folder;
   return InstalledDataDirectory() / "specifications";
 }
 
@@ -159,8 +155,8 @@ absl::StatusOr<Specification> FindSpecification(std::string_view name_or_path) {
                    formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
-absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specifications,
-                                      const std::string& name, const std::string& class_name) {
+absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specifications, const std::string& name,
+                                      const std::string& class_name) {
   std::size_t index = 0;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < specifications.size(); ++i)
@@ -169,9 +165,9 @@ absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specific
       names.push_back(specifications[i].classes[k].name);
       if (names.back() == class_name) return WantedClass{i, k, index};
     }
-  return absl::InvalidArgumentError(absl::StrCat(
-      "'", formats::OneLine(class_name), "' is no class of the specification ", name,
-      formats::Suggestion(class_name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
+  return absl::InvalidArgumentError(
+      absl::StrCat("'", formats::OneLine(class_name), "' is no class of the specification ", name,
+                   formats::Suggestion(class_name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
 }  // namespace albtpu::quality

@@ -67,7 +67,7 @@ struct WantedClass {
   std::size_t index = 0;                        // Over all classes.
 };
 // The class of this name of the specification `name`. InvalidArgument with the names that there are.
-absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specifications,
-                                      const std::string& name, const std::string& class_name);
+absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specifications, const std::string& name,
+                                      const std::string& class_name);
 
 }  // namespace albtpu::quality

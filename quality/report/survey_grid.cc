@@ -54,8 +54,8 @@ std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
   for (std::size_t i = 0; i < classes_.size(); ++i) {
     const SpecificationClass& limits = classes_[i];
     const bool thu =
-        !limits.horizontal.has_value() || horizontal.At(limits.coverage) + std::abs(point.bias_along_beam) <=
-                                              limits.horizontal->At(point.depth);
+        !limits.horizontal.has_value() ||
+        horizontal.At(limits.coverage) + std::abs(point.bias_along_beam) <= limits.horizontal->At(point.depth);
     const bool tvu = !limits.vertical.has_value() ||
                      VerticalFactor(limits.coverage) * sigma_vertical + std::abs(point.bias_vertical) <=
                          limits.vertical->At(point.depth);
@@ -66,8 +66,7 @@ std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
 
 std::array<double, 4> VerticalShares(const AnnotatedPoint& point, Coverage coverage) {
   const auto variance = [factor = VerticalFactor(coverage)](float tvu) { return std::pow(tvu / factor, 2); };
-  const double air = variance(point.tvu_air), sea = variance(point.tvu_sea),
-               water = variance(point.tvu_water);
+  const double air = variance(point.tvu_air), sea = variance(point.tvu_sea), water = variance(point.tvu_water);
   return {air, sea, water, std::max(point.variance_z - air - sea - water, 0.0)};
 }
 
@@ -114,8 +113,7 @@ ordered_json PointTally::Json(std::size_t classes) const {
                                {"line", of_total(line_)},
                                {"survey", std::max(of_total(total - pulse_ - line_), 0.0)}};
   }
-  json["meeting"] =
-      std::vector<std::uint64_t>(met_.begin(), met_.begin() + static_cast<std::ptrdiff_t>(classes));
+  json["meeting"] = std::vector<std::uint64_t>(met_.begin(), met_.begin() + static_cast<std::ptrdiff_t>(classes));
   return json;
 }
 
@@ -152,13 +150,12 @@ std::int64_t TileOf(std::int64_t index) {
 }
 
 std::uint64_t KeyOf(std::int64_t column, std::int64_t row) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
-         static_cast<std::uint32_t>(row);
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 | static_cast<std::uint32_t>(row);
 }
 
 absl::Status TooLarge(const std::string& why) {
-  return absl::ResourceExhaustedError(absl::StrCat(
-      "the grid is too large (", why, "); give larger cells by --cell, or fewer files at a time"));
+  return absl::ResourceExhaustedError(
+      absl::StrCat("the grid is too large (", why, "); give larger cells by --cell, or fewer files at a time"));
 }
 
 }  // namespace
@@ -181,9 +178,7 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   const auto column = static_cast<std::int64_t>(x), row = static_cast<std::int64_t>(y);
   Tile* const tile = TileAt(TileOf(column), TileOf(row));
   if (tile == nullptr) return;
-  const auto within = [](std::int64_t index) {
-    return static_cast<std::size_t>(index - TileOf(index) * kTile);
-  };
+  const auto within = [](std::int64_t index) { return static_cast<std::size_t>(index - TileOf(index) * kTile); };
   const std::size_t blocks = tile->blocks();
   GridCell& cell = tile->At(tile->PlaceOf(within(row) * kTile + within(column)));
   bytes_ += (tile->blocks() - blocks) * sizeof(Tile::Block);

@@ -77,8 +77,7 @@ class S44Orders {
 
 class Reporter {
  public:
-  Reporter(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options,
-           const WantedClass& wanted)
+  Reporter(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options, const WantedClass& wanted)
       : files_(files),
         options_(options),
         wanted_(wanted),
@@ -155,8 +154,7 @@ class Reporter {
     std::map<std::string, std::uint64_t> counts;
     for (const AnnotatedLasFile& file : files_) {
       for (const auto& [outcome, count] : file.summary()["answers"]["outcomes"].items())
-        if (outcome != "INTERPOLATED" && count.is_number_unsigned())
-          counts[outcome] += count.get<std::uint64_t>();
+        if (outcome != "INTERPOLATED" && count.is_number_unsigned()) counts[outcome] += count.get<std::uint64_t>();
     }
     // Points of ours have all their reasons in the summaries; others may not.
     std::uint64_t named = 0;
@@ -183,8 +181,7 @@ class Reporter {
                  {"without_number", WithoutNumber()},
                  {"failing", {{"points", failing_.points}, {"largest_share", Json::object()}}}};
     for (std::size_t i = 0; i < failing_.largest.size(); ++i)
-      if (failing_.largest[i] > 0)
-        json["failing"]["largest_share"][kVerticalShareNames[i]] = failing_.largest[i];
+      if (failing_.largest[i] > 0) json["failing"]["largest_share"][kVerticalShareNames[i]] = failing_.largest[i];
     return json;
   }
 
@@ -192,24 +189,21 @@ class Reporter {
     Json list = Json::array();
     std::size_t index = 0;
     for (const Specification& each : options_.specifications) {
-      Json json = {
-          {"name", each.name}, {"title", each.title}, {"source", each.source}, {"classes", Json::array()}};
+      Json json = {{"name", each.name}, {"title", each.title}, {"source", each.source}, {"classes", Json::array()}};
       for (const SpecificationClass& of : each.classes) {
         const auto limit = [](const std::optional<Limit>& known) {
           if (!known.has_value()) return Json();
-          return Json{{"constant", known->constant},
-                      {"of_depth", known->of_depth},
-                      {"combined", known->rss ? "rss" : "sum"}};
+          return Json{
+              {"constant", known->constant}, {"of_depth", known->of_depth}, {"combined", known->rss ? "rss" : "sum"}};
         };
         const std::uint64_t meeting = all_.meeting(index);
-        json["classes"].push_back(
-            {{"name", of.name},
-             {"index", index},
-             {"coverage", annotate::CoverageName(of.coverage)},
-             {"horizontal", limit(of.horizontal)},
-             {"vertical", limit(of.vertical)},
-             {"meeting", meeting},
-             {"fraction", static_cast<double>(meeting) / static_cast<double>(all_.points())}});
+        json["classes"].push_back({{"name", of.name},
+                                   {"index", index},
+                                   {"coverage", annotate::CoverageName(of.coverage)},
+                                   {"horizontal", limit(of.horizontal)},
+                                   {"vertical", limit(of.vertical)},
+                                   {"meeting", meeting},
+                                   {"fraction", static_cast<double>(meeting) / static_cast<double>(all_.points())}});
         ++index;
       }
       list.push_back(std::move(json));
@@ -316,23 +310,17 @@ class Reporter {
 }  // namespace
 
 nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options) {
-  Json json = {{"cell", options.cell},
-               {"patch", options.patch},
-               {"specification", options.specification},
-               {"class", options.wanted_class},
-               {"pass_share", options.pass_share},
-               {"specifications", Json::array()},
-               {"files", Json::array()}};
+  Json json = {
+      {"cell", options.cell},          {"patch", options.patch},           {"specification", options.specification},
+      {"class", options.wanted_class}, {"pass_share", options.pass_share}, {"specifications", Json::array()},
+      {"files", Json::array()}};
   for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
-  for (const AnnotatedLasFile& file : files) {
-    json["files"].push_back(
-        {{"name", file.path().filename().string()}, {"bytes", file.reader().file_size()}});
-  }
+  for (const AnnotatedLasFile& file : files)
+    json["files"].push_back({{"name", file.path().filename().string()}, {"bytes", file.reader().file_size()}});
   return json;
 }
 
-absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files,
-                                        const ReportOptions& options) {
+absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options) {
   const absl::StatusOr<WantedClass> wanted =
       FindClass(options.specifications, options.specification, options.wanted_class);
   if (!wanted.ok()) return wanted.status();

@@ -42,7 +42,6 @@ struct SurveyReport {
 // Reads all points of `files`, which is not empty, once for the report and once more where lines overlap. Memory is
 // bounded by the grid (SurveyGrid::kMostBytes) and the patches (OverlapPatches). FailedPrecondition if there is no
 // point of a bathymetric class.
-absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files,
-                                        const ReportOptions& options);
+absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options);
 
 }  // namespace albtpu::quality

@@ -18,14 +18,13 @@
 namespace albtpu {
 namespace {
 
-constexpr std::array<std::string_view, 16> kCompassPoints = {
-    "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+constexpr std::array<std::string_view, 16> kCompassPoints = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                                             "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
 
 // A column by one of its names; npos if there is none.
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-std::size_t Column(const std::vector<std::string_view>& header,
-                   std::initializer_list<std::string_view> names) {
+std::size_t Column(const std::vector<std::string_view>& header, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
@@ -39,8 +38,7 @@ struct WaveColumns {
 
 class Reader {
  public:
-  Reader(std::string_view text, double anemometer_height)
-      : lines_(text), anemometer_height_(anemometer_height) {}
+  Reader(std::string_view text, double anemometer_height) : lines_(text), anemometer_height_(anemometer_height) {}
 
   absl::StatusOr<SeaSeries> Read() {
     const auto first = lines_.Next();
@@ -52,8 +50,7 @@ class Reader {
       if (absl::Status status = ReadRecord(words); !status.ok()) return status;
     }
     if (lines_.cut()) return lines_.CutError();
-    if (series_.records.empty())
-      return absl::InvalidArgumentError("none of its records has waves; give another file");
+    if (series_.records.empty()) return absl::InvalidArgumentError("none of its records has waves; give another file");
     SayWhatIsAssumed();
     SortByTime(series_);
     return std::move(series_);
@@ -80,8 +77,7 @@ class Reader {
     const auto time = NdbcTime(words, date_);
     if (!time) return lines_.Error("does not begin with a date and time; get another copy of the file");
     if (words.size() != columns_)
-      return lines_.Error("has ", words.size(), " columns (expected ", columns_,
-                          "); get another copy of the file");
+      return lines_.Error("has ", words.size(), " columns (expected ", columns_, "); get another copy of the file");
     if (series_.records.size() >= kMaxSeaRecords)
       return lines_.Error("is one record too many (at most ", kMaxSeaRecords, "); split the file");
     SeaRecord record{.time = time};
@@ -154,8 +150,7 @@ class Reader {
     if (words[column] == "-99" || words[column] == "-") return std::nullopt;
     const auto degrees = Value(words, column, 999);
     if (!degrees.ok() || !*degrees) return degrees;
-    if (**degrees > 360)
-      return lines_.Error(Quoted(words[column]), " is no direction; get another copy of the file");
+    if (**degrees > 360) return lines_.Error(Quoted(words[column]), " is no direction; get another copy of the file");
     return RadiansOfDegrees(**degrees);
   }
 
@@ -166,8 +161,7 @@ class Reader {
     if (!separated_) say("swell and wind waves are not separated: spectra or a .spec file are more accurate");
     if (wind_speed_ != kNone) say("winds are taken as measured ", anemometer_height_, " m above the water");
     if (without_waves_ > 0) say(without_waves_, " records have no waves and are left out");
-    if (without_direction_ > 0)
-      say(without_direction_, " wave heights have no direction and are taken as isotropic");
+    if (without_direction_ > 0) say(without_direction_, " wave heights have no direction and are taken as isotropic");
   }
 
   TextLines lines_;

@@ -22,13 +22,11 @@ RowsByTime ByTime(const std::optional<NdbcTable>& table) {
 }
 
 absl::StatusOr<std::optional<NdbcTable>> ReadCompanion(const std::optional<std::string_view>& text,
-                                                       NdbcQuantity quantity, bool real_time,
-                                                       const std::string& name) {
+                                                       NdbcQuantity quantity, bool real_time, const std::string& name) {
   if (!text) return std::nullopt;
   absl::StatusOr<NdbcTable> table = ReadNdbcTable(*text, quantity);
   if (!table.ok())
-    return absl::Status(table.status().code(),
-                        absl::StrCat("beside it, ", name, ": ", table.status().message()));
+    return absl::Status(table.status().code(), absl::StrCat("beside it, ", name, ": ", table.status().message()));
   if (table->real_time != real_time)
     return absl::InvalidArgumentError(absl::StrCat("beside it, ", name, ": is ",
                                                    real_time ? "of the history" : "in real time",
@@ -59,8 +57,7 @@ class Directions {
 
 DirectionalEnergy Bin(double energy, const std::pair<const NdbcRow*, const NdbcRow*>& at, std::size_t i) {
   const auto& [spread, direction] = at;
-  if (spread == nullptr || direction == nullptr || std::isnan(spread->values[i]) ||
-      std::isnan(direction->values[i]))
+  if (spread == nullptr || direction == nullptr || std::isnan(spread->values[i]) || std::isnan(direction->values[i]))
     return {.energy = energy};
   return SymmetricEnergy(energy, {spread->values[i]}, RadiansOfDegrees(direction->values[i]));
 }
@@ -91,8 +88,7 @@ BinnedWaves WavesOf(const NdbcRow& row, const std::pair<const NdbcRow*, const Nd
 absl::StatusOr<SeaSeries> ReadNdbcSpectra(const NdbcTexts& texts) {
   const absl::StatusOr<NdbcTable> energy = ReadNdbcTable(texts.energy, NdbcQuantity::kEnergy);
   if (!energy.ok()) return energy.status();
-  const auto spread =
-      ReadCompanion(texts.spread, NdbcQuantity::kSpread, energy->real_time, texts.spread_name);
+  const auto spread = ReadCompanion(texts.spread, NdbcQuantity::kSpread, energy->real_time, texts.spread_name);
   if (!spread.ok()) return spread.status();
   const auto direction =
       ReadCompanion(texts.direction, NdbcQuantity::kDirection, energy->real_time, texts.direction_name);
@@ -112,8 +108,7 @@ absl::StatusOr<SeaSeries> ReadNdbcSpectra(const NdbcTexts& texts) {
     if (!IsDirectional(at)) ++isotropic;
     series.records.push_back({.time = row.time, .waves = std::move(waves)});
   }
-  if (series.records.empty())
-    return absl::InvalidArgumentError("none of its records has energy; give another file");
+  if (series.records.empty()) return absl::InvalidArgumentError("none of its records has energy; give another file");
   if (empty > 0) series.assumed.push_back(absl::StrCat(empty, " records have no energy and are left out"));
   if (isotropic > 0)
     series.assumed.push_back(

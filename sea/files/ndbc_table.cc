@@ -15,8 +15,7 @@ NdbcDate NdbcDateColumns(std::span<const std::string_view> header) {
   if (header.size() < 4) return {};
   std::string_view year = header[0];
   if (year.starts_with('#')) year.remove_prefix(1);
-  if ((year != "YY" && year != "YYYY") || header[1] != "MM" || header[2] != "DD" || header[3] != "hh")
-    return {};
+  if ((year != "YY" && year != "YYYY") || header[1] != "MM" || header[2] != "DD" || header[3] != "hh") return {};
   return {.count = header.size() > 4 && header[4] == "mm" ? std::size_t{5} : std::size_t{4}};
 }
 
@@ -100,15 +99,13 @@ class Reader {
       return lines_.Error("the file has ", quantity.name, " (expected ", expected_.name,
                           "); give the .data_spec file, with .swr2 and .swdir2 beside it");
     }
-    return lines_.Error("names no quantity (expected ", expected_.in_header,
-                        "); get another copy of the file");
+    return lines_.Error("names no quantity (expected ", expected_.in_header, "); get another copy of the file");
   }
 
   absl::Status ReadFrequencies(const std::vector<std::string_view>& words) {
     std::vector<double> frequencies;
-    for (std::size_t i = date_.count; i < words.size(); ++i) {
+    for (std::size_t i = date_.count; i < words.size(); ++i)
       if (absl::Status status = AddFrequency(words[i], frequencies); !status.ok()) return status;
-    }
     return Keep(frequencies);
   }
 
@@ -160,16 +157,14 @@ class Reader {
   }
 
   absl::Status ReadPairs(const std::vector<std::string_view>& words, NdbcRow& row) {
-    const std::size_t first =
-        date_.count + (expected_.quantity == NdbcQuantity::kEnergy ? 1 : 0);  // Sep_Freq
+    const std::size_t first = date_.count + (expected_.quantity == NdbcQuantity::kEnergy ? 1 : 0);  // Sep_Freq
     if (words.size() < first || (words.size() - first) % 2 != 0)
       return lines_.Error("has a value without frequency; get another copy of the file");
     std::vector<double> frequencies;
     for (std::size_t i = first; i < words.size(); i += 2) {
       std::string_view frequency = words[i + 1];
       if (!frequency.starts_with('(') || !frequency.ends_with(')') || frequency.size() < 3)
-        return lines_.Error(Quoted(frequency),
-                            " is no frequency in parentheses; get another copy of the file");
+        return lines_.Error(Quoted(frequency), " is no frequency in parentheses; get another copy of the file");
       frequency = frequency.substr(1, frequency.size() - 2);
       if (absl::Status status = AddFrequency(frequency, frequencies); !status.ok()) return status;
       if (absl::Status status = AddValue(words[i], row); !status.ok()) return status;

@@ -49,10 +49,9 @@ enum class NdbcQuantity {
 };
 
 struct NdbcRow {
-  double time;  // s since 1970-01-01T00:00:00Z
-  std::shared_ptr<const std::vector<double>>
-      frequencies;             // Hz, increasing; rows that have the same share them
-  std::vector<double> values;  // NaN: missing
+  double time;                                             // s since 1970-01-01T00:00:00Z
+  std::shared_ptr<const std::vector<double>> frequencies;  // Hz, increasing; rows that have the same share them
+  std::vector<double> values;                              // NaN: missing
 };
 
 struct NdbcTable {

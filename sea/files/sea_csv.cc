@@ -47,8 +47,7 @@ absl::StatusOr<std::string> Inflated(std::string_view bytes, std::size_t most) {
   std::string text;
   while (true) {
     char piece[1 << 16];
-    const auto given =
-        static_cast<uInt>(std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max()));
+    const auto given = static_cast<uInt>(std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max()));
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
     stream.avail_in = given;
     stream.next_out = reinterpret_cast<Bytef*>(piece);
@@ -57,8 +56,7 @@ absl::StatusOr<std::string> Inflated(std::string_view bytes, std::size_t most) {
     const std::size_t made = sizeof piece - stream.avail_out;
     bytes.remove_prefix(given - stream.avail_in);
     if (made > most - text.size())
-      return absl::InvalidArgumentError(
-          absl::StrCat("it inflates to more than ", most, " bytes; split the file"));
+      return absl::InvalidArgumentError(absl::StrCat("it inflates to more than ", most, " bytes; split the file"));
     text.append(piece, made);
     if (result == Z_STREAM_END) {
       if (bytes.empty()) return text;
@@ -121,8 +119,8 @@ class Reader {
     columns_ = names.size();
     using Names = std::vector<std::string_view>;
     by_frequency_ = names == Names{"f", "E"} || names == Names{"f", "E", "r2", "alpha2"};
-    bool by_wavenumber = !timed_ && columns_ >= 4 && columns_ % 2 == 0 &&
-                         columns_ <= 2 + 2 * kMaxCsvHarmonics && names[0] == "k" && names[1] == "S";
+    bool by_wavenumber = !timed_ && columns_ >= 4 && columns_ % 2 == 0 && columns_ <= 2 + 2 * kMaxCsvHarmonics &&
+                         names[0] == "k" && names[1] == "S";
     for (std::size_t i = 2; by_wavenumber && i < columns_; ++i)
       by_wavenumber = names[i] == absl::StrCat(i % 2 == 0 ? "a" : "b", i / 2 * 2);
     if (!by_frequency_ && !by_wavenumber)
@@ -138,14 +136,12 @@ class Reader {
   absl::Status ReadLine(std::string_view line) {
     std::vector<std::string_view> cells = Cells(line);
     if (cells.size() != columns_ + (timed_ ? 1 : 0))
-      return lines_.Error("has ", cells.size(), " cells (expected ", columns_ + (timed_ ? 1 : 0),
-                          "); complete it");
+      return lines_.Error("has ", cells.size(), " cells (expected ", columns_ + (timed_ ? 1 : 0), "); complete it");
     if (++values_ > kMaxSeaValues / 16) return lines_.Error("is one line too many; split the file");
     if (timed_) {
       const auto time = ParseSeaTime(cells[0]);
       if (!time)
-        return lines_.Error(Quoted(cells[0]),
-                            " is no time (expected UTC such as 2020-06-08T03:50Z); correct it");
+        return lines_.Error(Quoted(cells[0]), " is no time (expected UTC such as 2020-06-08T03:50Z); correct it");
       if (!axis_.empty() && time != time_)
         if (absl::Status status = Finish(); !status.ok()) return status;
       time_ = time;
@@ -208,8 +204,7 @@ class Reader {
     if (by_frequency_) {
       const double last = axis_.back();
       record.waves = std::make_shared<const BinnedSpectrum>(
-          std::make_shared<const std::vector<double>>(std::exchange(axis_, {})), std::exchange(bins_, {}), 1,
-          last);
+          std::make_shared<const std::vector<double>>(std::exchange(axis_, {})), std::exchange(bins_, {}), 1, last);
     } else {
       whole_.k = std::exchange(axis_, {});
       record.waves = std::make_shared<const HarmonicSpectrum>(std::move(whole_));

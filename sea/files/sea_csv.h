@@ -29,7 +29,7 @@ absl::StatusOr<SeaSeries> ReadSeaCsv(std::string_view text);
 
 // The limits of a file of the sea. A file within them takes less than 2 GB of memory.
 
-inline constexpr std::size_t kMaxSeaBytes = std::size_t{1} << 29;  // inflated; a century of a buoy has 300 MB
+inline constexpr std::size_t kMaxSeaBytes = std::size_t{1} << 29;    // inflated; a century of a buoy has 300 MB
 inline constexpr std::size_t kMaxSeaRecords = std::size_t{1} << 20;  // a century of hourly records
 inline constexpr std::size_t kMaxSeaValues = std::size_t{1} << 25;   // 8 bytes each
 inline constexpr std::size_t kMaxFrequencies = 4096;                 // or directions, or wavenumbers

@@ -30,8 +30,7 @@ absl::StatusOr<std::string> ReadText(const std::filesystem::path& path) {
   while (file.read(piece, sizeof piece) || file.gcount() > 0) {
     bytes.append(piece, static_cast<std::size_t>(file.gcount()));
     if (bytes.size() > kMaxSeaBytes)
-      return absl::InvalidArgumentError(
-          absl::StrCat("has more than ", kMaxSeaBytes, " bytes; split the file"));
+      return absl::InvalidArgumentError(absl::StrCat("has more than ", kMaxSeaBytes, " bytes; split the file"));
   }
   if (!file.eof()) return absl::UnavailableError("cannot be read; check its permissions");
   if (IsGzip(bytes)) return Inflated(bytes);
@@ -43,8 +42,7 @@ std::string_view FirstLine(std::string_view text) {
   TextLines lines(text);
   while (const auto line = lines.Next()) {
     const std::vector<std::string_view> words = Words(*line);
-    if (words.empty() || words[0] == "#" || (words[0].starts_with('#') && !words[0].starts_with("#Y")))
-      continue;
+    if (words.empty() || words[0] == "#" || (words[0].starts_with('#') && !words[0].starts_with("#Y"))) continue;
     return *line;
   }
   return text.substr(0, text.find('\n'));
@@ -55,10 +53,10 @@ absl::Status OfAnotherKind(std::string_view text, std::string_view first_line) {
   if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
     return absl::InvalidArgumentError(
         "is a NetCDF file (this reads text); read it in Python with xarray and wavespectra");
-  return absl::InvalidArgumentError(absl::StrCat(
-      "begins with ", Quoted(first_line),
-      " (expected a file of NDBC, WAVEWATCH III or SWAN, or CSV with the columns f,E or k,S); give the "
-      "spectra in one of these forms"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("begins with ", Quoted(first_line),
+                   " (expected a file of NDBC, WAVEWATCH III or SWAN, or CSV with the columns f,E or k,S); give the "
+                   "spectra in one of these forms"));
 }
 
 // The file beside `path` that belongs to it, if it exists.

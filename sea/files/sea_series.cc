@@ -14,9 +14,7 @@ namespace {
 
 struct HeightOf {
   double operator()(const BinnedWaves& waves) const { return waves->significant_wave_height(); }
-  double operator()(const WaveComponents& waves) const {
-    return JonswapSpectrum(*waves).significant_wave_height();
-  }
+  double operator()(const WaveComponents& waves) const { return JonswapSpectrum(*waves).significant_wave_height(); }
   double operator()(const WholeSea& waves) const { return SignificantWaveHeight(*waves); }
 };
 
@@ -38,8 +36,7 @@ SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription given) {
     given.waves = *bins;
   } else {
     given.waves = std::make_shared<JonswapSpectrum>(
-        *std::get<WaveComponents>(record.waves),
-        given.water_depth.value_or(std::numeric_limits<double>::infinity()));
+        *std::get<WaveComponents>(record.waves), given.water_depth.value_or(std::numeric_limits<double>::infinity()));
   }
   return given;
 }
@@ -57,18 +54,16 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription given) {
 }
 
 void SortByTime(SeaSeries& series) {
-  const auto key = [](const SeaRecord& record) {
-    return std::tuple(record.point, record.time.value_or(-INFINITY));
-  };
-  std::stable_sort(series.records.begin(), series.records.end(),
-                   [&](const SeaRecord& a, const SeaRecord& b) { return key(a) < key(b); });
+  const auto key = [](const SeaRecord& record) { return std::tuple(record.point, record.time.value_or(-INFINITY)); };
+  std::stable_sort(
+      series.records.begin(), series.records.end(),
+      [&](const SeaRecord& a, const SeaRecord& b) { return key(a) < key(b); });
   const auto end = std::unique(series.records.begin(), series.records.end(),
                                [&](const SeaRecord& a, const SeaRecord& b) { return key(a) == key(b); });
   const auto repeated = series.records.end() - end;
   series.records.erase(end, series.records.end());
   if (repeated > 0)
-    series.assumed.push_back(
-        absl::StrCat(repeated, " records repeat the time of another one and are left out"));
+    series.assumed.push_back(absl::StrCat(repeated, " records repeat the time of another one and are left out"));
 }
 
 }  // namespace albtpu

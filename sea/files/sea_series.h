@@ -39,8 +39,8 @@ struct SeaPoint {
 struct SeaSeries {
   std::string format;  // "an NDBC file of spectra", for messages
   std::vector<SeaPoint> points = {{}};
-  std::vector<SeaRecord> records = {};    // at least one; times increase at each point
-  std::vector<std::string> assumed = {};  // sentences: what was assumed and what was left out
+  std::vector<SeaRecord> records = {};                             // at least one; times increase at each point
+  std::vector<std::string> assumed = {};                           // sentences: what was assumed and what was left out
   double record_length = std::numeric_limits<double>::infinity();  // s, of a measurement; infinity for models
 };
 

@@ -28,8 +28,7 @@ class Reader {
     if (!status.ok()) return status;
     if (words_.lines().cut()) return words_.lines().CutError();
     if (series_.records.empty()) return absl::InvalidArgumentError("it has no spectrum; give another file");
-    series_.assumed.push_back(
-        "waves are taken from the model up to its highest frequency; currents are left out");
+    series_.assumed.push_back("waves are taken from the model up to its highest frequency; currents are left out");
     if (without_data_ > 0)
       series_.assumed.push_back(absl::StrCat(without_data_, " spectra have no data and are left out"));
     SortByTime(series_);
@@ -62,8 +61,7 @@ class Reader {
       if (!line) return words_.lines().CutError();
       const std::vector<std::string_view> words = Words(*line);
       const auto x = ParseNumber(words[0]), y = words.size() > 1 ? ParseNumber(words[1]) : std::nullopt;
-      if (!x || !y)
-        return words_.lines().Error("does not begin with two coordinates; get another copy of the file");
+      if (!x || !y) return words_.lines().Error("does not begin with two coordinates; get another copy of the file");
       SeaPoint point{.name = words.size() > 2 ? std::string(words[2]) : std::string()};
       if (geographic) {
         point.longitude = *x;
@@ -88,8 +86,7 @@ class Reader {
     if (*largest - *least <= 2 * std::numbers::pi)
       return words_.lines().Error("the directions reach from ", *least, " to ", *largest,
                                   " degrees (a turn in radians is as wide); write directions in degrees");
-    for (double& direction : *directions)
-      direction = RadiansOfDegrees(cartesian ? 90 - direction : direction);
+    for (double& direction : *directions) direction = RadiansOfDegrees(cartesian ? 90 - direction : direction);
     absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*std::move(frequencies), *std::move(directions));
     if (!grid.ok()) return words_.lines().Error(grid.status().message());
     grid_ = *std::move(grid);
@@ -106,8 +103,7 @@ class Reader {
       if (!line) return words_.lines().CutError();
       const auto number = ParseNumber(Words(*line)[0]);
       if (!number)
-        return words_.lines().Error(Quoted(*line), " is not ", std::string(what),
-                                    "; get another copy of the file");
+        return words_.lines().Error(Quoted(*line), " is not ", std::string(what), "; get another copy of the file");
       axis.push_back(*number);
     }
     if (absl::Status status = NextKeyword(); !status.ok()) return status;
@@ -139,8 +135,7 @@ class Reader {
       std::optional<double> time;
       std::string_view first = Words(*line)[0];
       if (timed_) {
-        if (first.size() == 15 && first[8] == '.')
-          time = SecondsOfDigits(first.substr(0, 8), first.substr(9));
+        if (first.size() == 15 && first[8] == '.') time = SecondsOfDigits(first.substr(0, 8), first.substr(9));
         if (!time)
           return words_.lines().Error(
               Quoted(*line),
@@ -183,8 +178,7 @@ class Reader {
       record.waves = *std::move(waves);
     } else {
       return words_.lines().Error(
-          Quoted(keyword),
-          " begins no spectrum (expected FACTOR, ZERO or NODATA); get another copy of the file");
+          Quoted(keyword), " begins no spectrum (expected FACTOR, ZERO or NODATA); get another copy of the file");
     }
     values_ += 16 + std::get<BinnedWaves>(record.waves)->size() * (1 + 2 * kSeaHarmonics);
     if (values_ > kMaxSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");

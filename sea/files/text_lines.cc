@@ -62,8 +62,7 @@ std::optional<double> ParseNumber(std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::result_out_of_range)
-    return word.find_first_of("eE") != word.npos && word.find("-") != word.npos ? std::optional(0.0)
-                                                                                : std::nullopt;
+    return word.find_first_of("eE") != word.npos && word.find("-") != word.npos ? std::optional(0.0) : std::nullopt;
   if (error != std::errc()) return std::nullopt;
   const std::string_view rest(end, word.data() + word.size() - end);
   if (rest.empty()) return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -121,8 +120,7 @@ absl::StatusOr<std::vector<double>> WordStream::Numbers(std::size_t count, std::
     }
     const std::string_view word = words_[taken_++];
     const auto number = ParseNumber(word);
-    if (!number)
-      return lines_.Error(Quoted(word), " is not ", std::string(what), "; get another copy of the file");
+    if (!number) return lines_.Error(Quoted(word), " is not ", std::string(what), "; get another copy of the file");
     numbers.push_back(*number);
   }
   return numbers;

@@ -68,21 +68,19 @@ DirectionalEnergy DirectionalBins::Sum(std::span<const double> densities) const 
 }
 
 SpectralGrid::SpectralGrid(std::vector<double> frequencies, std::vector<double> directions)
-    : frequencies_(std::make_shared<const std::vector<double>>(std::move(frequencies))),
-      bins_(std::move(directions)) {}
+    : frequencies_(std::make_shared<const std::vector<double>>(std::move(frequencies))), bins_(std::move(directions)) {}
 
-absl::StatusOr<SpectralGrid> SpectralGrid::Make(std::vector<double> frequencies,
-                                                std::vector<double> directions) {
+absl::StatusOr<SpectralGrid> SpectralGrid::Make(std::vector<double> frequencies, std::vector<double> directions) {
   if (frequencies.size() < 2 || directions.size() < DirectionalBins::kFewest)
-    return absl::InvalidArgumentError(absl::StrCat(
-        "the spectra have ", frequencies.size(), " frequencies and ", directions.size(),
-        " directions (expected at least 2 and ", DirectionalBins::kFewest, "); write them with more"));
+    return absl::InvalidArgumentError(absl::StrCat("the spectra have ", frequencies.size(), " frequencies and ",
+                                                   directions.size(), " directions (expected at least 2 and ",
+                                                   DirectionalBins::kFewest, "); write them with more"));
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     const bool increases = i == 0 || frequencies[i] > frequencies[i - 1];
     if (!(increases && frequencies[i] >= kLowestFrequency && frequencies[i] <= kHighestFrequency))
-      return absl::InvalidArgumentError(
-          absl::StrCat("frequency ", i + 1, " is ", frequencies[i], " Hz (expected ", kLowestFrequency,
-                       " to ", kHighestFrequency, " Hz, increasing); get another copy of the file"));
+      return absl::InvalidArgumentError(absl::StrCat("frequency ", i + 1, " is ", frequencies[i], " Hz (expected ",
+                                                     kLowestFrequency, " to ", kHighestFrequency,
+                                                     " Hz, increasing); get another copy of the file"));
   }
   return SpectralGrid(std::move(frequencies), std::move(directions));
 }
@@ -96,19 +94,18 @@ absl::StatusOr<BinnedWaves> SpectralGrid::WavesOf(std::span<const double> densit
     for (std::size_t d = 0; d < d_count; ++d) {
       at_f[d] = densities[order == Order::kFrequencyFirst ? d * f_count + f : f * d_count + d];
       if (!(at_f[d] >= 0 && at_f[d] <= kMaxDensity))
-        return absl::InvalidArgumentError(absl::StrCat("the spectrum that ends here has a density of ",
-                                                       at_f[d], " m2/Hz/rad (expected 0 to ", kMaxDensity,
+        return absl::InvalidArgumentError(absl::StrCat("the spectrum that ends here has a density of ", at_f[d],
+                                                       " m2/Hz/rad (expected 0 to ", kMaxDensity,
                                                        "); get another copy of the file"));
     }
     energies.push_back(bins_.Sum(at_f));
   }
-  return std::make_shared<const BinnedSpectrum>(frequencies_, energies, bins_.harmonics(),
-                                                frequencies_->back());
+  return std::make_shared<const BinnedSpectrum>(frequencies_, energies, bins_.harmonics(), frequencies_->back());
 }
 
 BinnedWaves SpectralGrid::NoWaves() const {
-  return std::make_shared<const BinnedSpectrum>(
-      frequencies_, std::vector<DirectionalEnergy>(frequencies_->size()), 0, frequencies_->back());
+  return std::make_shared<const BinnedSpectrum>(frequencies_, std::vector<DirectionalEnergy>(frequencies_->size()), 0,
+                                                frequencies_->back());
 }
 
 namespace {
@@ -145,8 +142,7 @@ class Reader {
     if (words_.lines().cut()) return words_.lines().CutError();
     if (series_.records.empty())
       return absl::InvalidArgumentError("it has a header and no record; get another copy of the file");
-    series_.assumed.push_back(
-        "waves are taken from the model up to its highest frequency; currents are left out");
+    series_.assumed.push_back("waves are taken from the model up to its highest frequency; currents are left out");
     SortByTime(series_);
     return std::move(series_);
   }
@@ -156,13 +152,11 @@ class Reader {
     const auto line = words_.NextLine();
     if (!line) return words_.lines().CutError();
     if (!IsWw3Points(*line))
-      return words_.lines().Error(
-          "is not the title of WAVEWATCH III's point output; get another copy of the file");
+      return words_.lines().Error("is not the title of WAVEWATCH III's point output; get another copy of the file");
     const std::vector<std::string_view> counts = Words(line->substr(line->find(kTitle) + kTitle.size()));
     for (std::size_t i = 0; i < 3; ++i) {
       const auto count = i < counts.size() ? ParseCount(counts[i]) : std::nullopt;
-      if (!count || *count < 1 ||
-          static_cast<std::size_t>(*count) > (i == 2 ? kMaxSeaRecords : kMaxFrequencies))
+      if (!count || *count < 1 || static_cast<std::size_t>(*count) > (i == 2 ? kMaxSeaRecords : kMaxFrequencies))
         return words_.lines().Error(
             "does not state the numbers of frequencies, directions and points; get another copy of the file");
       (i == 0 ? frequencies_ : i == 1 ? directions_ : points_) = static_cast<std::size_t>(*count);
@@ -184,8 +178,7 @@ class Reader {
   absl::Status ReadTime(std::string_view line) {
     const std::vector<std::string_view> words = Words(line);
     const auto time = words.size() == 2 ? SecondsOfDigits(words[0], words[1]) : std::nullopt;
-    if (!time)
-      return words_.lines().Error(Quoted(line), " is no date and time; get another copy of the file");
+    if (!time) return words_.lines().Error(Quoted(line), " is no date and time; get another copy of the file");
     for (std::size_t i = 0; i < points_; ++i)
       if (absl::Status status = ReadPoint(*time); !status.ok()) return status;
     return absl::OkStatus();
@@ -206,12 +199,11 @@ class Reader {
     const std::string name(Words(line->substr(open + 1, close - open - 1)).empty()
                                ? std::string_view()
                                : line->substr(open + 1, close - open - 1));
-    SeaRecord record{
-        .time = time,
-        .point = PointNamed(name.substr(0, name.find_last_not_of(' ') + 1), numbers[0], numbers[1]),
-        .water_depth = numbers[2],
-        .wind_speed_10m = numbers[3],
-        .wind_from = RadiansOfDegrees(numbers[4])};
+    SeaRecord record{.time = time,
+                     .point = PointNamed(name.substr(0, name.find_last_not_of(' ') + 1), numbers[0], numbers[1]),
+                     .water_depth = numbers[2],
+                     .wind_speed_10m = numbers[3],
+                     .wind_from = RadiansOfDegrees(numbers[4])};
     const auto density = words_.Numbers(frequencies_ * directions_, "a spectral density");
     if (!density.ok()) return density.status();
     absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*density, SpectralGrid::Order::kFrequencyFirst);
@@ -224,8 +216,7 @@ class Reader {
   }
 
   std::size_t PointNamed(const std::string& name, double latitude, double longitude) {
-    const auto [found, added] =
-        numbers_.emplace(std::tuple(name, latitude, longitude), series_.points.size());
+    const auto [found, added] = numbers_.emplace(std::tuple(name, latitude, longitude), series_.points.size());
     if (added) series_.points.push_back({.name = name, .latitude = latitude, .longitude = longitude});
     return found->second;
   }

@@ -19,9 +19,7 @@ std::vector<QuadratureNode> NodesOf(int count, const Diagonal& a, const Beside& 
   for (int n = 1; n < count; ++n) jacobi(n, n - 1) = b(n);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
   std::vector<QuadratureNode> nodes;
-  for (int i = 0; i < count; ++i) {
-    nodes.push_back({solver.eigenvalues()[i], std::pow(solver.eigenvectors()(0, i), 2)});
-  }
+  for (int i = 0; i < count; ++i) nodes.push_back({solver.eigenvalues()[i], std::pow(solver.eigenvectors()(0, i), 2)});
   return nodes;
 }
 
@@ -30,16 +28,14 @@ double Zero(double) { return 0; }
 }  // namespace
 
 std::vector<QuadratureNode> GaussLegendre(int count, double begin, double end) {
-  std::vector<QuadratureNode> nodes =
-      NodesOf(count, Zero, [](double n) { return n / std::sqrt(4 * n * n - 1); });
-  for (QuadratureNode& node : nodes) {
-    node = {begin + (end - begin) * (1 + node.at) / 2, (end - begin) * node.weight};
-  }
+  std::vector<QuadratureNode> nodes = NodesOf(count, Zero, [](double n) { return n / std::sqrt(4 * n * n - 1); });
+  for (QuadratureNode& node : nodes) node = {begin + (end - begin) * (1 + node.at) / 2, (end - begin) * node.weight};
   return nodes;
 }
 
 std::vector<QuadratureNode> GaussHermite(int count) {
-  return NodesOf(count, Zero, [](double n) { return std::sqrt(n); });
+  return NodesOf(
+      count, Zero, [](double n) { return std::sqrt(n); });
 }
 
 std::vector<QuadratureNode> GaussLaguerre(int count) {
@@ -49,9 +45,8 @@ std::vector<QuadratureNode> GaussLaguerre(int count) {
 
 namespace {
 
-constexpr int kSamples = 16;  // of a step, for the means
-constexpr double kFarthest =
-    400;  // beyond it, twenty radians a step, the means of Bessel functions are taken as 0
+constexpr int kSamples = 16;       // of a step, for the means
+constexpr double kFarthest = 400;  // beyond it, twenty radians a step, the means of Bessel functions are taken as 0
 // Means below this are taken as 0: it is far below the last digit of a sum in single precision, and products of it with
 // spectra do not become denormal numbers, which are slow.
 constexpr double kLeast = 1e-14;
@@ -72,15 +67,13 @@ double Share(double u) {
 template <typename Function>
 Eigen::ArrayXf Means(double start, double step, int count, const Function& f) {
   Eigen::ArrayXd fine((count + 3) * kSamples + 1);
-  for (Eigen::Index i = 0; i < fine.size(); ++i) {
+  for (Eigen::Index i = 0; i < fine.size(); ++i)
     fine[i] = f(std::exp(start + step * (static_cast<double>(i) / kSamples - 2)));
-  }
   Eigen::ArrayXf means(count);
   for (int i = 0; i < count; ++i) {
     double sum = 0;
-    for (int j = -2 * kSamples + 1; j < 2 * kSamples; ++j) {
+    for (int j = -2 * kSamples + 1; j < 2 * kSamples; ++j)
       sum += Share(static_cast<double>(j) / kSamples) * fine[(i + 2) * kSamples + j];
-    }
     means[i] = std::abs(sum) < kLeast * kSamples ? 0 : static_cast<float>(sum / kSamples);
   }
   return means;
@@ -94,13 +87,14 @@ HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
   const int count = size() + static_cast<int>(std::log(kLongestLag / kShortestLag) / step_) + 1;
   const double start = std::log(wavenumbers.front() * kShortestLag);
   for (int order = 0; order < kOrders; ++order) {
-    bessel_.push_back(Means(start, step_, count, [order](double x) {
-      if (x > kFarthest) return 0.0;
-      return ::jn(order, x);
-    }));
+    bessel_.push_back(Means(
+        start, step_, count,
+        [order](double x) {
+          if (x > kFarthest) return 0.0;
+          return ::jn(order, x);
+        }));
   }
-  one_minus_bessel_ =
-      Means(start, step_, count, [](double x) { return x > kFarthest ? 1.0 : OneMinusJ0(x); });
+  one_minus_bessel_ = Means(start, step_, count, [](double x) { return x > kFarthest ? 1.0 : OneMinusJ0(x); });
 }
 
 const HankelLattice& HankelLattice::Shared() {
@@ -120,8 +114,7 @@ HankelLattice::Kernel HankelLattice::OneMinusBessel(int first, int count, int st
   return KernelOf(one_minus_bessel_, first, count, stride);
 }
 
-HankelLattice::Kernel HankelLattice::KernelOf(const Eigen::ArrayXf& means, int first, int count,
-                                              int stride) const {
+HankelLattice::Kernel HankelLattice::KernelOf(const Eigen::ArrayXf& means, int first, int count, int stride) const {
   assert(first >= 0 && first + (count - 1) * stride + size() <= means.size());
   return Kernel(means.data() + first, count, size(), Eigen::OuterStride<>(stride));
 }

@@ -41,8 +41,8 @@ class HankelLattice {
   // The rows are lags, `stride` steps apart from the lag `first` on; the columns are wavenumbers. Elements are means of
   // J_order over the wavenumbers about k_i, with the weight that cubic interpolation in ln k gives to the sample there:
   // they vanish where a step is longer than a period. Single precision is enough, because no element loses digits.
-  using Kernel = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
-                            Eigen::OuterStride<>>;
+  using Kernel =
+      Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0, Eigen::OuterStride<>>;
   Kernel Bessel(int order, int first, int count, int stride) const;
   // Of 1 - J_0, without cancellation at short lags.
   Kernel OneMinusBessel(int first, int count, int stride) const;

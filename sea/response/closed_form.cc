@@ -28,8 +28,8 @@ Eigen::Matrix2d TangentResponse(double incidence, double azimuth, double n) {
 // By central differences, whose error is some 1e-6 of the result.
 Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n) {
   constexpr double kStep = 1e-3;
-  const Eigen::Vector3d incident(std::sin(incidence) * std::cos(azimuth),
-                                 std::sin(incidence) * std::sin(azimuth), -std::cos(incidence));
+  const Eigen::Vector3d incident(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
+                                 -std::cos(incidence));
   const auto secant = [&](double x, double y) {
     return RefractAtSlope(incident, Eigen::Vector2d(x, y) * kStep, n).secant;
   };
@@ -44,8 +44,7 @@ EffectiveGains EffectiveGainsOf(double incidence, double refractive_index, const
   const Eigen::Vector3d incident(std::sin(incidence), 0, -std::cos(incidence));
   const double tau = std::tan(incidence);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(slopes);
-  const Eigen::Matrix2d deviation =
-      axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::Matrix2d deviation = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 
   // E_w[F(m + shift)] for shifts of -1, 0 and 1 steps along both axes: its derivatives by the shift at 0 are E_w of the
   // derivatives of F.
@@ -71,9 +70,8 @@ EffectiveGains EffectiveGainsOf(double incidence, double refractive_index, const
       }
     }
   }
-  for (auto& row : shifted) {
+  for (auto& row : shifted)
     for (Eigen::Vector3d& value : row) value /= weights;
-  }
 
   EffectiveGains gains;
   gains.mean = shifted[1][1];
@@ -89,14 +87,11 @@ EffectiveGains EffectiveGainsOf(double incidence, double refractive_index, const
   return gains;
 }
 
-std::string_view Name(BeamProfile profile) {
-  return profile == BeamProfile::kUniform ? "uniform" : "gaussian";
-}
+std::string_view Name(BeamProfile profile) { return profile == BeamProfile::kUniform ? "uniform" : "gaussian"; }
 
 std::optional<BeamProfile> FindBeamProfile(std::string_view name) {
-  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
+  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian})
     if (name == Name(profile)) return profile;
-  }
   return std::nullopt;
 }
 
@@ -129,9 +124,7 @@ double FootprintAverage(const BeamOptions& beam, double k, double psi) {
   const double along = k * std::cos(psi - beam.azimuth) / std::cos(beam.incidence);
   const double across = k * std::sin(psi - beam.azimuth);
   const double kappa = std::hypot(along, across);
-  if (beam.profile == BeamProfile::kGaussian) {
-    return std::exp(-kappa * kappa * beam.footprint * beam.footprint / 32);
-  }
+  if (beam.profile == BeamProfile::kGaussian) return std::exp(-kappa * kappa * beam.footprint * beam.footprint / 32);
   const double argument = kappa * beam.footprint / 2;
   if (argument < 1e-4) return 1;  // the next term of the series is -argument^2 / 8
   return 2 * ::j1(argument) / argument;
@@ -202,17 +195,14 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
   const Eigen::Matrix2d root = RootOf(resolved, 1e-3);  // of slope: far above rounding
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, 2> first = Eigen::Matrix<double, 3, 2>::Zero();
-  std::array<Eigen::Matrix2d, 3> second = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(),
-                                           Eigen::Matrix2d::Zero()};
+  std::array<Eigen::Matrix2d, 3> second = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
   for (const QuadratureNode& x : coarse) {
     for (const QuadratureNode& y : coarse) {
       const Eigen::Vector2d u(x.at, y.at);
       const Eigen::Vector3d share = x.weight * y.weight * change(root * u);
       mean += share;
       first += share * u.transpose();
-      for (int i = 0; i < 3; ++i) {
-        second[i] += share[i] * (u * u.transpose() - Eigen::Matrix2d::Identity());
-      }
+      for (int i = 0; i < 3; ++i) second[i] += share[i] * (u * u.transpose() - Eigen::Matrix2d::Identity());
     }
   }
   const Eigen::Matrix2d inverse = root.inverse();  // u of the slope

@@ -108,8 +108,7 @@ struct BeamOptions {
   double azimuth = 0;    // rad from downwind, of the horizontal direction of travel
   double footprint = 0;  // m, diameter at the mean surface, across the axis
   BeamProfile profile = BeamProfile::kUniform;
-  double source_height =
-      std::numeric_limits<double>::infinity();  // m above the water; infinity means collimated
+  double source_height = std::numeric_limits<double>::infinity();  // m above the water; infinity means collimated
 };
 
 // Lengths across the beam, in diameters, in the next three. See "The profile of a footprint" in docs/physics.md.

@@ -59,10 +59,8 @@ std::vector<LagRing> OverlapRings(BeamProfile profile, double diameter) {
                              FootprintKernel::kLagStride));
     }
   } else {
-    for (const auto& [x, weight] : GaussLegendre(24, 0, 2.2)) {
-      rings.push_back(
-          RingAt(diameter * x, scale * 8 * x * std::exp(-4 * x * x) * weight, FootprintKernel::kLagStride));
-    }
+    for (const auto& [x, weight] : GaussLegendre(24, 0, 2.2))
+      rings.push_back(RingAt(diameter * x, scale * 8 * x * std::exp(-4 * x * x) * weight, FootprintKernel::kLagStride));
   }
   return rings;
 }
@@ -70,9 +68,8 @@ std::vector<LagRing> OverlapRings(BeamProfile profile, double diameter) {
 std::vector<LagRing> IrradianceRings(BeamProfile profile, double diameter) {
   if (profile == BeamProfile::kUniform) return {RingAt(diameter / 2, 8 / (diameter * diameter), 1)};
   std::vector<LagRing> rings;
-  for (const auto& [y, weight] : GaussLaguerre(8)) {  // the power beyond the radius x is exp(-y), y = 8 x^2
+  for (const auto& [y, weight] : GaussLaguerre(8))  // the power beyond the radius x is exp(-y), y = 8 x^2
     rings.push_back(RingAt(diameter * std::sqrt(y / 8), 16 / (diameter * diameter) * weight, 1));
-  }
   return rings;
 }
 
@@ -101,9 +98,8 @@ FootprintKernel::FootprintKernel(BeamProfile profile, double diameter) {
   const double reach = profile == BeamProfile::kUniform ? diameter : 2.2 * diameter;
   assert(HankelLattice::kShortestLag < 0.1 * diameter && reach < 0.8 * HankelLattice::kLongestLag);
   average_.resize(lattice.size());
-  for (int i = 0; i < lattice.size(); ++i) {
+  for (int i = 0; i < lattice.size(); ++i)
     average_[i] = FootprintAverage({.footprint = diameter, .profile = profile}, lattice.wavenumbers()[i], 0);
-  }
   for (const LagRing& ring : IrradianceRings(profile, diameter))
     irradiance_rings_.push_back(OnSpectrum(ring, average_));
   const int lags = static_cast<int>(lattice.IndexOfLag(reach) / kLagStride) + 5;
@@ -112,8 +108,7 @@ FootprintKernel::FootprintKernel(BeamProfile profile, double diameter) {
     const double s = lattice.Lag(j * kLagStride);
     // The first lag stands for the disc within it, too.
     const double steps = j == 0 ? 0.5 * kLagStride * lattice.step() + 0.5 : kLagStride * lattice.step();
-    overlap_[j] =
-        2 * kPi * s * s * steps * 4 / (kPi * diameter * diameter) * FootprintOverlap(profile, s / diameter);
+    overlap_[j] = 2 * kPi * s * s * steps * 4 / (kPi * diameter * diameter) * FootprintOverlap(profile, s / diameter);
   }
   overlap_edge_ = overlap_edge_slope_ = Eigen::ArrayXd::Zero(lags);
   for (const LagRing& ring : OverlapRings(profile, diameter)) {

@@ -9,12 +9,11 @@ namespace {
 
 // d_x d_x of the covariance of the slopes averaged over the footprint: across the beam, in the order of LagProducts.
 Eigen::Array3d SecondDerivatives(const BeamSpectrum& spectrum, const FootprintKernel& footprint) {
-  const Eigen::ArrayXd weights =
-      footprint.average().square() * HankelLattice::Shared().wavenumbers().square();
+  const Eigen::ArrayXd weights = footprint.average().square() * HankelLattice::Shared().wavenumbers().square();
   const Eigen::Array3cd e = spectrum.slope.leftCols(3).transpose() * weights.matrix();
   // The means of cos^4, cos^3 sin and cos^2 sin^2 of psi.
-  return -Eigen::Array3d(3.0 / 8 * e[0].real() + e[1].real() / 2 + e[2].real() / 8,
-                         -e[1].imag() / 4 - e[2].imag() / 8, (e[0].real() - e[2].real()) / 8);
+  return -Eigen::Array3d(3.0 / 8 * e[0].real() + e[1].real() / 2 + e[2].real() / 8, -e[1].imag() / 4 - e[2].imag() / 8,
+                         (e[0].real() - e[2].real()) / 8);
 }
 
 Eigen::Matrix2d Symmetric(const Eigen::Array3d& elements) {
@@ -23,8 +22,8 @@ Eigen::Matrix2d Symmetric(const Eigen::Array3d& elements) {
 
 }  // namespace
 
-FootprintShift FootprintShiftOf(const BeamSpectrum& spectrum, const LagProducts& products,
-                                const Eigen::Matrix3d& pairs, const FootprintKernel& footprint) {
+FootprintShift FootprintShiftOf(const BeamSpectrum& spectrum, const LagProducts& products, const Eigen::Matrix3d& pairs,
+                                const FootprintKernel& footprint) {
   const Eigen::Index lags = footprint.overlap().size();
   const auto on_edge = [&](const Eigen::MatrixXd& values) {
     return Eigen::ArrayXd(values.topRows(lags).transpose() * footprint.overlap_edge().matrix());

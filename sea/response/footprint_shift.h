@@ -25,7 +25,7 @@ struct FootprintShift {
 // which needs no derivatives higher than the slopes'. In the second, D may be counted from its mean over the footprint,
 // which keeps the digits where the footprint is much longer than the waves and D hardly varies: the constant times the
 // mean of d_x d_x R_ab is a sum over the spectrum.
-FootprintShift FootprintShiftOf(const BeamSpectrum& spectrum, const LagProducts& products,
-                                const Eigen::Matrix3d& pairs, const FootprintKernel& footprint);
+FootprintShift FootprintShiftOf(const BeamSpectrum& spectrum, const LagProducts& products, const Eigen::Matrix3d& pairs,
+                                const FootprintKernel& footprint);
 
 }  // namespace albtpu

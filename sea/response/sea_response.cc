@@ -29,12 +29,10 @@ namespace {
 Eigen::Matrix3d RayCovariance(const EffectiveGains& gains, double incidence, const Eigen::Matrix2d& slopes,
                               const Eigen::Matrix3d& pairs, const FootprintShift& shift) {
   const double tau = std::tan(incidence);
-  const Eigen::Matrix2d first =
-      slopes + tau * tau * (Eigen::Matrix2d(pairs.topLeftCorner<2, 2>()) + shift.spread);
+  const Eigen::Matrix2d first = slopes + tau * tau * (Eigen::Matrix2d(pairs.topLeftCorner<2, 2>()) + shift.spread);
   Eigen::Matrix<double, 3, 2> bent;  // the rows H_i contracted with the drift
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     bent.row(i) = shift.drift[0] * gains.curvature[i].col(0) + shift.drift[1] * gains.curvature[i].col(1);
-  }
   const Eigen::Matrix3d cross = -tau * gains.gain * bent.transpose();
   Eigen::Matrix3d covariance = gains.gain * first * gains.gain.transpose() + cross + cross.transpose();
   for (int i = 0; i < 3; ++i) {
@@ -54,17 +52,14 @@ SeaResponse::SeaResponse(const HarmonicSpectrum& spectrum, double refractive_ind
 
 BeamResponse SeaResponse::operator()(const BeamOptions& beam) const {
   assert(std::isinf(beam.source_height));
-  return AlongDirection(beam.incidence, beam.azimuth, {FootprintKernel(beam.profile, beam.footprint)})
-      .front();
+  return AlongDirection(beam.incidence, beam.azimuth, {FootprintKernel(beam.profile, beam.footprint)}).front();
 }
 
 std::vector<BeamResponse> SeaResponse::AlongDirection(double incidence, double azimuth,
                                                       const std::vector<FootprintKernel>& footprints) const {
   const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth));
-  const Eigen::Matrix2d axes =
-      (Eigen::Matrix2d() << along, Eigen::Vector2d(-along.y(), along.x())).finished();
-  const EffectiveGains gains =
-      EffectiveGainsOf(incidence, refractive_index_, axes.transpose() * slopes_ * axes);
+  const Eigen::Matrix2d axes = (Eigen::Matrix2d() << along, Eigen::Vector2d(-along.y(), along.x())).finished();
+  const EffectiveGains gains = EffectiveGainsOf(incidence, refractive_index_, axes.transpose() * slopes_ * axes);
   const BeamSpectrum spectrum = spectrum_.AcrossBeam(incidence, azimuth);
   Eigen::Index lags = 0;
   for (const FootprintKernel& footprint : footprints) lags = std::max(lags, footprint.overlap().size());

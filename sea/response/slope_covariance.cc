@@ -83,8 +83,8 @@ BeamSpectrum SlopeSpectrum::AcrossBeam(double incidence, double azimuth) const {
     // Cubic interpolation between the four samples at k / kappa steps before.
     const int whole = static_cast<int>(shift[j]);
     const double t = shift[j] - whole;
-    const double weights[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-                              -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+    const double weights[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+                              (t + 1) * t * (t - 1) / 6};
     for (int i = 0; i < 4; ++i) {
       const Eigen::Index behind = whole + i - 1;
       const Eigen::Index to = std::max<Eigen::Index>(behind, 0), from = std::max<Eigen::Index>(-behind, 0);
@@ -180,12 +180,11 @@ LagProducts::LagProducts(const LagCovariances& r) {
   const Eigen::VectorXd turned = mean.array() * (2 * r.directions).cos();
 
   slope_pairs.resize(lags, 6);
-  for (int a = 0, pair = 0; a < 3; ++a) {
+  for (int a = 0, pair = 0; a < 3; ++a)
     for (int b = a; b < 3; ++b) slope_pairs.col(pair++) = (*slope[a] * *slope[b]).matrix() * mean;
-  }
   Eigen::MatrixXd normals(r.directions.size(), 3);
-  normals << mean.array() * r.directions.cos().square(),
-      mean.array() * (r.directions.cos() * r.directions.sin()), mean.array() * r.directions.sin().square();
+  normals << mean.array() * r.directions.cos().square(), mean.array() * (r.directions.cos() * r.directions.sin()),
+      mean.array() * r.directions.sin().square();
   squared_heights = r.height.square().matrix() * normals;
   slopes.resize(lags, 3);
   turned_slopes = height_slopes = turned_height_slopes = slopes;
@@ -226,29 +225,25 @@ Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagPro
   const auto squares = products.squared_heights.topRows(footprint.overlap().size());
   const Eigen::Array3d on_edge = squares.transpose() * footprint.overlap_edge().matrix();
   const double difference = on_edge[0] - on_edge[2];
-  const Eigen::Array3d of_pairs =
-      Eigen::Array3d(difference, 2 * on_edge[1], -difference) +
-      Eigen::Array3d(squares.transpose() * footprint.overlap_edge_slope().matrix());
+  const Eigen::Array3d of_pairs = Eigen::Array3d(difference, 2 * on_edge[1], -difference) +
+                                  Eigen::Array3d(squares.transpose() * footprint.overlap_edge_slope().matrix());
 
   Eigen::Array3d of_points = Eigen::Array3d::Zero();
   const Eigen::Index harmonics = spectrum.slope.cols();
   for (const SpectrumRing& ring : footprint.irradiance_rings()) {
     const auto at = [&](const Eigen::MatrixXd& kernel) {
-      return Eigen::VectorXcd(
-          kernel.leftCols(harmonics).cwiseProduct(spectrum.slope).colwise().sum().transpose());
+      return Eigen::VectorXcd(kernel.leftCols(harmonics).cwiseProduct(spectrum.slope).colwise().sum().transpose());
     };
     of_points += ring.weight * RingOfSquare(at(ring.value), at(ring.slope));
   }
 
   const double cosine = std::cos(spectrum.incidence);
   const Eigen::Array3d sum = (of_points - 0.5 * of_pairs) * Eigen::Array3d(cosine * cosine, cosine, 1);
-  const Eigen::Matrix2d covariance =
-      (Eigen::Matrix2d() << sum[0], sum[1], sum[1], sum[2]).finished() -
-      HeightDifference(spectrum, footprint) * FootprintSlopes(spectrum, footprint);
+  const Eigen::Matrix2d covariance = (Eigen::Matrix2d() << sum[0], sum[1], sum[1], sum[2]).finished() -
+                                     HeightDifference(spectrum, footprint) * FootprintSlopes(spectrum, footprint);
   // Under long waves the three means cancel to within the errors of their quadrature.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
-         solver.eigenvectors().transpose();
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() * solver.eigenvectors().transpose();
 }
 
 namespace {
@@ -259,8 +254,7 @@ int Element(int a, int b) { return a + b; }
 }  // namespace
 
 Eigen::Matrix2d FootprintSlopes(const BeamSpectrum& spectrum, const FootprintKernel& footprint) {
-  const Eigen::VectorXcd sums =
-      spectrum.slope.leftCols(2).transpose() * footprint.average().square().matrix();
+  const Eigen::VectorXcd sums = spectrum.slope.leftCols(2).transpose() * footprint.average().square().matrix();
   const double cosine = std::cos(spectrum.incidence);
   const double along = 0.5 * (sums[0] + sums[1]).real() * cosine * cosine;
   const double across = 0.5 * (sums[0] - sums[1]).real(), both = -0.5 * sums[1].imag() * cosine;
@@ -289,9 +283,8 @@ double MeanOfForms(const Eigen::Matrix2d& g, const Eigen::Matrix2d& h, const Eig
   double sum = 0;
   for (int a = 0; a < 2; ++a) {
     for (int b = 0; b < 2; ++b) {
-      for (int c = 0; c < 2; ++c) {
+      for (int c = 0; c < 2; ++c)
         for (int d = 0; d < 2; ++d) sum += g(a, b) * h(c, d) * pairs(Element(b, c), Element(d, a));
-      }
     }
   }
   return sum;

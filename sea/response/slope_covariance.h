@@ -39,8 +39,7 @@ class SlopeSpectrum {
 
  private:
   int harmonics_;
-  Eigen::MatrixXd
-      power_;  // step k^2 P(ln k, psi): the mean, then the factors of cos(2 n psi) and sin(2 n psi)
+  Eigen::MatrixXd power_;  // step k^2 P(ln k, psi): the mean, then the factors of cos(2 n psi) and sin(2 n psi)
 };
 
 // Covariances of the water's slopes and heights between two points, by the vector between them.

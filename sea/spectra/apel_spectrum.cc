@@ -58,9 +58,7 @@ WavenumberRange ApelSpectrum::energetic_range() const {
   return {0.3 * k_p_, 2 * kDissipation};
 }
 
-std::string ApelSpectrum::name() const {
-  return "Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading";
-}
+std::string ApelSpectrum::name() const { return "Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading"; }
 
 std::string ApelSpectrum::reference() const { return "Apel (1994), doi:10.1029/94JC00846"; }
 

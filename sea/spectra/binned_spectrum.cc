@@ -8,8 +8,7 @@
 namespace albtpu {
 
 BinnedSpectrum::BinnedSpectrum(std::shared_ptr<const std::vector<double>> centres,
-                               const std::vector<DirectionalEnergy>& bins, std::size_t harmonics,
-                               double trusted_up_to)
+                               const std::vector<DirectionalEnergy>& bins, std::size_t harmonics, double trusted_up_to)
     : centres_(std::move(centres)), harmonics_(harmonics), trusted_up_to_(trusted_up_to) {
   assert(centres_->size() >= 2 && bins.size() == centres_->size() && harmonics <= kSeaHarmonics);
   assert(centres_->front() > 0 && trusted_up_to > 0);
@@ -53,8 +52,7 @@ std::vector<double> BinnedSpectrum::ComparedFrequencies(double lowest, double hi
   std::vector<double> compared;
   for (std::size_t i = 0; i < size(); ++i) {
     const double f = centre(i);
-    if (f >= lowest * (1 - kRounding) && f <= highest * (1 + kRounding) && bin(i).energy > 0)
-      compared.push_back(f);
+    if (f >= lowest * (1 - kRounding) && f <= highest * (1 + kRounding) && bin(i).energy > 0) compared.push_back(f);
   }
   return compared;
 }

@@ -13,8 +13,8 @@ class BinnedSpectrum final : public FrequencySpectrum {
  public:
   // `centres` [Hz] are above 0 and increase, at least two; all records of a file share them. `bins` has as many
   // entries, of which the first `harmonics` harmonics are kept.
-  BinnedSpectrum(std::shared_ptr<const std::vector<double>> centres,
-                 const std::vector<DirectionalEnergy>& bins, std::size_t harmonics, double trusted_up_to);
+  BinnedSpectrum(std::shared_ptr<const std::vector<double>> centres, const std::vector<DirectionalEnergy>& bins,
+                 std::size_t harmonics, double trusted_up_to);
 
   std::size_t size() const { return centres_->size(); }
   double centre(std::size_t i) const { return (*centres_)[i]; }

@@ -15,16 +15,14 @@ constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 double WindSpeed(const SeaDescription& description, SeaAssumptions& assumed) {
   if (description.wind_speed_10m) return *description.wind_speed_10m;
-  const auto friction_velocity =
-      description.waves ? EquilibriumFrictionVelocity(*description.waves) : std::nullopt;
+  const auto friction_velocity = description.waves ? EquilibriumFrictionVelocity(*description.waves) : std::nullopt;
   assumed.wind_speed_from_waves = friction_velocity.has_value();
   assumed.wind_unknown = !friction_velocity;
   return WindSpeedOfFrictionVelocity(friction_velocity.value_or(0));
 }
 
 // The downwind direction; in a calm the direction of travel of the first waves.
-double XAzimuth(const SeaDescription& description, double wind_speed, double tail_from,
-                SeaAssumptions& assumed) {
+double XAzimuth(const SeaDescription& description, double wind_speed, double tail_from, SeaAssumptions& assumed) {
   if (wind_speed > 0 && description.wind_from) return *description.wind_from + std::numbers::pi;
   if (!description.waves) return 0;
   if (wind_speed == 0) return description.waves->leading_axis();

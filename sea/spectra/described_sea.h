@@ -26,8 +26,7 @@ struct SeaDescription {
 // The assumptions that were made where the description is silent.
 struct SeaAssumptions {
   bool wind_speed_from_waves = false;
-  bool wind_unknown =
-      false;  // the waves do not reach the frequencies from which the wind is derived: taken as calm
+  bool wind_unknown = false;  // the waves do not reach the frequencies from which the wind is derived: taken as calm
   bool wind_direction_from_waves = false;
   bool tail_from_of_waves = false;
   bool level_held = false;     // q lay outside 0.5 to 2

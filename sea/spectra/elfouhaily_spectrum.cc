@@ -57,8 +57,8 @@ double ElfouhailySpectrum::operator()(double k) const {
   // Eq. 40, 41. As printed B_h has no cut-off below the peak, so the integral of S diverges at k = 0: here it
   // takes that of Pierson and Moskowitz, as in McDaniel (2001). Some authors also apply the peak enhancement, which
   // changes S only where B_h is negligible.
-  const double short_waves = 0.5 * alpha_m_ * kMinPhaseSpeed / c * pierson_moskowitz *
-                             std::exp(-0.25 * Square(k / kGravityCapillary - 1));
+  const double short_waves =
+      0.5 * alpha_m_ * kMinPhaseSpeed / c * pierson_moskowitz * std::exp(-0.25 * Square(k / kGravityCapillary - 1));
   return (long_waves + short_waves) / (k * k * k);
 }
 
@@ -67,8 +67,7 @@ double ElfouhailySpectrum::Delta(double k) const {
   // waves along the wind to waves across it is exp(ln(2) / 2) = sqrt(2).
   const double c = PhaseSpeed(k);
   const double a_m = 0.13 * friction_velocity_ / kMinPhaseSpeed;
-  return std::tanh(std::numbers::ln2 / 4 + 4 * std::pow(c / c_p_, 2.5) +
-                   a_m * std::pow(kMinPhaseSpeed / c, 2.5));
+  return std::tanh(std::numbers::ln2 / 4 + 4 * std::pow(c / c_p_, 2.5) + a_m * std::pow(kMinPhaseSpeed / c, 2.5));
 }
 
 double ElfouhailySpectrum::Spreading(double k, double psi) const {

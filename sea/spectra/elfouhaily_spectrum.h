@@ -51,8 +51,7 @@ inline constexpr SpectrumModel kElfouhailyModel = {
     .author = "Elfouhaily",
     .takes_spreading = false,
     .fully_developed_fetch = ElfouhailySpectrum::FullyDevelopedFetch,
-    .make = [](double wind_speed_10m, double fetch,
-               const Cosine2sSpreading&) -> std::shared_ptr<const WaveSpectrum> {
+    .make = [](double wind_speed_10m, double fetch, const Cosine2sSpreading&) -> std::shared_ptr<const WaveSpectrum> {
       return std::make_shared<ElfouhailySpectrum>(wind_speed_10m, fetch);
     }};
 

@@ -17,8 +17,7 @@ DirectionalEnergy& DirectionalEnergy::Add(const DirectionalEnergy& other, double
 
 double DirectionalEnergy::PrincipalAxis() const { return 0.5 * std::atan2(sine[0], cosine[0]); }
 
-DirectionalEnergy SymmetricEnergy(double energy, const std::array<double, kSeaHarmonics>& means,
-                                  double axis) {
+DirectionalEnergy SymmetricEnergy(double energy, const std::array<double, kSeaHarmonics>& means, double axis) {
   DirectionalEnergy result{.energy = energy};
   for (std::size_t n = 0; n < kSeaHarmonics; ++n) {
     const double angle = 2 * static_cast<double>(n + 1) * axis;

@@ -28,8 +28,7 @@ std::vector<double> CosinesOfTurn(std::size_t fractions) {
   return cosines;
 }
 
-Harmonics HarmonicsAt(const WaveSpectrum& spectrum, double k, std::size_t count,
-                      const std::vector<double>& cosines) {
+Harmonics HarmonicsAt(const WaveSpectrum& spectrum, double k, std::size_t count, const std::vector<double>& cosines) {
   const std::size_t directions = cosines.size();
   assert(2 * count < directions / 2);
   Harmonics sums{std::vector<double>(count), std::vector<double>(count)};
@@ -63,8 +62,7 @@ std::vector<double> SeaWavenumbers() {
   return k;
 }
 
-HarmonicSpectrum Sampled(const WaveSpectrum& spectrum, const std::vector<double>& wavenumbers,
-                         std::size_t harmonics) {
+HarmonicSpectrum Sampled(const WaveSpectrum& spectrum, const std::vector<double>& wavenumbers, std::size_t harmonics) {
   HarmonicSpectrum sampled;
   sampled.k = wavenumbers;
   sampled.a.assign(harmonics, std::vector<double>(wavenumbers.size()));
@@ -123,8 +121,7 @@ HarmonicSpectrum Rotated(HarmonicSpectrum spectrum, double angle) {
   return spectrum;
 }
 
-HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const HarmonicSpectrum& b,
-                             double weight_b) {
+HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const HarmonicSpectrum& b, double weight_b) {
   assert(a.k == b.k && weight_a >= 0 && weight_b >= 0);
   HarmonicSpectrum sum = FlatSea(a.k, std::max(a.harmonics(), b.harmonics()));
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -133,8 +130,7 @@ HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const H
     if (!(sum.s[i] > 0)) continue;
     for (std::size_t n = 0; n < sum.harmonics(); ++n) {
       const auto mean = [&](const auto& of_a, const auto& of_b) {
-        return ((n < of_a.size() ? s_a * of_a[n][i] : 0) + (n < of_b.size() ? s_b * of_b[n][i] : 0)) /
-               sum.s[i];
+        return ((n < of_a.size() ? s_a * of_a[n][i] : 0) + (n < of_b.size() ? s_b * of_b[n][i] : 0)) / sum.s[i];
       };
       sum.a[n][i] = mean(a.a, b.a);
       sum.b[n][i] = mean(a.b, b.b);

@@ -35,8 +35,7 @@ inline constexpr std::size_t kSeaHarmonics = 6;
 std::vector<double> SeaWavenumbers();
 
 // The samples of a spectrum of the wind sea, with `harmonics` harmonics.
-HarmonicSpectrum Sampled(const WaveSpectrum& spectrum, const std::vector<double>& wavenumbers,
-                         std::size_t harmonics);
+HarmonicSpectrum Sampled(const WaveSpectrum& spectrum, const std::vector<double>& wavenumbers, std::size_t harmonics);
 
 // A sea without waves.
 HarmonicSpectrum FlatSea(const std::vector<double>& wavenumbers, std::size_t harmonics);
@@ -49,7 +48,6 @@ HarmonicSpectrum Rotated(HarmonicSpectrum spectrum, double angle);
 
 // weight_a * a + weight_b * b: the sum of independent waves (1, 1), or a state between two times (1 - t, t). Both have
 // the same wavenumbers; missing harmonics count as 0. Weights are not negative.
-HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const HarmonicSpectrum& b,
-                             double weight_b);
+HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const HarmonicSpectrum& b, double weight_b);
 
 }  // namespace albtpu

@@ -24,8 +24,7 @@ double DepthFactor(double f, double depth) {
 double Shape(double x, double gamma) {
   const double sigma = x <= 1 ? 0.07 : 0.09;
   const double from_peak = (x - 1) / sigma;
-  return std::pow(x, -5) * std::exp(-1.25 * std::pow(x, -4)) *
-         std::pow(gamma, std::exp(-0.5 * from_peak * from_peak));
+  return std::pow(x, -5) * std::exp(-1.25 * std::pow(x, -4)) * std::pow(gamma, std::exp(-0.5 * from_peak * from_peak));
 }
 
 // The integral of Shape(x) DepthFactor(x fp) dx over all x by the trapezoidal rule in log x, with a node at the peak,
@@ -46,9 +45,9 @@ double IntegralOfShape(const JonswapWaves& waves, double depth) {
 }
 
 const JonswapWaves& OfShortestPeriod(const std::vector<JonswapWaves>& waves) {
-  return *std::min_element(waves.begin(), waves.end(), [](const JonswapWaves& a, const JonswapWaves& b) {
-    return a.peak_period < b.peak_period;
-  });
+  return *std::min_element(
+      waves.begin(), waves.end(),
+      [](const JonswapWaves& a, const JonswapWaves& b) { return a.peak_period < b.peak_period; });
 }
 
 }  // namespace
@@ -84,9 +83,7 @@ std::vector<double> JonswapSpectrum::ComparedFrequencies(double lowest, double h
   return compared;
 }
 
-double JonswapSpectrum::trusted_up_to() const {
-  return std::max(0.4, 2.5 / OfShortestPeriod(waves_).peak_period);
-}
+double JonswapSpectrum::trusted_up_to() const { return std::max(0.4, 2.5 / OfShortestPeriod(waves_).peak_period); }
 
 double JonswapSpectrum::significant_wave_height() const {
   double squares = 0;

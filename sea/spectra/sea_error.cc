@@ -46,13 +46,12 @@ SeaError SeaErrors::operator()(const std::function<double(double k)>& weight) co
   const double v = WeightedSlopeVariance(spectrum_, weight);
   if (!(v > 0)) return error;
   double sampling = 0;  // the variance of V that comes from the bins
-  for (const Bin& bin : bins_)
-    sampling += bin.relative_variance * std::pow(weight(bin.k) * bin.slope_variance, 2);
+  for (const Bin& bin : bins_) sampling += bin.relative_variance * std::pow(weight(bin.k) * bin.slope_variance, 2);
   error.sampling = std::sqrt(sampling) / v;
   if (with_wind_tail_) {
-    error.tail = 0.5 / v *
-                 std::abs(WeightedSlopeVariance(*with_wind_tail_, weight) -
-                          WeightedSlopeVariance(*with_level_tail_, weight));
+    error.tail =
+        0.5 / v *
+        std::abs(WeightedSlopeVariance(*with_wind_tail_, weight) - WeightedSlopeVariance(*with_level_tail_, weight));
   }
   error.total = std::hypot(error.sampling, error.tail);
   return error;

@@ -28,9 +28,8 @@ std::string_view Name(TailRule rule) {
 }
 
 std::optional<TailRule> FindTailRule(std::string_view name) {
-  for (const TailRule rule : kTailRules) {
+  for (const TailRule rule : kTailRules)
     if (name == Name(rule)) return rule;
-  }
   return std::nullopt;
 }
 

@@ -25,9 +25,7 @@ constexpr double kAll = std::numeric_limits<double>::infinity();
 
 double ElevationVariance(const HarmonicSpectrum& spectrum) { return Moment(spectrum, 0, kAll); }
 
-double SignificantWaveHeight(const HarmonicSpectrum& spectrum) {
-  return 4 * std::sqrt(ElevationVariance(spectrum));
-}
+double SignificantWaveHeight(const HarmonicSpectrum& spectrum) { return 4 * std::sqrt(ElevationVariance(spectrum)); }
 
 double MeanSquareSlope(const HarmonicSpectrum& spectrum) { return Moment(spectrum, 2, kAll); }
 

@@ -18,8 +18,7 @@ double LogGamma(double x) {
 
 Cosine2sSpreading::Cosine2sSpreading(double s)
     : s_(s),
-      normalization_(std::exp2(2 * s - 1) / std::numbers::pi *
-                     std::exp(2 * LogGamma(s + 1) - LogGamma(2 * s + 1))) {
+      normalization_(std::exp2(2 * s - 1) / std::numbers::pi * std::exp(2 * LogGamma(s + 1) - LogGamma(2 * s + 1))) {
   assert(s > 0);
 }
 
@@ -28,8 +27,7 @@ double Cosine2sSpreading::operator()(double psi) const {
 }
 
 JonswapPeak::JonswapPeak(double omega)
-    : gamma_(1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0))),
-      sigma_(0.08 * (1 + 4 / (omega * omega * omega))) {}
+    : gamma_(1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0))), sigma_(0.08 * (1 + 4 / (omega * omega * omega))) {}
 
 double JonswapPeak::operator()(double ratio) const {
   const double from_peak = std::sqrt(ratio) - 1;

@@ -34,8 +34,7 @@ struct SpectrumModel {
 
   // The spectrum for a wind [m/s, above 0] and a fetch [m, above 0; infinity means fully developed]. A model that
   // does not take a spreading ignores the one given.
-  std::shared_ptr<const WaveSpectrum> (*make)(double wind_speed_10m, double fetch,
-                                              const Cosine2sSpreading& spreading);
+  std::shared_ptr<const WaveSpectrum> (*make)(double wind_speed_10m, double fetch, const Cosine2sSpreading& spreading);
 };
 
 // The inverse wave age (wind speed over the phase speed at the peak) of the fully developed sea; Elfouhaily et al.

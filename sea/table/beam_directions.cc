@@ -15,9 +15,7 @@ constexpr int kAzimuths = 5;    // odd, so that all harmonics come in pairs
 double SquaredTangent(double angle) { return std::pow(std::tan(angle), 2); }
 
 // From 0 to `largest`: the extrema of Chebyshev's polynomial.
-double ChebyshevNode(int i, double largest) {
-  return largest * (1 - std::cos(kPi * i / (kIncidences - 1))) / 2;
-}
+double ChebyshevNode(int i, double largest) { return largest * (1 - std::cos(kPi * i / (kIncidences - 1))) / 2; }
 
 // The weight of the node `i` at `x` in the polynomial through the nodes from `first` on.
 double LagrangeWeight(int i, int first, double x, double largest) {
@@ -48,16 +46,15 @@ Eigen::Matrix2d BeamAxes(double azimuth) {
 
 Eigen::Matrix<double, kEvenParts, 1> EvenParts(const BeamResponse& beam) {
   const Eigen::Matrix3d &k = beam.covariance_per_depth, &s = beam.covariance_at_surface;
-  return (Eigen::Matrix<double, kEvenParts, 1>() << k(0, 0), k(0, 1), k(1, 1), k(2, 2), s(0, 0), s(0, 1),
-          s(1, 1), s(2, 2), beam.mean_per_depth.z())
+  return (Eigen::Matrix<double, kEvenParts, 1>() << k(0, 0), k(0, 1), k(1, 1), k(2, 2), s(0, 0), s(0, 1), s(1, 1),
+          s(2, 2), beam.mean_per_depth.z())
       .finished();
 }
 
 Eigen::Matrix<double, kOddParts, 1> OddParts(const BeamResponse& beam, double azimuth) {
   const Eigen::Matrix2d to_beam = BeamAxes(azimuth).transpose();
   return (Eigen::Matrix<double, kOddParts, 1>() << to_beam * beam.covariance_per_depth.topRightCorner<2, 1>(),
-          to_beam * beam.covariance_at_surface.topRightCorner<2, 1>(),
-          to_beam * beam.mean_per_depth.head<2>())
+          to_beam * beam.covariance_at_surface.topRightCorner<2, 1>(), to_beam * beam.mean_per_depth.head<2>())
       .finished();
 }
 
@@ -69,10 +66,8 @@ template <typename Even, typename Odd>
 BeamResponse FromParts(const Even& even, const Odd& odd, double azimuth) {
   const Eigen::Matrix2d axes = BeamAxes(azimuth);
   BeamResponse beam;
-  beam.covariance_per_depth =
-      Covariance(even[0], even[1], even[2], even[3], axes * odd.segment(0, 2).transpose());
-  beam.covariance_at_surface =
-      Covariance(even[4], even[5], even[6], even[7], axes * odd.segment(2, 2).transpose());
+  beam.covariance_per_depth = Covariance(even[0], even[1], even[2], even[3], axes * odd.segment(0, 2).transpose());
+  beam.covariance_at_surface = Covariance(even[4], even[5], even[6], even[7], axes * odd.segment(2, 2).transpose());
   beam.mean_per_depth << axes * odd.segment(4, 2).transpose(), even[8];
   beam.azimuth = axes.col(0);
   return beam;
@@ -81,15 +76,13 @@ BeamResponse FromParts(const Even& even, const Odd& odd, double azimuth) {
 }  // namespace
 
 BeamDirections::BeamDirections(const std::vector<double>& incidences, const std::vector<double>& azimuths) {
-  for (const double incidence : incidences) {
+  for (const double incidence : incidences)
     for (const double azimuth : azimuths) wanted_.push_back({incidence, azimuth});
-  }
   const double largest = SquaredTangent(*std::max_element(incidences.begin(), incidences.end()));
   assert(largest > 0);
-  for (int i = 0; i < kIncidences; ++i) {
+  for (int i = 0; i < kIncidences; ++i)
     for (int j = 0; j < kAzimuths; ++j)
       traced_.push_back({std::atan(std::sqrt(ChebyshevNode(i, largest))), kPi * j / kAzimuths});
-  }
   even_.resize(wanted_.size(), traced_.size());
   odd_ = even_;
   for (std::size_t w = 0; w < wanted_.size(); ++w) {

@@ -24,8 +24,7 @@ class BeamDirections {
   std::size_t size() const { return wanted_.size(); }
 
   // By (incidence, azimuth, footprint), the last fastest.
-  std::vector<BeamResponse> ResponsesOf(const SeaResponse& sea,
-                                        const std::vector<FootprintKernel>& footprints) const;
+  std::vector<BeamResponse> ResponsesOf(const SeaResponse& sea, const std::vector<FootprintKernel>& footprints) const;
 
  private:
   struct Direction {

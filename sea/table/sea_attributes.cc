@@ -35,8 +35,7 @@ std::vector<std::string> Sentences(const SeaAssumptions& assumed) {
     if (is_assumed) sentences.emplace_back(sentence);
   };
   add_if(assumed.wind_speed_from_waves, "the wind speed is derived from the shortest measured waves");
-  add_if(assumed.wind_unknown,
-         "the wind is not known and cannot be derived from the waves: it is taken as calm");
+  add_if(assumed.wind_unknown, "the wind is not known and cannot be derived from the waves: it is taken as calm");
   add_if(assumed.wind_direction_from_waves, "the wind blows along the shortest measured waves");
   add_if(assumed.tail_from_of_waves, "the tail begins where the waves are trusted up to");
   add_if(assumed.level_held,
@@ -48,9 +47,7 @@ std::vector<std::string> Sentences(const SeaAssumptions& assumed) {
 
 std::map<std::string, AttributeValue> AttributesOf(const DescribedSea& sea, std::optional<TailRule> tail) {
   std::map<std::string, AttributeValue> attributes;
-  const auto add = [&](std::string_view name, AttributeValue value) {
-    attributes.emplace(name, std::move(value));
-  };
+  const auto add = [&](std::string_view name, AttributeValue value) { attributes.emplace(name, std::move(value)); };
   add(sea_attribute::kXAzimuth, DegreesOfRadians(sea.x_azimuth));
   add(sea_attribute::kSignificantWaveHeight, SignificantWaveHeight(sea.spectrum));
   add(sea_attribute::kWindSpeed, sea.wind_speed_10m);

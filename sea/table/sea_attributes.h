@@ -15,16 +15,15 @@ namespace albtpu {
 
 // The attributes of these tables, beside those that all tables have (FORMAT.md).
 namespace sea_attribute {
-inline constexpr std::string_view kXAzimuth = "x_azimuth";  // degree, of the compass
+inline constexpr std::string_view kXAzimuth = "x_azimuth";                             // degree, of the compass
 inline constexpr std::string_view kSignificantWaveHeight = "significant_wave_height";  // m
 inline constexpr std::string_view kWindSpeed = "wind_speed_10m";                       // m/s
-inline constexpr std::string_view kWindSource =
-    "wind_source";  // "told" (given), "waves" or "unknown" (a calm)
+inline constexpr std::string_view kWindSource = "wind_source";        // "told" (given), "waves" or "unknown" (a calm)
 inline constexpr std::string_view kWaterDepth = "water_depth";        // m; absent in deep water
 inline constexpr std::string_view kTail = "tail";                     // Name(TailRule); absent without one
 inline constexpr std::string_view kTailFrom = "tail_from";            // Hz; absent without resolved waves
 inline constexpr std::string_view kShareMeasured = "share_measured";  // ShareMeasured()
-inline constexpr std::string_view kAssumptions = "assumptions";  // Sentences(), a line each; absent if none
+inline constexpr std::string_view kAssumptions = "assumptions";       // Sentences(), a line each; absent if none
 }  // namespace sea_attribute
 
 // The azimuth in the table [degree] of a beam that travels towards `compass_azimuth` [degree], over a sea whose x axis

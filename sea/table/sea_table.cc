@@ -38,9 +38,8 @@ HarmonicSpectrum WithoutEmptyHarmonics(HarmonicSpectrum spectrum) {
 
 SeaTableOptions WithRoundedNodes(SeaTableOptions options) {
   SeaTableNodes& nodes = options.nodes;
-  for (std::vector<double>* axis : {&nodes.incidences, &nodes.azimuths, &nodes.footprints, &nodes.depths}) {
+  for (std::vector<double>* axis : {&nodes.incidences, &nodes.azimuths, &nodes.footprints, &nodes.depths})
     for (double& node : *axis) node = static_cast<float>(node);
-  }
   return options;
 }
 
@@ -73,13 +72,11 @@ Estimate Scaled(double value, double relative) { return {value, relative * std::
 std::string CampaignText(const std::map<std::string, AttributeValue>& sea, const SeaTableOptions& options) {
   std::string text = absl::StrFormat("refractive_index = %.17g\nbeam_profile = \"%s\"\n\n[sea]\n",
                                      options.refractive_index, std::string(Name(options.profile)));
-  for (const auto& [name, value] : sea) {
-    if (const auto* number = std::get_if<double>(&value)) {
+  for (const auto& [name, value] : sea)
+    if (const auto* number = std::get_if<double>(&value))
       absl::StrAppendFormat(&text, "%s = %.17g\n", name, *number);
-    } else if (name != sea_attribute::kAssumptions) {
+    else if (name != sea_attribute::kAssumptions)
       absl::StrAppendFormat(&text, "%s = \"%s\"\n", name, std::get<std::string>(value));
-    }
-  }
   return text;
 }
 
@@ -107,8 +104,8 @@ Estimates EstimatesOf(const BeamResponse& beam, const BeamResponse& nadir, doubl
       Scaled(DegreesOfRadians(beam.refraction_cross_wind()), 0.5 * relative.slopes);
   estimates[Index(Quantity::kThu)] =
       TwoSigma(squared * horizontal, at_surface.topLeftCorner<2, 2>().trace(), relative.slopes);
-  estimates[Index(Quantity::kTvu)] = TwoSigma(squared * (vertical - second_order),
-                                              squared * second_order + at_surface(2, 2), relative.slopes);
+  estimates[Index(Quantity::kTvu)] =
+      TwoSigma(squared * (vertical - second_order), squared * second_order + at_surface(2, 2), relative.slopes);
   estimates[Index(Quantity::kBiasAlongBeam)] = Scaled(beam.BiasAlongBeam(depth), relative.mean_square);
   estimates[Index(Quantity::kBiasVertical)] = Scaled(beam.BiasVertical(depth), relative.mean_square);
   return estimates;
@@ -119,8 +116,7 @@ Estimates EstimatesOf(const BeamResponse& beam, const BeamResponse& nadir, doubl
 SeaCompiler::SeaCompiler(const SeaTableOptions& options)
     : options_(WithRoundedNodes(options)),
       directions_(Radians(options_.nodes.incidences), Radians(WithoutLast(options_.nodes.azimuths))) {
-  for (const double footprint : options_.nodes.footprints)
-    footprints_.emplace_back(options_.profile, footprint);
+  for (const double footprint : options_.nodes.footprints) footprints_.emplace_back(options_.profile, footprint);
 }
 
 absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const SeaDescription& sea, double record_length) const {
@@ -141,8 +137,7 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea) c
 absl::StatusOr<UncertaintyTable::Axes> SeaCompiler::AxesFor(double wind_speed) const {
   const SeaTableNodes& nodes = options_.nodes;
   // A wind derived from absurd waves may be infinite.
-  absl::StatusOr<Axis> wind =
-      Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {static_cast<float>(wind_speed)});
+  absl::StatusOr<Axis> wind = Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {static_cast<float>(wind_speed)});
   if (!wind.ok()) return wind.status();
   return UncertaintyTable::Axes{*std::move(wind),
                                 MakeAxis(AxisId::kFetch, {1}),
@@ -173,21 +168,19 @@ std::vector<BeamResponse> SeaCompiler::ResponsesOf(const HarmonicSpectrum& spect
                             Eigen::Vector2d::Zero()};
     return std::vector<BeamResponse>(directions_.size() * footprints_.size(), none);
   }
-  return directions_.ResponsesOf(SeaResponse(WithoutEmptyHarmonics(spectrum), options_.refractive_index),
-                                 footprints_);
+  return directions_.ResponsesOf(SeaResponse(WithoutEmptyHarmonics(spectrum), options_.refractive_index), footprints_);
 }
 
 absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, std::optional<TailRule> tail,
                                                       const std::optional<RelativeErrors>& errors) const {
   const auto refused = [&](const absl::Status& status) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "the sea has no table (its mean square slope is %g, its wind %g m/s; %s); check its heights, "
-        "periods and units",
-        MeanSquareSlope(sea.spectrum), sea.wind_speed_10m, std::string(status.message())));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the sea has no table (its mean square slope is %g, its wind %g m/s; %s); check its heights, "
+                        "periods and units",
+                        MeanSquareSlope(sea.spectrum), sea.wind_speed_10m, std::string(status.message())));
   };
   if (!(MeanSquareSlope(sea.spectrum) <= kMaxMeanSquareSlope))
-    return refused(
-        absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kMaxMeanSquareSlope)));
+    return refused(absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kMaxMeanSquareSlope)));
   absl::StatusOr<UncertaintyTable::Axes> axes = AxesFor(sea.wind_speed_10m);
   if (!axes.ok()) return refused(axes.status());
   const std::vector<BeamResponse> responses = ResponsesOf(sea.spectrum);

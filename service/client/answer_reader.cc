@@ -35,8 +35,8 @@ struct Column {
 
 std::vector<Column> Columns(const Query& query, const AnswerColumns& answers) {
   const auto name = [](int message, int field) {
-    const auto* in = message == kTop ? Response::descriptor()
-                                     : Response::descriptor()->FindFieldByNumber(message)->message_type();
+    const auto* in =
+        message == kTop ? Response::descriptor() : Response::descriptor()->FindFieldByNumber(message)->message_type();
     return in->FindFieldByNumber(field)->name();
   };
   std::vector<Column> columns;
@@ -58,8 +58,8 @@ std::vector<Column> Columns(const Query& query, const AnswerColumns& answers) {
 }
 
 bool HoldsColumns(int field) {
-  return field == Response::kSeaSurfaceFieldNumber ||
-         field == Response::kSeaSurfaceStandardErrorFieldNumber || field == Response::kS44FieldNumber;
+  return field == Response::kSeaSurfaceFieldNumber || field == Response::kSeaSurfaceStandardErrorFieldNumber ||
+         field == Response::kS44FieldNumber;
 }
 
 class Reader {
@@ -74,42 +74,36 @@ class Reader {
       google::protobuf::io::CodedOutputStream writer(&rest);
       if (absl::Status status = ReadFields(kTop, writer); !status.ok()) return status;
     }
-    for (const Column& column : columns_) {
+    for (const Column& column : columns_)
       if (column.destination != nullptr && !column.found) return WrongLength(column, 0);
-    }
     Response response;
     if (!response.ParseFromString(rest_)) return Unreadable();
     return response;
   }
 
  private:
-  static absl::Status Unreadable() {
-    return absl::InternalError("answered bytes that are not a valid message");
-  }
+  static absl::Status Unreadable() { return absl::InternalError("answered bytes that are not a valid message"); }
 
   absl::Status WrongLength(const Column& column, std::size_t size) const {
-    return absl::InternalError(absl::StrCat("answered ", size, " bytes of ", column.name, " for ",
-                                            pulse_count_, " pulses; expected ", column.element_size,
-                                            " for each"));
+    return absl::InternalError(absl::StrCat("answered ", size, " bytes of ", column.name, " for ", pulse_count_,
+                                            " pulses; expected ", column.element_size, " for each"));
   }
 
   absl::Status ReadFields(int message, google::protobuf::io::CodedOutputStream& rest) {
     while (const std::uint32_t tag = input_.ReadTag()) {
       const int field = WireFormatLite::GetTagFieldNumber(tag);
-      const auto column = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) {
-        return c.message == message && c.field == field;
-      });
+      const auto column = std::find_if(columns_.begin(), columns_.end(),
+                                       [&](const Column& c) { return c.message == message && c.field == field; });
       const bool nested = message == kTop && HoldsColumns(field);
       absl::Status status;
       if (column == columns_.end() && !nested) {
-        const bool skipped = message == kTop ? WireFormatLite::SkipField(&input_, tag, &rest)
-                                             : WireFormatLite::SkipField(&input_, tag);
+        const bool skipped =
+            message == kTop ? WireFormatLite::SkipField(&input_, tag, &rest) : WireFormatLite::SkipField(&input_, tag);
         if (!skipped) return Unreadable();
         continue;
       }
       std::uint32_t size;
-      const bool has_length =
-          WireFormatLite::GetTagWireType(tag) == WireFormatLite::WIRETYPE_LENGTH_DELIMITED;
+      const bool has_length = WireFormatLite::GetTagWireType(tag) == WireFormatLite::WIRETYPE_LENGTH_DELIMITED;
       if (!has_length || !input_.ReadVarint32(&size)) return Unreadable();
       if (nested) {
         const CodedInputStream::Limit limit = input_.PushLimit(static_cast<int>(size));
@@ -137,8 +131,7 @@ class Reader {
   std::string rest_;
 };
 
-absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first,
-                          int last) {
+absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first, int last) {
   if (column == nullptr) return absl::OkStatus();
   std::uint8_t least = 255, most = 0;  // The loop has no early exit, so that the compiler vectorizes it.
   for (std::size_t i = 0; i < count; ++i) {
@@ -162,10 +155,8 @@ absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, s
   if (!head.ok()) return head;
   const v1::Coverage coverage = ToWire(query.coverage);
   absl::Status status;
-  if (head->coverage() != coverage) {
-    status =
-        absl::InternalError(absl::StrCat("answered coverage ", head->coverage(), "; expected ", coverage));
-  }
+  if (head->coverage() != coverage)
+    status = absl::InternalError(absl::StrCat("answered coverage ", head->coverage(), "; expected ", coverage));
   status.Update(CheckNumbers(answers.outcomes, pulse_count, "outcomes", 1, v1::Outcome_MAX));
   status.Update(CheckNumbers(answers.outcome_axes, pulse_count, "outcome axes", 0, v1::Axis_MAX));
   status.Update(CheckNumbers(answers.best_s44_orders, pulse_count, "best orders", 0, v1::S44Order_MAX));
@@ -186,16 +177,15 @@ absl::StatusOr<Response> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query,
   return ReadFrom(input, query, pulse_count, answers);
 }
 
-absl::StatusOr<Response> ReadStreamedAnswer(grpc::ByteBuffer& bytes, const Query& query,
-                                            std::size_t pulse_count, const AnswerColumns& answers) {
+absl::StatusOr<Response> ReadStreamedAnswer(grpc::ByteBuffer& bytes, const Query& query, std::size_t pulse_count,
+                                            const AnswerColumns& answers) {
   grpc::ProtoBufferReader reader(&bytes);
   CodedInputStream input(&reader);
   std::uint32_t size;
-  const std::uint32_t tag = WireFormatLite::MakeTag(v1::StreamColumnsResponse::kAnswerFieldNumber,
-                                                    WireFormatLite::WIRETYPE_LENGTH_DELIMITED);
-  if (!reader.status().ok() || input.ReadTag() != tag || !input.ReadVarint32(&size)) {
+  const std::uint32_t tag =
+      WireFormatLite::MakeTag(v1::StreamColumnsResponse::kAnswerFieldNumber, WireFormatLite::WIRETYPE_LENGTH_DELIMITED);
+  if (!reader.status().ok() || input.ReadTag() != tag || !input.ReadVarint32(&size))
     return absl::InternalError("answered a message without an answer");
-  }
   input.PushLimit(static_cast<int>(size));
   return ReadFrom(input, query, pulse_count, answers);
 }

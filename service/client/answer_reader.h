@@ -18,12 +18,10 @@ namespace albtpu::client {
 // null and returns all other fields. Internal when the answer violates the protocol: its coverage is not that of the
 // query, a column has the wrong length, or a number is not a known outcome, axis or order.
 absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query,
-                                                            std::size_t pulse_count,
-                                                            const AnswerColumns& answers);
+                                                            std::size_t pulse_count, const AnswerColumns& answers);
 
 // The same for a StreamColumnsResponse.
-absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadStreamedAnswer(grpc::ByteBuffer& bytes,
-                                                                    const Query& query,
+absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadStreamedAnswer(grpc::ByteBuffer& bytes, const Query& query,
                                                                     std::size_t pulse_count,
                                                                     const AnswerColumns& answers);
 

@@ -38,10 +38,8 @@ constexpr std::chrono::seconds kDeadline{60};
 // The number of pulses that a message of these columns takes, request and answer.
 std::size_t MaxPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
   std::size_t asked = sizeof(float);  // The depth may be repeated.
-  for (const std::span<const float> column : pulses.pulses.axis)
-    asked += column.size() > 1 ? sizeof(float) : 0;
-  for (const BudgetInput input : kAircraftInputs)
-    asked += pulses.aircraft[input].size() > 1 ? sizeof(float) : 0;
+  for (const std::span<const float> column : pulses.pulses.axis) asked += column.size() > 1 ? sizeof(float) : 0;
+  for (const BudgetInput input : kAircraftInputs) asked += pulses.aircraft[input].size() > 1 ? sizeof(float) : 0;
   std::size_t answered = 3;  // Outcome, axis and order.
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
     const auto quantity = static_cast<BudgetQuantity>(i);
@@ -54,8 +52,8 @@ std::size_t MaxPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
 const std::string& ColumnOf(const v1::BudgetColumns& budget, BudgetQuantity quantity) {
   const int field = static_cast<int>(quantity) + 1;
   static const std::string* const kScratch = new std::string();
-  return budget.GetReflection()->GetStringReference(
-      budget, v1::BudgetColumns::descriptor()->FindFieldByNumber(field), const_cast<std::string*>(kScratch));
+  return budget.GetReflection()->GetStringReference(budget, v1::BudgetColumns::descriptor()->FindFieldByNumber(field),
+                                                    const_cast<std::string*>(kScratch));
 }
 
 absl::Status WrongLength(std::string_view name, std::size_t bytes, std::size_t count) {
@@ -64,21 +62,20 @@ absl::Status WrongLength(std::string_view name, std::size_t bytes, std::size_t c
 }
 
 // Copies one byte for each pulse, of which none may be outside `least` to `most`.
-absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least,
-                       int most, std::uint8_t* destination) {
+absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least, int most,
+                       std::uint8_t* destination) {
   if (destination == nullptr) return absl::OkStatus();
   if (bytes.size() != count) return WrongLength(name, bytes.size(), count);
   std::memcpy(destination, bytes.data(), count);
-  const auto* const unknown = std::find_if_not(destination, destination + count, [=](std::uint8_t number) {
-    return number >= least && number <= most;
-  });
+  const auto* const unknown = std::find_if_not(destination, destination + count,
+                                               [=](std::uint8_t number) { return number >= least && number <= most; });
   if (unknown == destination + count) return absl::OkStatus();
   return absl::InternalError(absl::StrCat("answered ", *unknown, " among the ", std::string(name),
                                           ", a number that this program does not know"));
 }
 
-absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin,
-                        std::size_t count, const BudgetAnswers& answers) {
+absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin, std::size_t count,
+                        const BudgetAnswers& answers) {
   const std::string& bytes = ColumnOf(budget, quantity);
   const std::size_t columns = ColumnCount(quantity), size = count * sizeof(float);
   if (bytes.size() != columns * size) return WrongLength("the budget", bytes.size(), count);
@@ -92,22 +89,18 @@ absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity
 // Reads a QueryBudgetResponse about `count` pulses. Fills the columns of `answers` from `begin` on, and returns the
 // digest of the table. Internal when the answer violates the protocol: its coverage is not that of `options`, a column
 // has the wrong length, or a number is not a known outcome, axis or order.
-absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options,
-                                       std::size_t begin, std::size_t count, const BudgetAnswers& answers) {
+absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options, std::size_t begin,
+                                       std::size_t count, const BudgetAnswers& answers) {
   v1::QueryBudgetResponse response;
   grpc::ProtoBufferReader reader(&bytes);
   if (!reader.status().ok() || !response.ParseFromZeroCopyStream(&reader))
     return absl::InternalError("answered bytes that are not a valid message");
   const v1::Coverage coverage = ToWire(options.coverage);
-  if (response.coverage() != coverage) {
-    return absl::InternalError(
-        absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
-  }
+  if (response.coverage() != coverage)
+    return absl::InternalError(absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
   const auto at = [begin](std::uint8_t* column) { return column == nullptr ? nullptr : column + begin; };
-  absl::Status status =
-      CopyBytes("outcomes", response.outcomes(), count, 1, v1::Outcome_MAX, at(answers.outcomes));
-  status.Update(
-      CopyBytes("outcome axes", response.outcome_axes(), count, 0, v1::Axis_MAX, at(answers.outcome_axes)));
+  absl::Status status = CopyBytes("outcomes", response.outcomes(), count, 1, v1::Outcome_MAX, at(answers.outcomes));
+  status.Update(CopyBytes("outcome axes", response.outcome_axes(), count, 0, v1::Axis_MAX, at(answers.outcome_axes)));
   status.Update(CopyBytes("best orders", response.budget().best_s44_orders(), count, 0, v1::S44Order_MAX,
                           at(answers.best_s44_orders)));
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
@@ -134,11 +127,7 @@ struct Call {
 class Calls {
  public:
   Calls(grpc::GenericStub& stub, const BudgetTask& task, std::size_t begin)
-      : stub_(stub),
-        task_(task),
-        most_(MaxPulses(task.pulses, task.answers)),
-        sent_(begin),
-        answered_(begin) {
+      : stub_(stub), task_(task), most_(MaxPulses(task.pulses, task.answers)), sent_(begin), answered_(begin) {
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;
     ToWire(task.options, task.pulses, task.answers, request_without_pulses_);
     request_without_pulses_.mutable_options()->set_table(task.table);

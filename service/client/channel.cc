@@ -35,13 +35,11 @@ constexpr int kConnectMs = 5000;
 constexpr char kCertificate[] = "CERTIFICATE", kPrivateKey[] = "PRIVATE KEY";
 
 // Empty if there is no path.
-absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path,
-                                    const std::string& kind) {
+absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path, const std::string& kind) {
   if (path.empty()) return "";
   absl::StatusOr<std::string> pem = ReadTextFile(flag, path);
   if (!pem.ok() || absl::StrContains(*pem, kind + "-----")) return pem;
-  return absl::InvalidArgumentError(
-      absl::StrCat(flag, ": ", path, " has no ", kind, "; give a PEM file that has one"));
+  return absl::InvalidArgumentError(absl::StrCat(flag, ": ", path, " has no ", kind, "; give a PEM file that has one"));
 }
 
 absl::StatusOr<std::string> ReadToken(const std::string& path) {
@@ -59,9 +57,8 @@ absl::StatusOr<std::string> ReadToken(const std::string& path) {
 
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const Credentials& credentials) {
   if (!credentials.HasTls()) return grpc::InsecureChannelCredentials();
-  if (credentials.certificate.empty() != credentials.key.empty()) {
+  if (credentials.certificate.empty() != credentials.key.empty())
     return absl::InvalidArgumentError("--tls-cert and --tls-key: one is missing; give both or neither");
-  }
   absl::StatusOr<std::string> ca = ReadPem("--tls-ca", credentials.ca, kCertificate);
   if (!ca.ok()) return ca.status();
   absl::StatusOr<std::string> key = ReadPem("--tls-key", credentials.key, kPrivateKey);
@@ -75,8 +72,7 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const 
   return grpc::CompositeChannelCredentials(tls, grpc::AccessTokenCredentials(*token));
 }
 
-absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address,
-                                                           const Credentials& credentials) {
+absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address, const Credentials& credentials) {
   const auto channel_credentials = MakeCredentials(credentials);
   if (!channel_credentials.ok()) return channel_credentials.status();
   grpc::ChannelArguments arguments;
@@ -109,9 +105,9 @@ absl::Status CheckHealth(const std::string& address, const Credentials& credenti
   const absl::Status status = FromGrpc(Health::NewStub(*channel)->Check(&context, {}, &response));
   if (!status.ok()) return WithServerAddress(status, address);
   if (response.status() == HealthCheckResponse::SERVING) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrCat("server ", address, ": ", HealthCheckResponse::ServingStatus_Name(response.status()),
-                   " (it is about to stop); use another server, or start it again"));
+  return absl::FailedPreconditionError(absl::StrCat("server ", address, ": ",
+                                                    HealthCheckResponse::ServingStatus_Name(response.status()),
+                                                    " (it is about to stop); use another server, or start it again"));
 }
 
 namespace {
@@ -123,9 +119,7 @@ absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size
 absl::Status FromGrpc(const grpc::Status& status) {
   // gRPC and Abseil use the same numbers for the codes.
   absl::Status same(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
-  if (!status.error_details().empty()) {
-    same.SetPayload(ToAbsl(kErrorDetails), absl::Cord(status.error_details()));
-  }
+  if (!status.error_details().empty()) same.SetPayload(ToAbsl(kErrorDetails), absl::Cord(status.error_details()));
   return same;
 }
 
@@ -140,9 +134,8 @@ absl::Status WithServerAddress(const absl::Status& status, const std::string& ad
   if (status.ok()) return status;
   std::string message = absl::StrCat("server ", address, ": ", status.message());
   if (absl::IsUnavailable(status)) {
-    absl::StrAppend(
-        &message,
-        "; start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (--tls-ca)");
+    absl::StrAppend(&message,
+                    "; start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (--tls-ca)");
   }
   if (absl::IsUnauthenticated(status)) absl::StrAppend(&message, "; check the token (--token-file)");
   return WithMessage(status, message);

@@ -21,8 +21,7 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const 
 // `address` is HOST:PORT or another form that gRPC resolves: `dns:///NAME:PORT`, `ipv4:HOST:PORT,HOST:PORT`. If it has
 // several addresses, calls take turns with all servers that answer; a server that has failed is left out until it is
 // back. Nothing is sent yet. Fails when MakeCredentials does.
-absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address,
-                                                           const Credentials& credentials);
+absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address, const Credentials& credentials);
 
 // Checks whether a server is healthy.
 

@@ -64,11 +64,10 @@ class Call {
       void* event = nullptr;
       bool ok = false;
       const auto next = events_.AsyncNext(&event, &ok, system_clock::now() + kDeadline);
-      if (next == grpc::CompletionQueue::TIMEOUT) {
+      if (next == grpc::CompletionQueue::TIMEOUT)
         Fail(absl::DeadlineExceededError(absl::StrCat("no answer for ", kDeadline.count(), " s")));
-      } else {
+      else
         Handle(static_cast<Event>(reinterpret_cast<std::uintptr_t>(event)), ok);
-      }
     }
     if (!failure_.ok()) return failure_;
     if (!status_.ok()) return FromGrpc(status_);
@@ -130,8 +129,7 @@ class Call {
     const auto answer = ReadStreamedAnswer(response_, task_.query, count, Offset(task_.answers, answered_));
     response_.Clear();
     if (!answer.ok()) return answer.status();
-    const absl::Status status =
-        CheckDigest(task_.table, task_.sea != nullptr, task_.digest, answer->table().digest());
+    const absl::Status status = CheckDigest(task_.table, task_.sea != nullptr, task_.digest, answer->table().digest());
     if (!status.ok()) return status;
     answered_ += count;
     return absl::OkStatus();
@@ -163,11 +161,10 @@ class Call {
 absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest,
                          const std::string& answered) {
   if (answered == digest) return absl::OkStatus();
-  return absl::AbortedError(
-      absl::StrCat(of_sea ? "the table of the sea" : absl::StrCat("table ", table), " changed from digest ",
-                   digest, " to ", answered,
-                   of_sea ? " during the query (another server computed it); ask a single server"
-                          : " during the query; run again"));
+  return absl::AbortedError(absl::StrCat(
+      of_sea ? "the table of the sea" : absl::StrCat("table ", table), " changed from digest ", digest, " to ",
+      answered,
+      of_sea ? " during the query (another server computed it); ask a single server" : " during the query; run again"));
 }
 
 absl::Status QueryByStream(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {

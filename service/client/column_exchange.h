@@ -18,8 +18,7 @@ inline constexpr std::size_t kMostPulses = 65536;
 
 // OK if `answered`, the digest of an answer, is that of the table of this name, or of the sea if `of_sea`; else
 // ABORTED.
-absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest,
-                         const std::string& answered);
+absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest, const std::string& answered);
 
 // A query about any number of pulses, and the memory for its answers. Messages take kMostPulses pulses at a time.
 struct ColumnTask {

@@ -30,22 +30,18 @@ TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   summary.title = provenance.title;
   summary.digest = table.digest();
   summary.sea = SummaryOfSea(table);
-  for (const Axis& axis : table.axes()) {
+  for (const Axis& axis : table.axes())
     summary.axes[Index(axis.id())] = {axis.nodes().front(), axis.nodes().back(), axis.size()};
-  }
-  for (const auto& [key, value] : provenance.attributes)
-    summary.attributes[key] = std::visit(AsText(), value);
+  for (const auto& [key, value] : provenance.attributes) summary.attributes[key] = std::visit(AsText(), value);
   return summary;
 }
 
 LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
     : summary_(Summarize(std::move(name), table)), interpolator_(table) {}
 
-absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses,
-                                 const AnswerColumns& answers) {
+absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) {
   const PulseColumns used = summary_.sea ? OnOneSea(pulses) : pulses;
-  if (absl::Status status = CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used); !status.ok())
-    return status;
+  if (absl::Status status = CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used); !status.ok()) return status;
   InterpolateOnAllCores(interpolator_, query, used, answers);
   return absl::OkStatus();
 }

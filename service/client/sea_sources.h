@@ -38,8 +38,7 @@ class SeaSources {
 std::unique_ptr<SeaSources> LocalSeas();
 
 // Compiles seas on a server, which keeps the tables of the last ones. Arguments are those of OpenServer.
-absl::StatusOr<std::unique_ptr<SeaSources>> ServerSeas(const std::string& address,
-                                                       const Patience& patience = {},
+absl::StatusOr<std::unique_ptr<SeaSources>> ServerSeas(const std::string& address, const Patience& patience = {},
                                                        const Credentials& credentials = {});
 
 }  // namespace albtpu::client

@@ -7,8 +7,7 @@
 
 namespace albtpu::client {
 
-absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
-                                                              const std::string& table,
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address, const std::string& table,
                                                               const Patience& patience,
                                                               const Credentials& credentials) {
   const absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = OpenChannel(address, credentials);
@@ -19,8 +18,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string&
   return MakeServerSource(server, *std::move(summary));
 }
 
-absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address,
-                                                           const Credentials& credentials) {
+absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address, const Credentials& credentials) {
   const absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = OpenChannel(address, credentials);
   if (!channel.ok()) return channel.status();
   const ServerConnection server{address, *channel, {}};

@@ -26,8 +26,7 @@ namespace albtpu::client {
 //   if (!server.ok()) return server.status();
 //   absl::Status status = (*server)->Answer({.coverage = Coverage::kP95}, pulses, answers);
 // where `pulses` and `answers` are as in the example in column_query.h.
-absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
-                                                              const std::string& table,
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address, const std::string& table,
                                                               const Patience& patience = {},
                                                               const Credentials& credentials = {});
 

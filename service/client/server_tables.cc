@@ -43,10 +43,10 @@ void Pause(grpc::Channel& channel, std::chrono::milliseconds pause) {
 
 // Calls a method that precedes the first pulse.
 template <typename Request, typename Response>
-absl::StatusOr<Response> CallWithRetries(
-    const ServerConnection& server,
-    grpc::Status (UncertaintyService::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-    const Request& request) {
+absl::StatusOr<Response> CallWithRetries(const ServerConnection& server,
+                                         grpc::Status (UncertaintyService::Stub::*method)(grpc::ClientContext*,
+                                                                                          const Request&, Response*),
+                                         const Request& request) {
   const auto stub = UncertaintyService::NewStub(server.channel);
   for (int retries = 0;; ++retries) {
     grpc::ClientContext context;
@@ -62,8 +62,7 @@ absl::StatusOr<Response> CallWithRetries(
 
 class ServerSource final : public UncertaintySource {
  public:
-  ServerSource(const ServerConnection& server, TableSummary table,
-               std::unique_ptr<const albtpu::v1::SeaState> sea)
+  ServerSource(const ServerConnection& server, TableSummary table, std::unique_ptr<const albtpu::v1::SeaState> sea)
       : server_(server), stub_(server.channel), table_(std::move(table)), sea_(std::move(sea)) {}
 
   const TableSummary& table() const override { return table_; }
@@ -82,11 +81,9 @@ class ServerSource final : public UncertaintySource {
   const std::unique_ptr<const albtpu::v1::SeaState> sea_;
 };
 
-absl::Status ServerSource::Answer(const Query& query, const PulseColumns& all_pulses,
-                                  const AnswerColumns& answers) {
+absl::Status ServerSource::Answer(const Query& query, const PulseColumns& all_pulses, const AnswerColumns& answers) {
   const PulseColumns pulses = table_.sea ? OnOneSea(all_pulses) : all_pulses;
-  if (absl::Status status = CheckLengths(table_.sea ? kOneSea : kSeaSurface, pulses); !status.ok())
-    return status;
+  if (absl::Status status = CheckLengths(table_.sea ? kOneSea : kSeaSurface, pulses); !status.ok()) return status;
   const ColumnTask task{table_.name, table_.digest, sea_.get(), query, pulses, answers};
   return AnswerAll(pulses.size, [&](std::size_t& answered) { return QueryByStream(stub_, task, answered); });
 }
@@ -98,8 +95,7 @@ absl::Status ServerSource::AnswerBudget(const BudgetOptions& options, const Budg
   if (absl::Status status = CheckQuery(table_.sea ? kOneSea : kSeaSurface, pulses, options); !status.ok())
     return status;
   const BudgetTask task{table_.name, table_.digest, sea_.get(), options, pulses, answers};
-  return AnswerAll(pulses.pulses.size,
-                   [&](std::size_t& answered) { return QueryByCalls(stub_, task, answered); });
+  return AnswerAll(pulses.pulses.size, [&](std::size_t& answered) { return QueryByCalls(stub_, task, answered); });
 }
 
 template <typename Exchange>
@@ -114,8 +110,8 @@ absl::Status ServerSource::AnswerAll(std::size_t size, const Exchange& exchange)
     if (answered > before) retries = 0;
     if (!IsTransient(status)) return WithServerAddress(status, server_.address);
     if (retries == patience.retries) {
-      const std::string message = absl::StrCat(status.message(), " (retried ", retries, " times after ",
-                                               answered, " of ", size, " pulses)");
+      const std::string message =
+          absl::StrCat(status.message(), " (retried ", retries, " times after ", answered, " of ", size, " pulses)");
       return WithServerAddress(WithMessage(status, message), server_.address);
     }
     Pause(*server_.channel, patience.first_pause * (1 << retries++));

@@ -26,8 +26,7 @@ absl::StatusOr<TableSummary> GetTable(const ServerConnection& server, const std:
 absl::StatusOr<TableSummary> CompileSea(const ServerConnection& server, const albtpu::v1::SeaState& sea);
 
 // A source that queries the table, which is that of `sea`, or one of the server's if `sea` is null.
-std::unique_ptr<UncertaintySource> MakeServerSource(
-    const ServerConnection& server, TableSummary table,
-    std::unique_ptr<const albtpu::v1::SeaState> sea = nullptr);
+std::unique_ptr<UncertaintySource> MakeServerSource(const ServerConnection& server, TableSummary table,
+                                                    std::unique_ptr<const albtpu::v1::SeaState> sea = nullptr);
 
 }  // namespace albtpu::client

@@ -44,8 +44,7 @@ class UncertaintySource {
   // threads may call this at the same time. Either all pulses are answered, or the call fails and the contents of the
   // columns are unspecified: the columns of the pulses have invalid lengths (InvalidArgument), the server cannot be
   // reached (Unavailable), or the content of its table has changed (Aborted).
-  virtual absl::Status Answer(const Query& query, const PulseColumns& pulses,
-                              const AnswerColumns& answers) = 0;
+  virtual absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) = 0;
 
   // The same for the whole budget. With a table of one sea, the axis of the sea is that of the table. InvalidArgument
   // also if a number of `options` is out of its range.

@@ -69,9 +69,8 @@ void ToWire(const Query& query, const AnswerColumns& requested, v1::QueryColumns
   v1::QueryOptions& options = *request.mutable_options();
   options.set_coverage(ToWire(query.coverage));
   options.set_best_s44_order(requested.best_s44_orders != nullptr);
-  if (query.s44_order.has_value()) {
+  if (query.s44_order.has_value())
     options.set_s44_order(static_cast<v1::S44Order>(static_cast<int>(*query.s44_order) + 1));
-  }
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
     if (requested.standard_errors[i] != nullptr) options.set_standard_errors(true);
     if (requested.values[i] == nullptr && requested.standard_errors[i] == nullptr) continue;
@@ -92,9 +91,8 @@ void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
     const std::size_t repeats = all_constant && axis == AxisId::kDepth ? pulses.size : 1;
     if (column.empty()) continue;
     char* bytes = request.AddColumn(kFields[Index(axis)], repeats * column.size_bytes());
-    for (std::size_t i = 0; i < repeats; ++i) {
+    for (std::size_t i = 0; i < repeats; ++i)
       std::memcpy(bytes + i * column.size_bytes(), column.data(), column.size_bytes());
-    }
   }
   request.Nest(v1::QueryColumnsRequest::kPulsesFieldNumber, mark);
 }
@@ -116,23 +114,18 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
   message.set_refractive_index(options.index);
   message.set_datum(options.datum);
   if (pulses.sea_axis.has_value()) message.set_sea_axis(*pulses.sea_axis);
-  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
-    if (Wants(wanted, static_cast<BudgetQuantity>(i))) {
-      request.add_quantities(static_cast<v1::BudgetQuantity>(i + 1));
-    }
-  }
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i)
+    if (Wants(wanted, static_cast<BudgetQuantity>(i))) request.add_quantities(static_cast<v1::BudgetQuantity>(i + 1));
 }
 
 void AddPulses(const BudgetPulses& pulses, ColumnMessage& request) {
-  static_assert(int{v1::QueryBudgetRequest::kPulsesFieldNumber} ==
-                int{v1::QueryColumnsRequest::kPulsesFieldNumber});
+  static_assert(int{v1::QueryBudgetRequest::kPulsesFieldNumber} == int{v1::QueryColumnsRequest::kPulsesFieldNumber});
   AddPulses(pulses.pulses, request);
   const std::size_t mark = request.Mark();
   for (std::size_t i = 0; i < kAircraftInputs.size(); ++i) {
     const std::span<const float> column = pulses.aircraft[kAircraftInputs[i]];
     if (column.empty()) continue;
-    std::memcpy(request.AddColumn(static_cast<int>(i) + 1, column.size_bytes()), column.data(),
-                column.size_bytes());
+    std::memcpy(request.AddColumn(static_cast<int>(i) + 1, column.size_bytes()), column.data(), column.size_bytes());
   }
   request.Nest(v1::QueryBudgetRequest::kAircraftFieldNumber, mark);
 }

@@ -32,8 +32,7 @@ absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const K
     record.waves = *whole;
     return compiler.Compile(Describe(record, DescriptionOf(sea)));
   }
-  if (std::holds_alternative<std::monostate>(sea.waves))
-    return compiler.Compile(DescriptionOf(sea), sea.record_length);
+  if (std::holds_alternative<std::monostate>(sea.waves)) return compiler.Compile(DescriptionOf(sea), sea.record_length);
   if (const auto* const bins = std::get_if<BinnedWaves>(&sea.waves)) record.waves = *bins;
   if (const auto* const components = std::get_if<WaveComponents>(&sea.waves)) record.waves = *components;
   return compiler.Compile(DescriptionOf(record, DescriptionOf(sea)), sea.record_length);

@@ -23,9 +23,8 @@ struct KnownSea {
   std::optional<double> wind_from = {};       // compass direction, rad
   std::optional<double> water_depth = {};     // m, above 0
   TailRule tail = TailRule::kRelax;
-  std::optional<double> tail_from = {};  // Hz, above 0
-  double record_length =
-      std::numeric_limits<double>::infinity();  // s, of measured waves; infinity for others
+  std::optional<double> tail_from = {};                            // Hz, above 0
+  double record_length = std::numeric_limits<double>::infinity();  // s, of measured waves; infinity for others
 };
 
 // The sea of a record. A number of `given` takes precedence over that of the record; the `waves` of `given` are not

@@ -16,8 +16,7 @@ struct SeaSummary {
   double wind_speed_10m = 0;           // m/s, given or derived from the waves
   double water_depth = 0;              // m; infinity for deep water
   double tail_from = 0;                // Hz, where the wind's waves are joined; 0 without known waves
-  double share_measured =
-      0;  // fraction of the slope variance at a footprint of 0.6 m that comes from known waves
+  double share_measured = 0;  // fraction of the slope variance at a footprint of 0.6 m that comes from known waves
   std::vector<std::string> assumptions;  // where the sea state has no value: one sentence each
 };
 

@@ -37,8 +37,7 @@ void LimitConnections(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(kKeepaliveTime));
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, Milliseconds(kKeepaliveTimeout));
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
-                             Milliseconds(kMinPingInterval));
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, Milliseconds(kMinPingInterval));
   builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, kMaxReadBytes);
   grpc::ResourceQuota quota("connections");
   quota.Resize(kMaxConnectionBytes);
@@ -58,8 +57,7 @@ void Configure(grpc::ServerBuilder& builder) {
 
 }  // namespace
 
-Server::Server(LiveTables& tables, const Recorders& recorders, Access access,
-               std::chrono::seconds max_stream_idle)
+Server::Server(LiveTables& tables, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle)
     : credentials_(std::move(access.credentials)),
       recorders_(recorders),
       service_(tables, recorders_, max_stream_idle),
@@ -70,9 +68,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const 
                                                       const ListenAddress& address, Access access,
                                                       std::chrono::seconds max_stream_idle) {
   absl::StatusOr<std::vector<ListeningSocket>> sockets = Listen(address);
-  if (!sockets.ok()) {
-    return absl::UnavailableError(absl::StrCat("cannot listen on ", sockets.status().message()));
-  }
+  if (!sockets.ok()) return absl::UnavailableError(absl::StrCat("cannot listen on ", sockets.status().message()));
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   std::unique_ptr<Server> server(new Server(tables, recorders, std::move(access), max_stream_idle));
   grpc::ServerBuilder builder;
@@ -86,10 +82,9 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const 
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr) return absl::InternalError("gRPC cannot start");
   server->address_ = address.WithPort(sockets->front().port());
-  server->gate_ =
-      std::make_unique<ConnectionGate>(*std::move(sockets), std::move(acceptor), recorders.access);
-  server->watch_ = std::make_unique<ConnectionWatch>(
-      [gate = server->gate_.get(), recorders](const std::vector<Caller>& callers) {
+  server->gate_ = std::make_unique<ConnectionGate>(*std::move(sockets), std::move(acceptor), recorders.access);
+  server->watch_ =
+      std::make_unique<ConnectionWatch>([gate = server->gate_.get(), recorders](const std::vector<Caller>& callers) {
         for (const Caller& caller : gate->Disconnect(callers)) {
           recorders.access.CountEndedConnection();
           recorders.log.Write(spdlog::level::warn, "connection closed (it had too many calls in memory)",

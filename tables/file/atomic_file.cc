@@ -26,9 +26,9 @@ constexpr std::uint64_t kWriteBehind = 32 << 20;
 // The system's last error, for `path`.
 absl::Status SystemError(const std::filesystem::path& path, std::string_view suggestion) {
   const int error = errno;
-  return absl::Status(absl::ErrnoToStatusCode(error),
-                      absl::StrCat(path.string(), ": ", std::strerror(error), " (no output was written); ",
-                                   std::string(suggestion)));
+  return absl::Status(
+      absl::ErrnoToStatusCode(error),
+      absl::StrCat(path.string(), ": ", std::strerror(error), " (no output was written); ", std::string(suggestion)));
 }
 
 constexpr std::string_view kTemporaryPrefix = ".albtpu-", kTemporarySuffix = ".tmp";
@@ -42,10 +42,8 @@ absl::Status AlreadyThere(const std::filesystem::path& path) {
 absl::Status CheckTarget(const std::filesystem::path& path, Existing existing) {
   struct stat target;
   if (stat(path.c_str(), &target) != 0) return absl::OkStatus();
-  if (!S_ISREG(target.st_mode)) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is not a regular file; give a file to write"));
-  }
+  if (!S_ISREG(target.st_mode))
+    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": is not a regular file; give a file to write"));
   return existing == Existing::kKeep ? AlreadyThere(path) : absl::OkStatus();
 }
 
@@ -81,8 +79,7 @@ template <typename Make>
 int MakeTemporary(const std::filesystem::path& folder, std::string& name, Make make) {
   int result = -1;
   for (int attempt = 0; result < 0; ++attempt) {
-    name = folder /
-           absl::StrCat(std::string(kTemporaryPrefix), getpid(), "-", attempt, std::string(kTemporarySuffix));
+    name = folder / absl::StrCat(std::string(kTemporaryPrefix), getpid(), "-", attempt, std::string(kTemporarySuffix));
     result = make(name.c_str());
     if (result < 0 && errno != EEXIST) break;
   }
@@ -105,9 +102,8 @@ constexpr int kSlots = 8;
 std::array<Slot, kSlots> slots;
 
 extern "C" void RemoveTemporariesAndEnd(int signal) {
-  for (Slot& slot : slots) {
+  for (Slot& slot : slots)
     if (slot.armed) unlink(slot.path);
-  }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -202,8 +198,7 @@ absl::Status OutputFile::Write(std::string_view bytes) {
 
 absl::Status OutputFile::WriteAt(std::uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count =
-        pwrite(temporary_->descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const ssize_t count = pwrite(temporary_->descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return SystemError(temporary_->path, kMakeRoom);
     bytes.remove_prefix(static_cast<std::size_t>(count));
@@ -237,8 +232,7 @@ absl::Status OutputFile::Commit() {
   if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;
   const char* from = temporary.temporary_path.c_str();
   const char* to = temporary.path.c_str();
-  const int renamed =
-      temporary.existing == Existing::kReplace ? std::rename(from, to) : RenameToFreeName(from, to);
+  const int renamed = temporary.existing == Existing::kReplace ? std::rename(from, to) : RenameToFreeName(from, to);
   if (renamed != 0 && errno == EEXIST) return AlreadyThere(temporary.path);
   if (renamed != 0) return SystemError(temporary.path, "choose another name");
   temporary.temporary_path.clear();
@@ -252,8 +246,7 @@ absl::Status OutputFile::Commit() {
   return absl::OkStatus();
 }
 
-absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
-                                 Existing existing) {
+absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes, Existing existing) {
   absl::StatusOr<OutputFile> file = OutputFile::Create(path, existing);
   if (!file.ok()) return file.status();
   if (absl::Status status = file->Write(bytes); !status.ok()) return status;

@@ -45,8 +45,7 @@ class OutputFile {
 };
 
 // Writes a whole file, or nothing.
-absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
-                                 Existing existing);
+absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes, Existing existing);
 
 // Whether this is the name of such a temporary file, as a killed writer leaves it behind.
 bool IsTemporaryName(std::string_view name);

@@ -27,19 +27,16 @@ absl::Status Problem(const absl::FormatSpec<Arguments...>& format, const Argumen
 // without the other two, in the order in which all writers apply them. For other filters, HDF5 would load a
 // plug-in.
 absl::StatusOr<std::size_t> BytesBehindDeflate(hid_t creation) {
-  constexpr std::array<H5Z_filter_t, 3> kOrder = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE,
-                                                  H5Z_FILTER_FLETCHER32};
+  constexpr std::array<H5Z_filter_t, 3> kOrder = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32};
   bool deflated = false;
   std::size_t behind = 0;
   auto next = kOrder.begin();
   for (int i = 0; i < H5Pget_nfilters(creation); ++i) {
     std::size_t no_parameters = 0;
-    const H5Z_filter_t filter = H5Pget_filter2(creation, static_cast<unsigned>(i), nullptr, &no_parameters,
-                                               nullptr, 0, nullptr, nullptr);
+    const H5Z_filter_t filter =
+        H5Pget_filter2(creation, static_cast<unsigned>(i), nullptr, &no_parameters, nullptr, 0, nullptr, nullptr);
     next = std::find(next, kOrder.end(), filter);
-    if (next == kOrder.end()) {
-      return Problem("uses filter %d of HDF5: expected shuffle and deflate", filter);
-    }
+    if (next == kOrder.end()) return Problem("uses filter %d of HDF5: expected shuffle and deflate", filter);
     ++next;
     deflated = deflated || filter == H5Z_FILTER_DEFLATE;
     if (filter == H5Z_FILTER_FLETCHER32) behind = kChecksumBytes;
@@ -60,11 +57,9 @@ class Chunks {
     if (size <= behind_ || size > most_) return false;
     stored_.resize(size);
     std::uint32_t skipped_filters = 0;
-    if (H5Dread_chunk(dataset_, H5P_DEFAULT, offset.data(), &skipped_filters, stored_.data()) < 0)
-      return false;
+    if (H5Dread_chunk(dataset_, H5P_DEFAULT, offset.data(), &skipped_filters, stored_.data()) < 0) return false;
     uLongf inflated = inflated_.size();
-    return skipped_filters == 0 &&
-           uncompress(inflated_.data(), &inflated, stored_.data(), size - behind_) == Z_OK &&
+    return skipped_filters == 0 && uncompress(inflated_.data(), &inflated, stored_.data(), size - behind_) == Z_OK &&
            inflated == inflated_.size();
   }
 
@@ -75,8 +70,7 @@ class Chunks {
 };
 
 // Moves to the corner of the next chunk, last dimension first; false after the last chunk.
-bool Advance(std::vector<hsize_t>& offset, const std::vector<hsize_t>& chunk,
-             const std::vector<hsize_t>& shape) {
+bool Advance(std::vector<hsize_t>& offset, const std::vector<hsize_t>& chunk, const std::vector<hsize_t>& shape) {
   for (std::size_t i = shape.size(); i-- > 0;) {
     offset[i] += chunk[i];
     if (offset[i] < shape[i]) return true;
@@ -87,16 +81,13 @@ bool Advance(std::vector<hsize_t>& offset, const std::vector<hsize_t>& chunk,
 
 absl::Status CheckChunks(hid_t dataset, hid_t creation, const std::vector<hsize_t>& shape) {
   std::vector<hsize_t> chunk(shape.size());
-  if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) !=
-      static_cast<int>(chunk.size())) {
+  if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) != static_cast<int>(chunk.size()))
     return Problem("has chunks of another rank than its own");
-  }
   std::size_t room = format::kMaxChunkValues, values = 1;
   for (const hsize_t size : chunk) {
     room /= std::max<hsize_t>(size, 1);
     if (room == 0)
-      return Problem("has chunks of more than %d values, the most that a chunk may have",
-                     format::kMaxChunkValues);
+      return Problem("has chunks of more than %d values, the most that a chunk may have", format::kMaxChunkValues);
     values *= std::max<hsize_t>(size, 1);
   }
   const absl::StatusOr<std::size_t> behind = BytesBehindDeflate(creation);
@@ -114,9 +105,8 @@ absl::Status CheckChunks(hid_t dataset, hid_t creation, const std::vector<hsize_
 absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation);
-  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) {
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0)
     return Problem("has its values in other files: expected them in this file");
-  }
   if (layout == H5D_CHUNKED) return CheckChunks(dataset, creation, shape);
   std::size_t count = 1;
   for (const hsize_t size : shape) count *= size;
@@ -135,10 +125,8 @@ std::mutex& ProcessLock() {
 
 // ---- writing
 
-bool Write(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
-           const void* data) {
-  const Handle attribute(H5Acreate2(object, name.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+bool Write(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space, const void* data) {
+  const Handle attribute(H5Acreate2(object, name.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute && (data == nullptr || H5Awrite(attribute, memory_type, data) >= 0);
 }
 
@@ -165,8 +153,7 @@ struct AttributeWriter {
   bool operator()(const std::vector<double>& numbers) const {
     const hsize_t size = numbers.size();
     const Handle space(numbers.empty() ? H5Screate(H5S_NULL) : H5Screate_simple(1, &size, nullptr), H5Sclose);
-    return Write(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space,
-                 numbers.empty() ? nullptr : numbers.data());
+    return Write(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, numbers.empty() ? nullptr : numbers.data());
   }
 };
 
@@ -179,9 +166,8 @@ absl::Status Unreadable(const std::string& name) {
 // Called before memory of the size that an attribute claims is allocated.
 absl::Status CheckSize(std::size_t count, std::size_t size, const std::string& name) {
   if (count <= format::kMaxAttributeBytes / size) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrFormat("attribute '%s' is longer than %d bytes, the most that an attribute may have", name,
-                      format::kMaxAttributeBytes));
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "attribute '%s' is longer than %d bytes, the most that an attribute may have", name, format::kMaxAttributeBytes));
 }
 
 absl::StatusOr<AttributeValue> ReadFixedText(hid_t attribute, hid_t type, const std::string& name) {
@@ -263,9 +249,8 @@ bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue&
 }
 
 absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& name) {
-  if (H5Aexists(object, name.c_str()) <= 0) {
+  if (H5Aexists(object, name.c_str()) <= 0)
     return absl::NotFoundError(absl::StrFormat("attribute '%s' is missing", name));
-  }
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
   const Handle space(H5Aget_space(attribute), H5Sclose);
@@ -284,12 +269,10 @@ absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& na
   if (kind == H5T_FLOAT && is_null) return std::vector<double>();
   hsize_t count = 0;
   if (kind == H5T_FLOAT && H5Sget_simple_extent_ndims(space) == 1 &&
-      H5Sget_simple_extent_dims(space, &count, nullptr) == 1) {
+      H5Sget_simple_extent_dims(space, &count, nullptr) == 1)
     return ReadNumbers(attribute, count, name);
-  }
   return absl::InvalidArgumentError(absl::StrFormat(
-      "attribute '%s' is of another kind: it may be text, an integer, a real number or a list of them",
-      name));
+      "attribute '%s' is of another kind: it may be text, an integer, a real number or a list of them", name));
 }
 
 absl::StatusOr<std::vector<std::string>> AttributeNames(hid_t object) {
@@ -298,9 +281,8 @@ absl::StatusOr<std::vector<std::string>> AttributeNames(hid_t object) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, append, &names) < 0) {
+  if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, append, &names) < 0)
     return absl::InvalidArgumentError("the attributes cannot be listed");
-  }
   return names;
 }
 

@@ -17,17 +17,15 @@ absl::string_view Magic() { return {kMagic.data(), kMagic.size()}; }
 
 template <typename Integer>
 void PutLittleEndian(std::string& file, std::size_t offset, Integer value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
+  for (std::size_t i = 0; i < sizeof value; ++i)
     file[offset + i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
 }
 
 template <typename Integer>
 Integer GetLittleEndian(absl::string_view file, std::size_t offset) {
   Integer value = 0;
-  for (std::size_t i = 0; i < sizeof value; ++i) {
+  for (std::size_t i = 0; i < sizeof value; ++i)
     value |= static_cast<Integer>(static_cast<std::uint8_t>(file[offset + i])) << (8 * i);
-  }
   return value;
 }
 
@@ -71,10 +69,8 @@ absl::Status CheckHeader(absl::string_view head, std::uint64_t file_length) {
         absl::StrFormat("has format version %d: this program reads version %d", version, kFormatVersion));
   }
   const auto length = GetLittleEndian<std::uint64_t>(head, kLengthOffset);
-  if (file_length < length) {
-    return absl::DataLossError(
-        absl::StrFormat("is truncated: it has %d of its %d bytes", file_length, length));
-  }
+  if (file_length < length)
+    return absl::DataLossError(absl::StrFormat("is truncated: it has %d of its %d bytes", file_length, length));
   if (file_length > length) {
     return absl::DataLossError(
         absl::StrFormat("is damaged: it has %d bytes, and its seal says %d", file_length, length));
@@ -86,9 +82,8 @@ absl::Status Check(absl::string_view file) {
   absl::Status status = CheckHeader(file.substr(0, kSize), file.size());
   if (!status.ok()) return status;
   const Sha256Digest digest = DigestOf(file);
-  if (std::memcmp(file.data() + kDigestOffset, digest.data(), kDigestSize) != 0) {
+  if (std::memcmp(file.data() + kDigestOffset, digest.data(), kDigestSize) != 0)
     return absl::DataLossError("is damaged: its bytes do not have the SHA-256 of its seal");
-  }
   return absl::OkStatus();
 }
 

@@ -18,8 +18,7 @@ namespace {
 using hdf5::Handle;
 
 absl::Status About(std::string_view kind, const std::string& name, std::string_view problem) {
-  return absl::InvalidArgumentError(
-      absl::StrFormat("%s '%s' %s", std::string(kind), name, std::string(problem)));
+  return absl::InvalidArgumentError(absl::StrFormat("%s '%s' %s", std::string(kind), name, std::string(problem)));
 }
 
 absl::StatusOr<std::string> ReadText(hid_t object, std::string_view name) {
@@ -50,9 +49,8 @@ absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std:
   Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset) return About(kind, name, "is not a dataset");
   const Handle type(H5Dget_type(dataset), H5Tclose);
-  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(float)) {
+  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(float))
     return About(kind, name, "is of another type: it should be float32");
-  }
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 0) return About(kind, name, "has no shape");
@@ -63,15 +61,13 @@ absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std:
 
 // Requires that the shape has been checked.
 absl::StatusOr<std::vector<float>> ReadFloats(const FloatDataset& from, std::string_view kind) {
-  if (const absl::Status status = hdf5::CheckStorage(from.dataset, from.shape); !status.ok()) {
+  if (const absl::Status status = hdf5::CheckStorage(from.dataset, from.shape); !status.ok())
     return About(kind, from.name, std::string(status.message()));
-  }
   std::size_t count = 1;
   for (hsize_t size : from.shape) count *= size;
   std::vector<float> values(count);
-  if (H5Dread(from.dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+  if (H5Dread(from.dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     return About(kind, from.name, "cannot be read");
-  }
   return values;
 }
 
@@ -79,31 +75,25 @@ absl::Status CheckUnits(const FloatDataset& dataset, std::string_view kind, std:
   const absl::StatusOr<std::string> units = ReadText(dataset.dataset, format::kUnits);
   if (!units.ok()) return About(kind, dataset.name, absl::StrCat("has no units: ", units.status().message()));
   if (*units == expected) return absl::OkStatus();
-  return About(kind, dataset.name,
-               absl::StrFormat("is in '%s': it should be in '%s'", *units, std::string(expected)));
+  return About(kind, dataset.name, absl::StrFormat("is in '%s': it should be in '%s'", *units, std::string(expected)));
 }
 
 absl::StatusOr<Scale> ReadScale(const FloatDataset& dataset, std::string_view kind) {
   const absl::StatusOr<std::string> name = ReadText(dataset.dataset, format::kInterpolation);
   if (!name.ok()) return About(kind, dataset.name, std::string(name.status().message()));
-  for (Scale scale : {Scale::kLinear, Scale::kLog}) {
+  for (Scale scale : {Scale::kLinear, Scale::kLog})
     if (*name == Name(scale)) return scale;
-  }
-  return About(kind, dataset.name,
-               absl::StrFormat("has interpolation '%s': it should be 'linear' or 'log'", *name));
+  return About(kind, dataset.name, absl::StrFormat("has interpolation '%s': it should be 'linear' or 'log'", *name));
 }
 
 absl::StatusOr<Axis> ReadAxis(hid_t file, const AxisSchema& schema) {
   const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "axis", schema.name);
   if (!dataset.ok()) return dataset.status();
-  if (dataset->shape.size() != 1) {
-    return About("axis", dataset->name,
-                 absl::StrFormat("has %d dimensions: it should have 1", dataset->shape.size()));
-  }
+  if (dataset->shape.size() != 1)
+    return About("axis", dataset->name, absl::StrFormat("has %d dimensions: it should have 1", dataset->shape.size()));
   if (dataset->shape[0] > format::kMaxNodeCount) {
-    return About(
-        "axis", dataset->name,
-        absl::StrFormat("has %d nodes: it may have %d at most", dataset->shape[0], format::kMaxNodeCount));
+    return About("axis", dataset->name,
+                 absl::StrFormat("has %d nodes: it may have %d at most", dataset->shape[0], format::kMaxNodeCount));
   }
   const absl::Status units = CheckUnits(*dataset, "axis", schema.units);
   if (!units.ok()) return units;
@@ -121,8 +111,8 @@ absl::StatusOr<Table::Axes> ReadAxes(hid_t file, const TableSchema& schema) {
     absl::StatusOr<Axis> axis = ReadAxis(file, axis_schema);
     if (!axis.ok()) return axis.status();
     if (axis->size() > format::kMaxValueCount / count) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "the axes span more than %d nodes, the most that a table may have", format::kMaxValueCount));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("the axes span more than %d nodes, the most that a table may have", format::kMaxValueCount));
     }
     count *= axis->size();
     axes.push_back(*std::move(axis));
@@ -265,8 +255,7 @@ absl::StatusOr<Table> ReadContents(hid_t file, Kinds kinds, std::size_t length) 
   const absl::StatusOr<std::string> digest = ReadText(file, format::kContentDigest);
   if (!digest.ok()) return digest.status();
 
-  absl::StatusOr<Table> table =
-      Table::Create(schema, *std::move(axes), std::move(variables), *std::move(provenance));
+  absl::StatusOr<Table> table = Table::Create(schema, *std::move(axes), std::move(variables), *std::move(provenance));
   if (table.ok() && table->digest() != *digest) {
     return About("attribute", std::string(format::kContentDigest),
                  absl::StrFormat("is '%s': the content has '%s'", *digest, table->digest()));

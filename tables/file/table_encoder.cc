@@ -42,10 +42,8 @@ class Encoder {
   absl::StatusOr<std::string> Encode() {
     WriteGlobalAttributes();
     for (const Axis& axis : table_.axes()) WriteAxis(axis);
-    for (std::size_t q = 0; q < table_.schema().quantities.size(); ++q) {
-      if (const Variable* variable = table_.variable(q))
-        WriteVariable(table_.schema().quantities[q], *variable);
-    }
+    for (std::size_t q = 0; q < table_.schema().quantities.size(); ++q)
+      if (const Variable* variable = table_.variable(q)) WriteVariable(table_.schema().quantities[q], *variable);
     std::string image = Image();
     if (!ok_) return absl::InternalError("HDF5 cannot build the table in memory");
     seal::Apply(image);
@@ -104,8 +102,7 @@ class Encoder {
     const hsize_t size = nodes.size();
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
     const Handle dataset(
-        H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, DatasetCreation(), H5P_DEFAULT),
-        H5Dclose);
+        H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, DatasetCreation(), H5P_DEFAULT), H5Dclose);
     Require(H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes.data()) >= 0);
     Require(H5DSset_scale(dataset, name.c_str()) >= 0);
     WriteText(dataset, format::kUnits, schema.units);
@@ -120,12 +117,11 @@ class Encoder {
     const Handle dataset = WriteValues(quantity, name, long_name, variable.scale, variable.values);
     if (variable.standard_errors.empty()) return;
     WriteText(dataset, format::kAncillaryVariables, error_name);
-    WriteValues(quantity, error_name, "standard error of: " + long_name, Scale::kLinear,
-                variable.standard_errors);
+    WriteValues(quantity, error_name, "standard error of: " + long_name, Scale::kLinear, variable.standard_errors);
   }
 
-  Handle WriteValues(const QuantitySchema& quantity, const std::string& name, const std::string& long_name,
-                     Scale scale, const std::vector<float>& values) {
+  Handle WriteValues(const QuantitySchema& quantity, const std::string& name, const std::string& long_name, Scale scale,
+                     const std::vector<float>& values) {
     const std::vector<hsize_t> shape = Shape(table_, quantity);
     const int rank = static_cast<int>(shape.size());
     const float fill = std::numeric_limits<float>::quiet_NaN();
@@ -150,9 +146,9 @@ class Encoder {
   void WriteFillValue(hid_t dataset, float fill) {
     const hsize_t one = 1;
     const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose);
-    const Handle attribute(H5Acreate2(dataset, std::string(format::kFillValue).c_str(), H5T_IEEE_F32LE, space,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
+    const Handle attribute(
+        H5Acreate2(dataset, std::string(format::kFillValue).c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
     Require(H5Awrite(attribute, H5T_NATIVE_FLOAT, &fill) >= 0);
   }
 

@@ -12,9 +12,7 @@ namespace albtpu {
 
 // The sealed file. The same table gives the same bytes.
 absl::StatusOr<std::string> EncodeTable(const Table& table);
-inline absl::StatusOr<std::string> EncodeTable(const UncertaintyTable& table) {
-  return EncodeTable(table.table());
-}
+inline absl::StatusOr<std::string> EncodeTable(const UncertaintyTable& table) { return EncodeTable(table.table()); }
 
 // Checks the seal first, then the kind, the schema, the values and the content digest. Without a schema, the table is
 // of one of UncertaintyTable::kKinds.

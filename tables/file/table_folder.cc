@@ -24,9 +24,10 @@ constexpr std::size_t kMaxListedBytes = 800;
 constexpr std::size_t kMaxQuotedBytes = 100;
 
 bool IsName(std::string_view text) {
-  return !text.empty() && absl::ascii_isalnum(text[0]) && std::all_of(text.begin(), text.end(), [](char c) {
-    return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-';
-  });
+  return !text.empty() && absl::ascii_isalnum(text[0]) &&
+         std::all_of(
+             text.begin(), text.end(),
+             [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
 }
 
 // The name of the table or version by the name of a file; nullopt for other files.
@@ -41,12 +42,9 @@ absl::StatusOr<std::vector<fs::directory_entry>> List(const fs::path& folder) {
   std::vector<fs::directory_entry> entries;
   fs::directory_iterator it(folder, error);
   for (; !error && it != fs::directory_iterator(); it.increment(error)) entries.push_back(*it);
-  if (error == std::errc::no_such_file_or_directory) {
+  if (error == std::errc::no_such_file_or_directory)
     return absl::NotFoundError(absl::StrCat("there is no folder '", folder.string(), "'"));
-  }
-  if (error) {
-    return absl::ErrnoToStatus(error.value(), absl::StrCat("cannot read folder '", folder.string(), "'"));
-  }
+  if (error) return absl::ErrnoToStatus(error.value(), absl::StrCat("cannot read folder '", folder.string(), "'"));
   return entries;
 }
 
@@ -66,8 +64,7 @@ absl::StatusOr<std::vector<TableFile>> FindVersions(const fs::path& folder) {
 // Removes a run of digits, or a run of other characters, from the front of `text`.
 std::string_view TakeRun(std::string_view& text) {
   const bool digits = absl::ascii_isdigit(text[0]);
-  const auto end =
-      std::find_if(text.begin(), text.end(), [&](char c) { return absl::ascii_isdigit(c) != digits; });
+  const auto end = std::find_if(text.begin(), text.end(), [&](char c) { return absl::ascii_isdigit(c) != digits; });
   const std::string_view run = text.substr(0, static_cast<std::size_t>(end - text.begin()));
   text.remove_prefix(run.size());
   return run;
@@ -137,9 +134,9 @@ absl::StatusOr<std::vector<TableFile>> FindTables(const fs::path& folder) {
   // The empty version is the oldest one and so the last of its name.
   for (std::size_t i = 1; i < files.size(); ++i) {
     if (files[i].name != files[i - 1].name || !files[i].version.empty()) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat("'", files[i].path.string(), "' and '", files[i - 1].path.string(), "' are both table '",
-                     files[i].name, "': move one of them into the folder of the other, or rename it"));
+    return absl::InvalidArgumentError(absl::StrCat("'", files[i].path.string(), "' and '", files[i - 1].path.string(),
+                                                   "' are both table '", files[i].name,
+                                                   "': move one of them into the folder of the other, or rename it"));
   }
   return files;
 }
@@ -161,13 +158,11 @@ absl::StatusOr<std::size_t> FindTable(std::span<const TableFile> tables, std::st
   if (request.empty()) request = default_table;
   const bool default_is_meant = request.empty();
   if (default_is_meant) request = kPreferredName;
-  const auto found = std::find_if(tables.begin(), tables.end(),
-                                  [&](const TableFile& table) { return IsMeant(table, request); });
+  const auto found =
+      std::find_if(tables.begin(), tables.end(), [&](const TableFile& table) { return IsMeant(table, request); });
   if (found != tables.end()) return static_cast<std::size_t>(found - tables.begin());
-  if (!default_is_meant) {
-    return absl::NotFoundError(
-        absl::StrCat("there is no table ", Quoted(request), ": there are ", ListNames(tables)));
-  }
+  if (!default_is_meant)
+    return absl::NotFoundError(absl::StrCat("there is no table ", Quoted(request), ": there are ", ListNames(tables)));
   std::optional<std::size_t> only = OnlyName(tables, [](const TableFile&) { return true; });
   if (!only.has_value()) only = OnlyName(tables, [](const TableFile& table) { return !table.published; });
   if (only.has_value()) return *only;

@@ -24,9 +24,7 @@ absl::Status WithPath(const fs::path& path, const absl::Status& status) {
 }
 
 // A file that shrinks while it is read sets no error number.
-absl::Status SystemError(int error) {
-  return absl::ErrnoToStatus(error == 0 ? EIO : error, "cannot be read");
-}
+absl::Status SystemError(int error) { return absl::ErrnoToStatus(error == 0 ? EIO : error, "cannot be read"); }
 
 // Reads the whole file, or only its first bytes if they show that it is not a table.
 absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
@@ -74,11 +72,13 @@ absl::Status Write(const Table& table, const fs::path& path, Existing existing) 
 }  // namespace
 
 absl::StatusOr<Table> ReadTable(const fs::path& path, const TableSchema& schema) {
-  return Read(path, [&](const std::string& file) { return DecodeTable(file, schema); });
+  return Read(
+      path, [&](const std::string& file) { return DecodeTable(file, schema); });
 }
 
 absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) {
-  return Read(path, [](const std::string& file) { return DecodeTable(file); });
+  return Read(
+      path, [](const std::string& file) { return DecodeTable(file); });
 }
 
 absl::Status WriteTable(const Table& table, const fs::path& path, Existing existing) try {

@@ -76,8 +76,8 @@ HWY_INLINE V Fraction(const Interval& interval, bool log, V x) {
   return hn::IfThenElse(hn::Eq(x, interval.to), one, fraction);
 }
 
-void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count,
-                 std::int32_t step, std::int32_t* rows, float* fractions, std::int32_t* codes) {
+void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count, std::int32_t step,
+                 std::int32_t* rows, float* fractions, std::int32_t* codes) {
   const bool one_node = axis.nodes.size() == 1;
   const V first = hn::Set(d, axis.nodes.front()), last = hn::Set(d, axis.nodes.back());
   const VI invalid = hn::Set(di, axis.axis), outside = hn::Set(di, outcome_code::kOutside + axis.axis);
@@ -115,13 +115,12 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
   }
 }
 
-void AddLowerNodesOfBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count,
-                          std::int32_t step, std::int32_t* rows) {
+void AddLowerNodesOfBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count, std::int32_t step,
+                          std::int32_t* rows) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     V x = hn::LoadU(d, coordinates + i);
     if (axis.fold != Fold::kNone) x = Folded(axis.fold, x);
-    hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(LowerNode(axis, x), hn::Set(di, step))), di,
-               rows + i);
+    hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(LowerNode(axis, x), hn::Set(di, step))), di, rows + i);
   }
 }
 

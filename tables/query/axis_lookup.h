@@ -36,13 +36,12 @@ class AxisLookup {
   // `rows`, sets `fractions` to the fraction of the distance to the next node, 0 to 1 and exactly 0 or 1 on a node,
   // and lowers `codes` to the outcome on this axis. A coordinate that is not inside counts as the first node.
   // Outcomes and nodes are exactly those of `Axis::Locate`; fractions differ from its fractions by 1e-6 at most.
-  void Locate(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows,
-              float* fractions, std::int32_t* codes) const;
+  void Locate(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows, float* fractions,
+              std::int32_t* codes) const;
 
   // Adds `step` times the index of the node below each of `count` coordinates to `rows`. For a coordinate that is not
   // inside, or an azimuth beyond kFarthestAzimuth, it is any node but the last, or the only one.
-  void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
-                     std::int32_t* rows) const;
+  void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows) const;
 
   // The data that the kernels read.
   struct Nodes {

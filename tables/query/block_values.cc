@@ -53,9 +53,8 @@ NodeRecords::NodeRecords(const Table& table) : quantity_count(table.schema().qua
     const std::size_t first = sets.size(), last = Place(members, any_errors, first, *this);
     const Records zeros((ValueCount(table.axes(), quantities[members[0]]) + 1) * kRecordSize);
     for (std::size_t set = first; set < last; ++set) sets.push_back({over_last_axis, zeros, {}});
-    for (const std::size_t q : members) {
+    for (const std::size_t q : members)
       if (is_log[q]) sets[values[q].set].plain = zeros;
-    }
   }
   assert(sets.size() <= kMaxSets);
   for (std::size_t q = 0; q < quantity_count; ++q) {
@@ -94,9 +93,8 @@ std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
     node += step_of_axis;
     return fractions[i] == 1;
   };
-  for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {
+  for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot)
     if (!step(pulses.fractions[slot], pulses.steps[slot])) return -1;
-  }
   return step(pulses.innermost, 1) ? node : -1;
 }
 
@@ -138,13 +136,11 @@ void BlockValues::TakeLarger(const PulseBlock& block) {
     if (records_.has_standard_errors[q] && needs_.sets[error.set]) {
       BlockOf<float>& errors = largest_[error.set][error.lane];
       const BlockOf<float>& other_errors = later_[error.set][error.lane];
-      for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t i = 0; i < count; ++i)
         errors[i] = std::abs(others[i]) > std::abs(values[i]) ? other_errors[i] : errors[i];
-      }
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
       values[i] = std::abs(others[i]) > std::abs(values[i]) ? others[i] : values[i];
-    }
   }
 }
 
@@ -173,13 +169,13 @@ void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t
   const auto write = [&](std::uint8_t* column, auto number_of) {
     if (column == nullptr) return;
     column += block.first();
-    if (block.all_inside()) {
+    if (block.all_inside())
       std::fill_n(column, block.count(), number_of(outcome_code::kInside));
-    } else {
+    else
       for (std::size_t i = 0; i < block.count(); ++i) column[i] = number_of(block.codes()[i]);
-    }
   };
-  write(outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
+  write(
+      outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
   write(outcome_axes, [](std::int32_t code) {
     return code == outcome_code::kInside ? std::uint8_t{0} : OneBased(code % outcome_code::kOutside);
   });
@@ -187,32 +183,28 @@ void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t
 
 void ClearOutside(const PulseBlock& block, float* column) {
   if (block.all_inside()) return;
-  for (std::size_t i = 0; i < block.count(); ++i) {
+  for (std::size_t i = 0; i < block.count(); ++i)
     if (block.codes()[i] != outcome_code::kInside) column[i] = kNoNumber;
-  }
 }
 
 AnswerWriter::AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers)
     : query_(query),
       records_(records),
       answers_(answers),
-      s44_(answers.best_s44_orders != nullptr || answers.remaining_thu != nullptr ||
-           answers.remaining_tvu != nullptr) {
+      s44_(answers.best_s44_orders != nullptr || answers.remaining_thu != nullptr || answers.remaining_tvu != nullptr) {
   for (Quantity quantity : kQuantities) {
     const std::size_t q = Index(quantity);
     const bool error = answers.standard_errors[q] != nullptr && records.has_standard_errors[q];
     if (answers.values[q] != nullptr) needs_.AddValue(records, q);
     if (error) needs_.AddStandardError(records, q);
-    if (quantity == Quantity::kThu && (answers.values[q] != nullptr || error)) {
+    if (quantity == Quantity::kThu && (answers.values[q] != nullptr || error))
       needs_radius_ = query.coverage == Coverage::kP95;
-    }
   }
   if (s44_) needs_radius_ = true;
   if (!needs_radius_) return;
   for (const Quantity quantity :
-       {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu}) {
+       {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu})
     needs_.AddValue(records, Index(quantity));
-  }
 }
 
 void AnswerWriter::Take(const PulseBlock& block, BlockValues& values) {
@@ -257,16 +249,14 @@ void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, cons
     std::fill_n(column, count, kNoNumber);
     return;
   }
-  if (query_.coverage == Coverage::kTwoSigma || Describe(quantity).is_bias) {
+  if (query_.coverage == Coverage::kTwoSigma || Describe(quantity).is_bias)
     std::copy_n(numbers->begin(), count, column);
-  } else if (query_.coverage == Coverage::kOneSigma) {
+  else if (query_.coverage == Coverage::kOneSigma)
     for (std::size_t i = 0; i < count; ++i) column[i] = (*numbers)[i] / 2;
-  } else if (quantity == Quantity::kThu) {
-    for (std::size_t i = 0; i < count; ++i)
-      column[i] = static_cast<float>((*numbers)[i] * radius_over_thu_[i]);
-  } else {
+  else if (quantity == Quantity::kThu)
+    for (std::size_t i = 0; i < count; ++i) column[i] = static_cast<float>((*numbers)[i] * radius_over_thu_[i]);
+  else
     for (std::size_t i = 0; i < count; ++i) column[i] = static_cast<float>((*numbers)[i] * kFactor95);
-  }
   ClearOutside(block, column);
 }
 
@@ -284,12 +274,10 @@ void AnswerWriter::WriteS44(const PulseBlock& block, const BlockValues& values) 
       answers_.best_s44_orders[at] = best.has_value() ? OneBased(*best) : std::uint8_t{0};
     }
     const bool remains = inside && query_.s44_order.has_value();
-    if (answers_.remaining_thu != nullptr) {
+    if (answers_.remaining_thu != nullptr)
       answers_.remaining_thu[at] = remains ? Remaining(ThuLimit(*query_.s44_order, depth), thu) : kNoNumber;
-    }
-    if (answers_.remaining_tvu != nullptr) {
+    if (answers_.remaining_tvu != nullptr)
       answers_.remaining_tvu[at] = remains ? Remaining(TvuLimit(*query_.s44_order, depth), tvu) : kNoNumber;
-    }
   }
 }
 

@@ -45,9 +45,7 @@ struct NodeRecords {
 struct Needs {
   std::array<bool, NodeRecords::kMaxSets> sets{};
 
-  void AddValue(const NodeRecords& records, std::size_t quantity) {
-    sets[records.values[quantity].set] = true;
-  }
+  void AddValue(const NodeRecords& records, std::size_t quantity) { sets[records.values[quantity].set] = true; }
   // The value included: the larger value decides which standard error belongs to it.
   void AddStandardError(const NodeRecords& records, std::size_t quantity) {
     AddValue(records, quantity);
@@ -68,17 +66,13 @@ class BlockValues {
   void TakeLarger(const PulseBlock& block);
 
   // The largest values taken; without TakeLarger(), those of the first alternative.
-  const BlockOf<float>& value(std::size_t quantity) const {
-    return Column(largest_, records_.values[quantity]);
-  }
+  const BlockOf<float>& value(std::size_t quantity) const { return Column(largest_, records_.values[quantity]); }
   const BlockOf<float>& standard_error(std::size_t quantity) const {
     return Column(largest_, records_.standard_errors[quantity]);
   }
 
   // That of a later alternative, which Find() found last.
-  const BlockOf<float>& later_value(std::size_t quantity) const {
-    return Column(later_, records_.values[quantity]);
-  }
+  const BlockOf<float>& later_value(std::size_t quantity) const { return Column(later_, records_.values[quantity]); }
 
  private:
   using Columns = std::array<std::array<BlockOf<float>, kRecordSize>, NodeRecords::kMaxSets>;
@@ -124,8 +118,7 @@ class AnswerWriter {
  private:
   void TakeRadius(const PulseBlock& block, const BlockValues& values);
   // `numbers` is null if the table has none.
-  void WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,
-                    float* column) const;
+  void WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers, float* column) const;
   void WriteS44(const PulseBlock& block, const BlockValues& values) const;
 
   const Query& query_;

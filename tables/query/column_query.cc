@@ -59,8 +59,8 @@ void ForEachColumn(const AnswerColumns& wanted, AnswerColumns& other, const Visi
 // Interpolates the pulses from `begin` on, block by block. Stops at `end`, or after a scattered block if at least
 // `fewest_to_sort` pulses follow it. Returns the index of the first pulse that it has not interpolated.
 template <typename Layout>
-std::size_t InterpolateBlocks(const Layout& layout, const PulseColumns& pulses, std::size_t begin,
-                              std::size_t end, std::size_t fewest_to_sort, AnswerWriter writer) {
+std::size_t InterpolateBlocks(const Layout& layout, const PulseColumns& pulses, std::size_t begin, std::size_t end,
+                              std::size_t fewest_to_sort, AnswerWriter writer) {
   if (begin == end) return end;
   PulseBlock block(layout.grid, pulses, std::min(kBlock, end - begin));
   BlockValues values(layout.records, writer.needs());
@@ -78,16 +78,15 @@ std::size_t InterpolateBlocks(const Layout& layout, const PulseColumns& pulses, 
   return begin;
 }
 
-void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin,
-                                     std::size_t end, const AnswerColumns& answers) const {
+void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
+                                     const AnswerColumns& answers) const {
   assert(CheckLengths(layout_->schema, pulses).ok() && begin <= end && end <= pulses.size);
   while (true) {
     begin = InterpolateBlocks(*layout_, pulses, begin, end, layout_->fewest_to_sort,
                               AnswerWriter(query, layout_->records, answers));
     if (begin == end) return;
     // The pulses after a scattered block are likely to be scattered, too.
-    const std::size_t count =
-        std::min(end - begin, SortedPulses::kMost) / AxisLookup::kPadding * AxisLookup::kPadding;
+    const std::size_t count = std::min(end - begin, SortedPulses::kMost) / AxisLookup::kPadding * AxisLookup::kPadding;
     const SortedPulses sorted(layout_->grid, pulses, begin, count);
     SortedAnswers<AnswerColumns> sorted_answers(sorted, answers);
     InterpolateBlocks(*layout_, sorted.pulses(), 0, count, SortedPulses::kNever,
@@ -97,8 +96,8 @@ void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pul
   }
 }
 
-void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,
-                           const PulseColumns& pulses, const AnswerColumns& answers) {
+void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
+                           const AnswerColumns& answers) {
   constexpr std::size_t kGrain = 8192;  // pulses in a piece of work, which takes at least 100 us
   if (pulses.size < 4 * kGrain) return interpolator.Interpolate(query, pulses, 0, pulses.size, answers);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pulses.size, kGrain), [&](const auto& range) {

@@ -49,7 +49,7 @@ class ColumnInterpolator {
 };
 
 // Answers all pulses: on all cores if there are enough pulses for that to be faster, else on the calling thread.
-void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,
-                           const PulseColumns& pulses, const AnswerColumns& answers);
+void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
+                           const AnswerColumns& answers);
 
 }  // namespace albtpu

@@ -47,7 +47,8 @@ class Corners {
   }
 
   double Mean(const std::vector<float>& values) const {
-    return Mean(values, [](double value) { return value; });
+    return Mean(
+        values, [](double value) { return value; });
   }
 
  private:
@@ -81,10 +82,8 @@ double InterpolateValue(const Variable& variable, const Corners& corners) {
 }
 
 PulseUncertainty InterpolatePulse(const UncertaintyTable& table, const Coordinates& coordinates) {
-  for (const AxisId id : kAxes) {
-    if (!IsValid(table.axis(id).schema(), coordinates[Index(id)]))
-      return WithoutNumbers(Outcome::kInvalid, id);
-  }
+  for (const AxisId id : kAxes)
+    if (!IsValid(table.axis(id).schema(), coordinates[Index(id)])) return WithoutNumbers(Outcome::kInvalid, id);
   Brackets brackets;
   for (const AxisId id : kAxes) {
     const Axis& axis = table.axis(id);

@@ -22,9 +22,8 @@ bool AnyIsFar(std::span<const float> azimuths) {
 
 // AxisLookup folds only azimuths that are not far.
 void FoldFar(Fold fold, float* azimuths, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     if (IsFar(azimuths[i])) azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i], fold));
-  }
 }
 
 }  // namespace
@@ -55,9 +54,8 @@ Grid::Slots Grid::SlotsOf(const TableSchema& schema, bool over_last_axis) const 
   constexpr std::size_t kFew = BlendedPulses::kFastest;
   const std::size_t innermost = over_last_axis || last() == 0 ? last() : last() - 1;
   std::vector<std::size_t> outer;
-  for (const std::size_t axis : schema.blend_order) {
+  for (const std::size_t axis : schema.blend_order)
     if (axis < innermost) outer.push_back(axis);
-  }
   Slots slots{.axes = {}, .steps = {}};
   slots.axes.fill(kNoAxis);
   std::size_t slot = outer.size() < kFew ? kFew - outer.size() : 0;
@@ -86,11 +84,9 @@ PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t
     row += LocateConstant(axis, coordinate, fractions_[axis]);
   }
   if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), max_count, 0.0f);
-  for (const bool over_last_axis : {false, true}) {
-    for (const bool later : {false, true}) {
+  for (const bool over_last_axis : {false, true})
+    for (const bool later : {false, true})
       SetBlended(over_last_axis, later, blended_[over_last_axis ? 1 : 0][later ? 1 : 0]);
-    }
-  }
   // All of them, because all of them decide the outcome.
   for (std::size_t i = 0; has_alternatives_ && i < alternatives(); ++i) LocateAlternative(i);
 }
@@ -118,8 +114,7 @@ std::int32_t PulseBlock::LocateConstant(std::size_t axis, float coordinate, Bloc
   std::fill_n(codes, kCount, constant_code_);
   const Fold fold = grid_.axis(axis).fold();
   if (fold != Fold::kNone) FoldFar(fold, coordinates, kCount);
-  grid_.axis(axis).Locate(coordinates, kCount, static_cast<std::int32_t>(grid_.step(axis)), rows, fraction,
-                          codes);
+  grid_.axis(axis).Locate(coordinates, kCount, static_cast<std::int32_t>(grid_.step(axis)), rows, fraction, codes);
   constant_code_ = codes[0];
   std::fill_n(fractions.begin(), max_count_, fraction[0]);
   return rows[0];
@@ -137,21 +132,19 @@ void PulseBlock::LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows) {
     if (far) FoldFar(fold, copy.begin(), Padded(count_));
     coordinates = copy.begin();
   }
-  grid_.axis(axis).Locate(coordinates, Padded(count_), static_cast<std::int32_t>(grid_.step(axis)),
-                          rows.begin(), fractions_[axis].begin(), codes_.begin());
+  grid_.axis(axis).Locate(coordinates, Padded(count_), static_cast<std::int32_t>(grid_.step(axis)), rows.begin(),
+                          fractions_[axis].begin(), codes_.begin());
 }
 
 void PulseBlock::MoveTo(std::size_t first, std::size_t count) {
   first_ = first;
   count_ = count;
-  for (auto& of_alternatives : blended_) {
+  for (auto& of_alternatives : blended_)
     for (BlendedPulses& pulses : of_alternatives) pulses.count = count;
-  }
   std::fill_n(codes_.begin(), Padded(count), constant_code_);
   std::fill_n(rows_.begin(), Padded(count), constant_row_);
-  for (std::size_t axis = 0; axis < grid_.last(); ++axis) {
+  for (std::size_t axis = 0; axis < grid_.last(); ++axis)
     if (!IsConstant(axis)) LocateColumn(axis, rows_);
-  }
   const auto last_size = static_cast<std::int32_t>(grid_.last_size());
   for (std::size_t i = 0; i < Padded(count); ++i) rows_with_last_[i] = rows_[i] * last_size + constant_last_;
   if (!IsConstant(grid_.last())) LocateColumn(grid_.last(), rows_with_last_);

@@ -16,9 +16,9 @@ absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses)
     const std::size_t length = pulses.axis[axis].size();
     const bool optional = schema.axes[axis].if_absent != IfAbsent::kRefuse;
     if (length == pulses.size || length == 1 || (length == 0 && optional)) continue;
-    return absl::InvalidArgumentError(absl::StrCat(
-        "column '", std::string(schema.axes[axis].name), "' has ", length, " numbers for ", pulses.size,
-        " pulses: expected one for each pulse", optional ? ", one for all or none" : " or one for all"));
+    return absl::InvalidArgumentError(absl::StrCat("column '", std::string(schema.axes[axis].name), "' has ", length,
+                                                   " numbers for ", pulses.size, " pulses: expected one for each pulse",
+                                                   optional ? ", one for all or none" : " or one for all"));
   }
   return absl::OkStatus();
 }
@@ -28,9 +28,8 @@ absl::Status CheckLengths(const PulseColumns& pulses) { return CheckLengths(kSea
 PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
   PulseColumns slice = pulses;
   slice.size = count;
-  for (std::span<const float>& column : slice.axis) {
+  for (std::span<const float>& column : slice.axis)
     if (column.size() > 1) column = column.subspan(begin, count);
-  }
   return slice;
 }
 

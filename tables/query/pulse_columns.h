@@ -16,8 +16,7 @@
 
 namespace albtpu {
 
-static_assert(std::endian::native == std::endian::little,
-              "columns are copied to and from the wire unchanged");
+static_assert(std::endian::native == std::endian::little, "columns are copied to and from the wire unchanged");
 
 // Pulses as one column for each axis, in the units of the axes. A column has `size` numbers, or one for all pulses.
 // The columns of fetch and azimuth may be empty, which means a fully developed sea and the worse of 0 and 90

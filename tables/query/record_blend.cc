@@ -58,18 +58,14 @@ HWY_INLINE V Mean(const float* at, const Corners& corners) {
 
 // The means of the pairs at `kPairs` offsets from `at`.
 template <int kAxes, std::size_t kPairs>
-HWY_INLINE void MeanPairs(const float* at, const Corners& corners, const std::ptrdiff_t* offsets,
-                          float* pairs) {
-  for (std::size_t p = 0; p < kPairs; ++p) {
-    for (std::size_t lane = 0; lane < kPair; lane += kLanes) {
+HWY_INLINE void MeanPairs(const float* at, const Corners& corners, const std::ptrdiff_t* offsets, float* pairs) {
+  for (std::size_t p = 0; p < kPairs; ++p)
+    for (std::size_t lane = 0; lane < kPair; lane += kLanes)
       hn::Store(Mean<kAxes>(at + offsets[p] + lane, corners), d, pairs + p * kPair + lane);
-    }
-  }
 }
 
 template <std::size_t kPairs>
-HWY_INLINE void MeanPairs(const float* at, const Corners& corners, const std::ptrdiff_t* offsets,
-                          float* pairs) {
+HWY_INLINE void MeanPairs(const float* at, const Corners& corners, const std::ptrdiff_t* offsets, float* pairs) {
   switch (corners.count) {
     case 0:
       return MeanPairs<0, kPairs>(at, corners, offsets, pairs);
@@ -98,9 +94,8 @@ template <std::size_t kPairs>
 class Cell {
  public:
   Cell(const float* records, const BlendedPulses& pulses) : records_(records), pulses_(pulses) {
-    for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {
+    for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot)
       steps_[slot] = pulses.steps[slot] * static_cast<std::ptrdiff_t>(kRecordSize);
-    }
     for (std::size_t p = 0; p < 2 * kPairs; ++p) {
       offsets_[p] = (p & 1) * steps_[kPairs == 4 ? BlendedPulses::kFastest : BlendedPulses::kFast] +
                     (kPairs == 4 ? (p >> 1 & 1) * steps_[BlendedPulses::kFast] : 0) +
@@ -127,11 +122,10 @@ class Cell {
       row_ = row;
       slowest_ = slowest;
       slow_ = slow;
-      if (has_both_sides_) {
+      if (has_both_sides_)
         MeanPairs<2 * kPairs>(at, corners, offsets_, both_sides_);
-      } else {
+      else
         MeanPairs<kPairs>(at, corners, offsets_, pairs_);
-      }
     }
     middle_ = middle;
     if (has_both_sides_) LerpPairs<kPairs>(middle, both_sides_, pairs_);
@@ -187,9 +181,8 @@ HWY_INLINE void StoreRecord(const V* pair, float fraction, float* record) {
   }
 #endif
   constexpr std::size_t kVectors = kRecordSize / kLanes;
-  for (std::size_t v = 0; v < kVectors; ++v) {
+  for (std::size_t v = 0; v < kVectors; ++v)
     hn::StoreU(Lerp(hn::Set(d, fraction), pair[v], pair[kVectors + v]), d, record + v * kLanes);
-  }
 }
 
 void BlendFiveSlots(const float* records, const BlendedPulses& pulses, float* blended) {
@@ -214,9 +207,8 @@ void BlendFourSlots(const float* records, const BlendedPulses& pulses, float* bl
     const float* at = cell.Enter(i);
     const V fast = hn::Set(d, pulses.fractions[BlendedPulses::kFast][i]);
     V pair[kPair / kLanes];
-    for (std::size_t v = 0; v < kPair / kLanes; ++v, at += kLanes) {
+    for (std::size_t v = 0; v < kPair / kLanes; ++v, at += kLanes)
       pair[v] = Lerp(fast, hn::Load(d, at), hn::Load(d, at + kPair));
-    }
     StoreRecord(pair, pulses.innermost[i], blended + i * kRecordSize);
   }
 }
@@ -234,11 +226,10 @@ HWY_EXPORT(BlendFourSlots);
 
 void Blend(const float* records, const BlendedPulses& pulses, float* blended) {
   records += pulses.first * static_cast<std::ptrdiff_t>(kRecordSize);
-  if (pulses.fractions[BlendedPulses::kFastest] != nullptr) {
+  if (pulses.fractions[BlendedPulses::kFastest] != nullptr)
     HWY_DYNAMIC_DISPATCH(BlendFiveSlots)(records, pulses, blended);
-  } else {
+  else
     HWY_DYNAMIC_DISPATCH(BlendFourSlots)(records, pulses, blended);
-  }
 }
 
 }  // namespace albtpu

@@ -31,8 +31,8 @@ void SortedPulses::FindPlaces(const Grid& grid, const PulseColumns& pulses) {
   std::vector<std::int32_t> rows(count_);
   for (std::size_t axis = 0; axis < grid.last(); ++axis) {
     if (pulses.axis[axis].size() <= 1) continue;
-    grid.axis(axis).AddLowerNodes(pulses.axis[axis].data() + begin_, count_,
-                                  static_cast<std::int32_t>(grid.step(axis)), rows.data());
+    grid.axis(axis).AddLowerNodes(pulses.axis[axis].data() + begin_, count_, static_cast<std::int32_t>(grid.step(axis)),
+                                  rows.data());
   }
   const std::int32_t last = *std::max_element(rows.begin(), rows.end());
   int shift = 0;

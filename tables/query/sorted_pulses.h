@@ -51,8 +51,7 @@ class SortedAnswers {
   SortedAnswers(const SortedPulses& pulses, const Columns& wanted) : pulses_(pulses), wanted_(wanted) {
     // All columns are aligned: the count is a multiple of eight.
     std::size_t bytes = 0;
-    ForEachColumn(wanted_, columns_,
-                  [&](auto* column, auto*&) { bytes += pulses_.count() * sizeof(*column); });
+    ForEachColumn(wanted_, columns_, [&](auto* column, auto*&) { bytes += pulses_.count() * sizeof(*column); });
     memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
     std::byte* next = memory_.get();
     ForEachColumn(wanted_, columns_, [&](auto* column, auto*& sorted) {
@@ -65,10 +64,11 @@ class SortedAnswers {
 
   // Copies the answers into the wanted columns, in the order of the pulses before they were sorted.
   void CopyBack() {
-    ForEachColumn(wanted_, columns_, [&](auto* column, auto*& sorted) {
-      for (std::size_t i = 0; i < pulses_.count(); ++i)
-        column[pulses_.begin() + i] = sorted[pulses_.place(i)];
-    });
+    ForEachColumn(
+        wanted_, columns_,
+        [&](auto* column, auto*& sorted) {
+          for (std::size_t i = 0; i < pulses_.count(); ++i) column[pulses_.begin() + i] = sorted[pulses_.place(i)];
+        });
   }
 
  private:

@@ -73,24 +73,19 @@ bool IsOverScattering(std::size_t quantity) {
 
 // Whether it changes its sign in a mirror.
 bool IsOdd(std::size_t quantity) {
-  return quantity >= Index(WaterQuantity::kBiasAlongPeak) &&
-         quantity <= Index(WaterQuantity::kBiasAlongCentroid);
+  return quantity >= Index(WaterQuantity::kBiasAlongPeak) && quantity <= Index(WaterQuantity::kBiasAlongCentroid);
 }
 
 }  // namespace
 
 std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
   const Axis &incidence = AxisOf(*axes_, WaterAxis::kIncidence),
-             &optical_depth = AxisOf(*axes_, WaterAxis::kOpticalDepth),
-             &view = AxisOf(*axes_, WaterAxis::kFieldOfView),
+             &optical_depth = AxisOf(*axes_, WaterAxis::kOpticalDepth), &view = AxisOf(*axes_, WaterAxis::kFieldOfView),
              &pulse = AxisOf(*axes_, WaterAxis::kPulseLength);
-  const auto within = [](const Axis& axis, double x) {
-    return x >= axis.nodes().front() && x <= axis.nodes().back();
-  };
+  const auto within = [](const Axis& axis, double x) { return x >= axis.nodes().front() && x <= axis.nodes().back(); };
   if (!within(incidence, beam.incidence)) return std::nullopt;
   if (!(beam.optical_depth >= 0 && beam.optical_depth <= optical_depth.nodes().back())) return std::nullopt;
-  if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front()))
-    return std::nullopt;
+  if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front())) return std::nullopt;
   const auto [even, odd] = WeightsOfIncidence(incidence, beam.incidence);
   const Weights tau = CubicWeights(optical_depth, Held(optical_depth, beam.optical_depth));
   const Weights f = CubicWeights(view, Held(view, beam.field_of_view));
@@ -125,9 +120,8 @@ std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
 absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
     if (table.variable(q) != nullptr) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat("variable '", std::string(kWaterColumn.quantities[q].name),
-                     "' is missing; a table of the water column has all of them"));
+    return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[q].name),
+                                                   "' is missing; a table of the water column has all of them"));
   }
   const std::vector<float>& energies = table.variable(Index(WaterQuantity::kEnergy))->values;
   if (!std::all_of(energies.begin(), energies.end(), [](float energy) { return energy > 0; }))
@@ -152,8 +146,7 @@ WaterColumnTable::WaterColumnTable(Table table) : table_(std::move(table)) {
     for (std::size_t i = 0; i < values_[q].size(); ++i) {
       double value = values_[q][i];
       if (q == Index(WaterQuantity::kEnergy)) value = std::log(value);
-      const double ratio = ratios[i / of_ratio % ratios.size()],
-                   fraction = fractions[i / of_ratio / ratios.size()];
+      const double ratio = ratios[i / of_ratio % ratios.size()], fraction = fractions[i / of_ratio / ratios.size()];
       value *= OpticalDepthPerScattering(ratio, fraction) / taus[i / of_tau % taus.size()];
       values_[q][i] = static_cast<float>(value);
     }
@@ -166,8 +159,7 @@ std::pair<double, double> WaterColumnTable::Range(WaterAxis axis) const {
 }
 
 OneWater WaterColumnTable::Of(double backscatter_fraction, double scattering_over_absorption) const {
-  const Axis &fraction = axis(WaterAxis::kBackscatterFraction),
-             &ratio = axis(WaterAxis::kScatteringOverAbsorption);
+  const Axis &fraction = axis(WaterAxis::kBackscatterFraction), &ratio = axis(WaterAxis::kScatteringOverAbsorption);
   const double held_fraction = Held(fraction, backscatter_fraction),
                held_ratio = Held(ratio, scattering_over_absorption);
   const Weights i = CubicWeights(fraction, held_fraction);

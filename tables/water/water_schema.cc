@@ -20,8 +20,7 @@ constexpr std::array<AxisSchema, kWaterAxisCount> kAxisSchemas = {{
      .scale = Scale::kLinear},
     {.name = "optical_depth",
      .units = "1",
-     .long_name =
-         "sqrt(a^2 + 6 B a b) times the depth, of absorption a, scattering b, backscatter fraction B",
+     .long_name = "sqrt(a^2 + 6 B a b) times the depth, of absorption a, scattering b, backscatter fraction B",
      .scale = Scale::kLog},
     {.name = "field_of_view",
      .units = "1",
@@ -35,17 +34,14 @@ constexpr std::array<AxisSchema, kWaterAxisCount> kAxisSchemas = {{
 }};
 
 constexpr std::array<QuantitySchema, kWaterQuantityCount> kQuantitySchemas = {{
-    {"bias_vertical_peak", "1", "vertical bias over the depth, of the peak, positive if too shallow", true,
-     true},
+    {"bias_vertical_peak", "1", "vertical bias over the depth, of the peak, positive if too shallow", true, true},
     {"bias_vertical_half", "1", "the same of the leading edge at half the peak", true, true},
     {"bias_vertical_centroid", "1", "the same of the centroid above a tenth of the peak", true, true},
-    {"bias_along_beam_peak", "1", "bias along the beam over the depth, of the peak, positive if too far",
-     true, true},
+    {"bias_along_beam_peak", "1", "bias along the beam over the depth, of the peak, positive if too far", true, true},
     {"bias_along_beam_half", "1", "the same of the leading edge at half the peak", true, true},
     {"bias_along_beam_centroid", "1", "the same of the centroid above a tenth of the peak", true, true},
     {"stretch", "1", "width of the echo at half its peak over that of the pulse", true, false},
-    {"spot", "1", "standard deviation over the depth of where the echo comes from, along the beam", false,
-     false},
+    {"spot", "1", "standard deviation over the depth of where the echo comes from, along the beam", false, false},
     {"energy", "1", "energy of the echo in the field of view over that of unscattered light", false, false},
 }};
 

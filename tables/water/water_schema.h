@@ -20,7 +20,7 @@ enum class WaterAxis {
   kIncidence,                 // degree, in air
   kOpticalDepth,              // K z, with K = sqrt(a^2 + 6 B a b), B the backscatter fraction
   kFieldOfView,  // diameter of the disc on the surface that the receiver sees, across the beam; the last node: all
-  kPulseLength  // c t / (2 n_group z), t the full width of the pulse at half its maximum
+  kPulseLength   // c t / (2 n_group z), t the full width of the pulse at half its maximum
 };
 inline constexpr std::size_t kWaterAxisCount = 6;
 

@@ -33,8 +33,7 @@ std::vector<double> BeyondRange(const ValueFacts& values) {
 std::vector<Written> WrongValues(const ValueFacts& values) {
   std::vector<Written> wrong;
   if (values.type == "number" || values.type == "number or path") {
-    for (const double number : BeyondRange(values))
-      wrong.push_back({absl::StrCat(number), absl::StrCat(number)});
+    for (const double number : BeyondRange(values)) wrong.push_back({absl::StrCat(number), absl::StrCat(number)});
     for (const char* text : {"true", "[1]", "{}", "''", "2020-06-08"}) wrong.push_back({"", text});
     if (values.type == "number") wrong.push_back({"much", "'much'"});
   } else if (values.type == "3 numbers") {
@@ -71,8 +70,7 @@ TEST(EachKey, IsRefusedWhereItsValueIsWrong) {
   for (const ListedKey& key : ListKeys()) {
     for (const Written& wrong : WrongValues(key.values)) {
       const std::string error = ErrorOf(key, wrong.file);
-      EXPECT_THAT(error, StartsWith(absl::StrCat("line 2: '", key.section, ".", key.key, "' ")))
-          << wrong.file;
+      EXPECT_THAT(error, StartsWith(absl::StrCat("line 2: '", key.section, ".", key.key, "' "))) << wrong.file;
       EXPECT_THAT(error, HasSubstr("(expected ")) << wrong.file;
       EXPECT_THAT(error, HasSubstr("; ")) << wrong.file;
       if (key.flag.empty() || wrong.flag.empty()) continue;

@@ -33,10 +33,8 @@ TEST(SeaSettings, IsItsOwnDescription) {
   sea.wind_from = 90;
   sea.water_depth = 8;
   sea.tail_from = 0.5;
-  const std::pair<const char*, TailRule> rules[] = {{"relax", TailRule::kRelax},
-                                                    {"wind", TailRule::kWind},
-                                                    {"level", TailRule::kLevel},
-                                                    {"none", TailRule::kNone}};
+  const std::pair<const char*, TailRule> rules[] = {
+      {"relax", TailRule::kRelax}, {"wind", TailRule::kWind}, {"level", TailRule::kLevel}, {"none", TailRule::kNone}};
   for (const auto& [name, rule] : rules) {
     sea.tail = name;
     EXPECT_EQ(sea.description().tail, rule);
@@ -58,17 +56,15 @@ TEST(SeaSettings, RefusesWhatHasNoEffect) {
   for (const Key<SeaSettings>& key : kSeaKeys) {
     const std::string name(key.declaration.key);
     const bool of_waves = name == "water_depth" || name == "tail_from" || name == "tail";
-    const bool of_file =
-        name == "longest_gap" || name == "anemometer_height" || name == "place" || name == "time";
+    const bool of_file = name == "longest_gap" || name == "anemometer_height" || name == "place" || name == "time";
     for (SeaSettings sea : {SeaSettings(), OneWave()}) {
-      const bool no_effect =
-          of_file || (of_waves && !sea.has_waves()) || (name == "fetch" && sea.has_waves());
+      const bool no_effect = of_file || (of_waves && !sea.has_waves()) || (name == "fetch" && sea.has_waves());
       if (name == "file") continue;
       Put(Value(5.0), key, sea);
       Put(Value(std::string("relax")), key, sea);
       if (no_effect) {
-        ExpectUsageError(CheckSea(sea), std::string(key.declaration.flag) + " (" + name +
-                                            " in a survey file) has no effect");
+        ExpectUsageError(CheckSea(sea),
+                         std::string(key.declaration.flag) + " (" + name + " in a survey file) has no effect");
       } else {
         EXPECT_TRUE(CheckSea(sea).ok()) << name;
       }
@@ -161,8 +157,8 @@ TEST(Swell, IsHeightPeriodAndDirection) {
 }
 
 TEST(Swell, IsNoOtherText) {
-  for (const char* text : {"", "1", "1,2", "1,9,295,18,5", "1,9,x", "1;9;295", "-1,9,295", "1,0.1,295",
-                           "1,99,295", "1,9,500", "1,9,295,90", "1,9,nan", "1.1,9.5,"}) {
+  for (const char* text : {"", "1", "1,2", "1,9,295,18,5", "1,9,x", "1;9;295", "-1,9,295", "1,0.1,295", "1,99,295",
+                           "1,9,500", "1,9,295,90", "1,9,nan", "1.1,9.5,"}) {
     const absl::Status status = ParseSwell(text).status();
     EXPECT_THAT(std::string(status.message()), HasSubstr("; give HS,TP,FROM or HS,TP,FROM,SPREAD")) << text;
   }

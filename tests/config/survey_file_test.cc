@@ -83,8 +83,7 @@ TEST(SurveyFile, RefusesWrongTexts) {
             "line 2: 'sea.tail' is 'relaxed' (expected relax, wind, level, none); did you mean \"relax\"?");
   EXPECT_THAT(ErrorOf("[sea]\ntail = \"up\"\n"), HasSubstr("give one of them"));
   EXPECT_THAT(ErrorOf("[sea]\ntime = \"yesterday\"\n"), HasSubstr("give UTC as \"2020-06-08T03:50Z\""));
-  EXPECT_THAT(ErrorOf("[[sea.waves]]\nspreading = 'narrow'\n"),
-              StartsWith("line 2: 'sea.waves.spreading' is "));
+  EXPECT_THAT(ErrorOf("[[sea.waves]]\nspreading = 'narrow'\n"), StartsWith("line 2: 'sea.waves.spreading' is "));
 }
 
 TEST(SurveyFile, NamesTheKeyThatIsMissing) {
@@ -92,8 +91,7 @@ TEST(SurveyFile, NamesTheKeyThatIsMissing) {
     std::string text = "[[sea.waves]]\n";
     for (const char* other : {"hs = 1\n", "tp = 5\n", "waves_from = 20\n"})
       if (!std::string(other).starts_with(key)) text += other;
-    EXPECT_THAT(ErrorOf(text),
-                StartsWith("line 1: [sea.waves] " + std::string(key) + " is missing; give a number"));
+    EXPECT_THAT(ErrorOf(text), StartsWith("line 1: [sea.waves] " + std::string(key) + " is missing; give a number"));
   }
   EXPECT_THAT(ErrorOf("[[sea.waves]]\nhs=1\ntp=5\nwaves_from=20\nspread=18\nspreading='mitsuyasu'\n"),
               HasSubstr("both say how directions spread"));
@@ -142,13 +140,10 @@ TEST(SurveyFile, MayBeCutAnywhere) {
 TEST(ReadSurvey, NamesTheFile) {
   const albtpu::testing::TemporaryFolder folder;
   const std::filesystem::path path = folder / "survey.toml";
-  EXPECT_THAT(std::string(ReadSurvey(path).status().message()),
-              StartsWith(path.string() + ": does not exist"));
-  EXPECT_THAT(std::string(ReadSurvey(path.parent_path()).status().message()),
-              HasSubstr("is not a regular file"));
+  EXPECT_THAT(std::string(ReadSurvey(path).status().message()), StartsWith(path.string() + ": does not exist"));
+  EXPECT_THAT(std::string(ReadSurvey(path.parent_path()).status().message()), HasSubstr("is not a regular file"));
   std::ofstream(path) << "[sea]\ntail = 5\n";
-  EXPECT_THAT(std::string(ReadSurvey(path).status().message()),
-              StartsWith(path.string() + ": line 2: 'sea.tail'"));
+  EXPECT_THAT(std::string(ReadSurvey(path).status().message()), StartsWith(path.string() + ": line 2: 'sea.tail'"));
   std::ofstream(path) << "[sea]\nfile = \"a.spec\"\n";
   EXPECT_EQ(ReadSurvey(path).value().sea.file, (path.parent_path() / "a.spec").string());
 }

@@ -95,8 +95,7 @@ TEST(SurveySections, SayAllOfASurvey) {
 }
 
 TEST(SurveySections, MayEachBeAbsentOrEmpty) {
-  for (const char* text :
-       {"", "[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n"}) {
+  for (const char* text : {"", "[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n"}) {
     const SurveySettings survey = Survey(text);
     ForEachSection([&](const char* name, const auto& keys, const auto& section) {
       EXPECT_FALSE(IsAnyGiven(keys, section(survey))) << name;
@@ -119,8 +118,7 @@ TEST(SurveySections, HaveALevelAsANumberOrAFile) {
 }
 
 TEST(SurveySections, TakeWholeNumbersAsNumbers) {
-  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor.lever_arm.value(),
-              ElementsAre(1, 2.5, -3));
+  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor.lever_arm.value(), ElementsAre(1, 2.5, -3));
   EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma.values.scan, 1);
 }
 
@@ -145,18 +143,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         WrongKey{"[sensor]\nname = 880\n", "line 2: 'sensor.name' is 880 (", "write it in quotes"},
         WrongKey{"[sensor]\nname = ''\n", "line 2: 'sensor.name' is '' (", "the name of a sensor"},
-        WrongKey{"[sensor]\nlever_arm = 0.3\n", "line 2: 'sensor.lever_arm' is 0.3 (",
-                 "give [forward, right, down]"},
+        WrongKey{"[sensor]\nlever_arm = 0.3\n", "line 2: 'sensor.lever_arm' is 0.3 (", "give [forward, right, down]"},
         WrongKey{"[sensor]\nlever_arm = [0.3, 0.2]\n", "line 2: 'sensor.lever_arm' is a list (",
                  "give [forward, right, down]"},
-        WrongKey{"[sensor]\nlever_arm = [0.3, 300, 0.5]\n", "line 2: 'sensor.lever_arm' has 300",
-                 "from -100 to 100 m"},
-        WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'",
-                 "3 numbers"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, 300, 0.5]\n", "line 2: 'sensor.lever_arm' has 300", "from -100 to 100 m"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'", "3 numbers"},
         WrongKey{"[sensor]\nscan = 0.02\n", "line 2: 'sensor.scan' is no key of a survey file",
                  "there are lever_arm, name"},
-        WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'",
-                 "begin it with [sensor]"}));
+        WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'", "begin it with [sensor]"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Trajectory, RefusesWrongKeys,
@@ -169,16 +163,13 @@ INSTANTIATE_TEST_SUITE_P(
         WrongKey{"[trajectory]\nfiles = [\n'a',\n'a']\n", "line 4: 'trajectory.files' has 'a' twice", "once"},
         WrongKey{"[trajectory]\nerrors = []\n", "line 2: 'trajectory.errors' is empty", "leave it out"},
         WrongKey{"[trajectory]\ntime = 'GPS'\n", "line 2: 'trajectory.time' is 'GPS'", "gps, utc"},
-        WrongKey{"[trajectory]\nfrom_returns = 'yes'\n", "line 2: 'trajectory.from_returns' is 'yes'",
-                 "true or false"},
-        WrongKey{"[trajectory]\nfrom_returns = 1\n", "line 2: 'trajectory.from_returns' is 1",
-                 "true or false"},
+        WrongKey{"[trajectory]\nfrom_returns = 'yes'\n", "line 2: 'trajectory.from_returns' is 'yes'", "true or false"},
+        WrongKey{"[trajectory]\nfrom_returns = 1\n", "line 2: 'trajectory.from_returns' is 1", "true or false"},
         WrongKey{"[trajectory]\nfrom_returns = true\nfiles = ['a']\n",
                  "line 3: 'trajectory.files' contradicts from_returns", "give one of them"},
         WrongKey{"[trajectory]\nerrors = ['a']\nfrom_returns = true\n",
                  "line 2: 'trajectory.errors' contradicts from_returns", "give one of them"},
-        WrongKey{"[trajectory]\nfile = ['a']\n", "line 2: 'trajectory.file' is no key",
-                 "did you mean files?"}));
+        WrongKey{"[trajectory]\nfile = ['a']\n", "line 2: 'trajectory.file' is no key", "did you mean files?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Surface, RefusesWrongKeys,
@@ -189,12 +180,11 @@ INSTANTIATE_TEST_SUITE_P(
         WrongKey{"[surface]\nclasses = [256]\n", "line 2: 'surface.classes' has 256", "from 0 to 255"},
         WrongKey{"[surface]\nclasses = [-1]\n", "line 2: 'surface.classes' has -1", "from 0 to 255"},
         WrongKey{"[surface]\nclasses = [41, 9, 41]\n", "line 2: 'surface.classes' has 41 twice", "once"},
-        WrongKey{"[surface]\nlocated = 'locally'\n", "line 2: 'surface.located' is 'locally'",
-                 "pulse, local, level"},
+        WrongKey{"[surface]\nlocated = 'locally'\n", "line 2: 'surface.located' is 'locally'", "pulse, local, level"},
         WrongKey{"[surface]\nlocated = 'pulse'\nlevel = 3\n", "line 3: 'surface.level' contradicts located",
                  "give one of them"},
-        WrongKey{"[surface]\nlevel = 'level.csv'\nlocated = 'local'\n",
-                 "line 2: 'surface.level' contradicts located", "\"local\""},
+        WrongKey{"[surface]\nlevel = 'level.csv'\nlocated = 'local'\n", "line 2: 'surface.level' contradicts located",
+                 "\"local\""},
         WrongKey{"[surface]\nclass = [41]\n", "line 2: 'surface.class' is no key", "did you mean classes?"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -202,39 +192,36 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         WrongKey{"[water]\ncolumn = 'all'\n", "line 2: 'water.column' is 'all' (expected none)", ""},
         WrongKey{"[water]\ncolumn = true\n", "line 2: 'water.column' is true", "none"},
-        WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is 'corrected'",
-                 "did you mean \"correct\"?"},
-        WrongKey{"[water]\ntemperature = 297\n",
-                 "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)", ""},
+        WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is 'corrected'", "did you mean \"correct\"?"},
+        WrongKey{"[water]\ntemperature = 297\n", "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)", ""},
         WrongKey{"[datum]\nsigma = 8\nsigma_95 = 5\n", "line 3: 'datum.sigma_95' is no key", "sigma"},
         WrongKey{"[datum]\nsigma = -0.1\n", "line 2: 'datum.sigma' is -0.1 (expected 0 to 10 m)", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Output, RefusesWrongKeys,
-    ::testing::Values(
-        WrongKey{"[output]\nclasses = ['40']\n", "line 2: 'output.classes' has '40'", "whole numbers"},
-        WrongKey{"[output]\ncoverage = 95\n", "line 2: 'output.coverage' is 95", "2sigma, p95, 1sigma"},
-        WrongKey{"[output]\ncoverage = '95'\n", "line 2: 'output.coverage' is '95'", "did you mean \"p95\"?"},
-        WrongKey{"[output]\ns44_order = '1c'\n", "line 2: 'output.s44_order' is '1c'", "1a, 1b"},
-        WrongKey{"[output]\ns44_order = 2\n", "line 2: 'output.s44_order' is 2", "exclusive"},
-        WrongKey{"[output]\ndetails = 'true'\n", "line 2: 'output.details' is 'true'", "without quotes"},
-        WrongKey{"[outputs]\n", "line 1: 'outputs' is no key of a survey file", "did you mean output?"}));
+    ::testing::Values(WrongKey{"[output]\nclasses = ['40']\n", "line 2: 'output.classes' has '40'", "whole numbers"},
+                      WrongKey{"[output]\ncoverage = 95\n", "line 2: 'output.coverage' is 95", "2sigma, p95, 1sigma"},
+                      WrongKey{"[output]\ncoverage = '95'\n", "line 2: 'output.coverage' is '95'",
+                               "did you mean \"p95\"?"},
+                      WrongKey{"[output]\ns44_order = '1c'\n", "line 2: 'output.s44_order' is '1c'", "1a, 1b"},
+                      WrongKey{"[output]\ns44_order = 2\n", "line 2: 'output.s44_order' is 2", "exclusive"},
+                      WrongKey{"[output]\ndetails = 'true'\n", "line 2: 'output.details' is 'true'", "without quotes"},
+                      WrongKey{"[outputs]\n", "line 1: 'outputs' is no key of a survey file", "did you mean output?"}));
 
 // Each source of error with values of another type and beyond its range.
 TEST(SurveySections, RefuseEachWrongSourceOfError) {
   for (const ErrorSource& source : kErrorSources) {
     const std::string key(source.name), beyond = std::to_string(source.greatest * 1.01);
     const std::vector<std::string> wrong =
-        source.size() == 1
-            ? std::vector<std::string>{"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", beyond}
-            : std::vector<std::string>{"1",
-                                       "[]",
-                                       "[1, 1]",
-                                       "[1, 1, 1, 1]",
-                                       "[1, -0.1, 1]",
-                                       "[nan, 1, 1]",
-                                       "[1, 1, inf]",
-                                       "[1, 1, " + beyond + "]"};
+        source.size() == 1 ? std::vector<std::string>{"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", beyond}
+                           : std::vector<std::string>{"1",
+                                                      "[]",
+                                                      "[1, 1]",
+                                                      "[1, 1, 1, 1]",
+                                                      "[1, -0.1, 1]",
+                                                      "[nan, 1, 1]",
+                                                      "[1, 1, inf]",
+                                                      "[1, 1, " + beyond + "]"};
     for (const std::string& value : wrong) {
       const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
       EXPECT_THAT(error, StartsWith("line 2: 'sigma." + key + "' ")) << value;
@@ -247,8 +234,7 @@ TEST(SurveySections, TakeEachSourceOfErrorUpToItsEnd) {
   for (const ErrorSource& source : kErrorSources) {
     for (const double end : {0.0, source.greatest}) {
       const std::string number = std::to_string(end);
-      const std::string value =
-          source.size() == 1 ? number : "[" + number + ", " + number + ", " + number + "]";
+      const std::string value = source.size() == 1 ? number : "[" + number + ", " + number + ", " + number + "]";
       const config::StatedErrors sigma = Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma;
       EXPECT_THAT(source.In(sigma.values), ::testing::Each(end)) << source.name;
       EXPECT_EQ(std::ranges::count(sigma.stated, true), 1) << source.name;

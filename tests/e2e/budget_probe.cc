@@ -55,6 +55,5 @@ int main(int argc, char** argv) {
 
   std::ofstream output(argv[3], std::ios::binary);
   for (const std::vector<float>& values : {thu, tvu})
-    output.write(reinterpret_cast<const char*>(values.data()),
-                 static_cast<std::streamsize>(count * sizeof(float)));
+    output.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(count * sizeof(float)));
 }

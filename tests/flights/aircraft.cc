@@ -22,8 +22,7 @@ Geodetic AreaChart::At(double east, double north, double height) const {
 }
 
 Eigen::Vector2d AreaChart::EastNorth(const Geodetic& point) const {
-  return {(point.longitude - longitude_) * metres_per_longitude_,
-          (point.latitude - latitude_) * metres_per_latitude_};
+  return {(point.longitude - longitude_) * metres_per_longitude_, (point.latitude - latitude_) * metres_per_latitude_};
 }
 
 // From body to north, east, down: roll about the forward axis, then pitch about the right, then heading about the down
@@ -32,10 +31,10 @@ Eigen::Matrix3d AircraftState::BodyAxes() const {
   const Eigen::Matrix3d east_north_up = EastNorthUp(position.latitude, position.longitude);
   Eigen::Matrix3d north_east_down;
   north_east_down << east_north_up.col(1), east_north_up.col(0), -east_north_up.col(2);
-  return north_east_down * (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) *
-                            Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-                               .toRotationMatrix();
+  return north_east_down *
+         (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+             .toRotationMatrix();
 }
 
 // Amplitudes of a twin-engined aircraft in light turbulence: 1 m/s of speed, metres of drift and height over tens of
@@ -47,8 +46,7 @@ Aircraft::Aircraft(const AreaChart& chart, const Options& options, RandomNumbers
       across_(SmoothMotion(0, 5, 0.05, 0.2, 4, random).Plus({0, 0.05, 0.5, 2, 4, random})),
       height_(SmoothMotion(options.height, 3, 0.05, 0.3, 4, random).Plus({0, 0.05, 0.5, 2, 4, random})),
       roll_(SmoothMotion(0, 1.5 * kDegree, 0.1, 0.6, 4, random).Plus({0, 0.4 * kDegree, 0.6, 4, 4, random})),
-      pitch_(SmoothMotion(2 * kDegree, kDegree, 0.1, 0.6, 4, random)
-                 .Plus({0, 0.2 * kDegree, 0.6, 4, 4, random})),
+      pitch_(SmoothMotion(2 * kDegree, kDegree, 0.1, 0.6, 4, random).Plus({0, 0.2 * kDegree, 0.6, 4, 4, random})),
       heading_(SmoothMotion(options.course + options.crab_angle, kDegree, 0.05, 0.4, 4, random)
                    .Plus({0, 0.2 * kDegree, 0.4, 3, 4, random})) {}
 
@@ -61,10 +59,9 @@ AircraftState Aircraft::At(double time) const {
                              options_.north + along * cosine - across * sine, height_.At(time));
   // The chart's metres are not those of the ellipsoid away from its origin, nor those of the aircraft's height.
   const Geodetic& here = state.position;
-  const double true_north =
-      (kWgs84.MeridianRadius(here.latitude) + here.height) / chart_.metres_per_latitude();
-  const double true_east = (kWgs84.PrimeVerticalRadius(here.latitude) + here.height) *
-                           std::cos(here.latitude) / chart_.metres_per_longitude();
+  const double true_north = (kWgs84.MeridianRadius(here.latitude) + here.height) / chart_.metres_per_latitude();
+  const double true_east = (kWgs84.PrimeVerticalRadius(here.latitude) + here.height) * std::cos(here.latitude) /
+                           chart_.metres_per_longitude();
   state.velocity = {(along_rate * cosine - across_rate * sine) * true_north,
                     (along_rate * sine + across_rate * cosine) * true_east, height_.RateAt(time)};
   state.roll = roll_.At(time);

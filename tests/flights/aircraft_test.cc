@@ -90,9 +90,8 @@ TEST(SbetFile, HasNoRecordsInAGap) {
     std::memcpy(&times.back(), bytes.data() + at, sizeof(double));
   }
   double longest = 0, before = 0;
-  for (std::size_t i = 1; i < times.size(); ++i) {
+  for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] - times[i - 1] > longest) longest = times[i] - times[i - 1], before = times[i - 1];
-  }
   EXPECT_EQ(longest, 3);
   EXPECT_EQ(before, options.start + 4);
 }

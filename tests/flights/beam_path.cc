@@ -7,8 +7,7 @@ namespace albtpu::testing {
 namespace {
 
 constexpr double kResolution = 2e-9;  // m; heights are differences of numbers near 6.4e6 m.
-constexpr int kMaxSteps =
-    50;  // The slopes of waves and seabed make an error at least 5 times smaller a step.
+constexpr int kMaxSteps = 50;         // The slopes of waves and seabed make an error at least 5 times smaller a step.
 
 }  // namespace
 
@@ -25,8 +24,7 @@ Eigen::Vector3d Refract(const Eigen::Vector3d& beam, const Eigen::Vector3d& norm
   return along - std::sqrt(1 - along.squaredNorm()) * normal;
 }
 
-BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam,
-                     double time) {
+BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam, double time) {
   BeamPath path;
   for (int step = 0; step < kMaxSteps; ++step) {
     path.water_point = sensor + path.slant_range * beam;

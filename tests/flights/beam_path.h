@@ -34,13 +34,12 @@ struct BeamPath {
   Eigen::Vector3d water_point;      // m, earth-centred
   Eigen::Vector3d water_direction;  // Unit vector of the refracted beam.
   double slant_range = 0;           // m, from the sensor to the water
-  double incidence = 0;  // rad, from the vertical at the water point, whatever the slope of the waves
-  double azimuth = 0;    // rad, of the beam at the water point, clockwise from true north
+  double incidence = 0;             // rad, from the vertical at the water point, whatever the slope of the waves
+  double azimuth = 0;               // rad, of the beam at the water point, clockwise from true north
 };
 
 // Where the beam from `sensor` in the direction `beam` (unit vector, downwards) meets the water at `time` [s].
-BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam,
-                     double time);
+BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam, double time);
 
 // Distance [m] from `begin` to the ground in the direction `beam`.
 double DistanceToGround(const Scene& scene, const Eigen::Vector3d& begin, const Eigen::Vector3d& beam);

@@ -39,9 +39,8 @@ TEST(BeamPath, MeetsCurvedWaterSteeperThanFlat) {
   const Eigen::Vector3d sensor = EarthCentred(kWgs84, {0.5, 0.1, height});
   const Eigen::Matrix3d axes = EastNorthUp(0.5, 0.1);
   for (const double azimuth : {0.3, 1.9, -2.4}) {
-    const Eigen::Vector3d beam =
-        axes * Eigen::Vector3d(std::sin(angle) * std::sin(azimuth), std::sin(angle) * std::cos(azimuth),
-                               -std::cos(angle));
+    const Eigen::Vector3d beam = axes * Eigen::Vector3d(std::sin(angle) * std::sin(azimuth),
+                                                        std::sin(angle) * std::cos(azimuth), -std::cos(angle));
     const BeamPath path = PathToWater(scene, sensor, beam, 0);
     const Geodetic water = GeodeticFrom(kWgs84, path.water_point);
     EXPECT_NEAR(water.height, 0, 4e-9);

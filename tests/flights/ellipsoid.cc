@@ -28,8 +28,7 @@ Geodetic GeodeticFrom(const Ellipsoid& ellipsoid, const Eigen::Vector3d& point) 
   double latitude = std::atan2(point.z(), from_axis * (1 - e2));
   for (double before = 2; std::abs(latitude - before) > 1e-14;) {
     before = latitude;
-    latitude =
-        std::atan2(point.z() + e2 * ellipsoid.PrimeVerticalRadius(latitude) * std::sin(latitude), from_axis);
+    latitude = std::atan2(point.z() + e2 * ellipsoid.PrimeVerticalRadius(latitude) * std::sin(latitude), from_axis);
   }
   // The height is the distance from the ellipsoid's tangent plane, which divides by nothing small.
   const double cosine = std::cos(latitude), sine = std::sin(latitude);

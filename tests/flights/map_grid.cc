@@ -11,49 +11,47 @@ constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, exact (US Metric Law of 1
 MapGrid UtmNorth(int zone) {
   const int meridian = 6 * zone - 183;
   const std::string number = std::to_string(zone), unit = R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]])";
-  return {
-      .name = "utm" + number + "n",
-      .projection = TransverseMercator({.ellipsoid = kWgs84,
-                                        .central_meridian = meridian * kDegree,
-                                        .scale_factor = 0.9996,
-                                        .false_easting = 500000}),
-      .epsg = 32600 + zone,
-      .wkt = R"(PROJCS["WGS 84 / UTM zone )" + number +
-             R"(N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
-             R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],)"
-             R"(PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],)"
-             R"(PARAMETER["central_meridian",)" +
-             std::to_string(meridian) +
-             R"(],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],)"
-             R"(PARAMETER["false_northing",0],)" +
-             unit + R"(,AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG",")" +
-             std::to_string(32600 + zone) + R"("]])",
-      .vertical_wkt = R"(VERT_CS["NAVD88 height",VERT_DATUM["North American Vertical Datum 1988",2005],)" +
-                      unit + R"(,AXIS["Gravity-related height",UP],AUTHORITY["EPSG","5703"]])"};
+  return {.name = "utm" + number + "n",
+          .projection = TransverseMercator({.ellipsoid = kWgs84,
+                                            .central_meridian = meridian * kDegree,
+                                            .scale_factor = 0.9996,
+                                            .false_easting = 500000}),
+          .epsg = 32600 + zone,
+          .wkt = R"(PROJCS["WGS 84 / UTM zone )" + number +
+                 R"(N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                 R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],)"
+                 R"(PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],)"
+                 R"(PARAMETER["central_meridian",)" +
+                 std::to_string(meridian) +
+                 R"(],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],)"
+                 R"(PARAMETER["false_northing",0],)" +
+                 unit + R"(,AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG",")" +
+                 std::to_string(32600 + zone) + R"("]])",
+          .vertical_wkt = R"(VERT_CS["NAVD88 height",VERT_DATUM["North American Vertical Datum 1988",2005],)" + unit +
+                          R"(,AXIS["Gravity-related height",UP],AUTHORITY["EPSG","5703"]])"};
 }
 
 MapGrid FloridaEastFeet() {
   const std::string unit = R"(UNIT["US survey foot",0.304800609601219,AUTHORITY["EPSG","9003"]])";
-  return {
-      .name = "florida-east-ft",
-      .projection = TransverseMercator({.ellipsoid = kGrs80,
-                                        .central_meridian = -81 * kDegree,
-                                        .latitude_of_origin = (24 + 20.0 / 60) * kDegree,
-                                        .scale_factor = 0.999941177,
-                                        .false_easting = 656166.667 * kSurveyFoot}),
-      .metres_per_unit = kSurveyFoot,
-      .epsg = 2236,
-      .linear_unit = 9003,
-      .wkt = R"wkt(PROJCS["NAD83 / Florida East (ftUS)",GEOGCS["NAD83",DATUM["North_American_Datum_1983",)wkt"
-             R"(SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],)"
-             R"(UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
-             R"(PARAMETER["latitude_of_origin",24.3333333333333],PARAMETER["central_meridian",-81],)"
-             R"(PARAMETER["scale_factor",0.999941177],PARAMETER["false_easting",656166.667],)"
-             R"(PARAMETER["false_northing",0],)" +
-             unit + R"(,AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG","2236"]])",
-      .vertical_wkt = R"wkt(VERT_CS["NAVD88 height (ftUS)",)wkt"
-                      R"(VERT_DATUM["North American Vertical Datum 1988",2005],)" +
-                      unit + R"(,AXIS["Gravity-related height",UP],AUTHORITY["EPSG","6360"]])"};
+  return {.name = "florida-east-ft",
+          .projection = TransverseMercator({.ellipsoid = kGrs80,
+                                            .central_meridian = -81 * kDegree,
+                                            .latitude_of_origin = (24 + 20.0 / 60) * kDegree,
+                                            .scale_factor = 0.999941177,
+                                            .false_easting = 656166.667 * kSurveyFoot}),
+          .metres_per_unit = kSurveyFoot,
+          .epsg = 2236,
+          .linear_unit = 9003,
+          .wkt = R"wkt(PROJCS["NAD83 / Florida East (ftUS)",GEOGCS["NAD83",DATUM["North_American_Datum_1983",)wkt"
+                 R"(SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],)"
+                 R"(UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
+                 R"(PARAMETER["latitude_of_origin",24.3333333333333],PARAMETER["central_meridian",-81],)"
+                 R"(PARAMETER["scale_factor",0.999941177],PARAMETER["false_easting",656166.667],)"
+                 R"(PARAMETER["false_northing",0],)" +
+                 unit + R"(,AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG","2236"]])",
+          .vertical_wkt = R"wkt(VERT_CS["NAVD88 height (ftUS)",)wkt"
+                          R"(VERT_DATUM["North American Vertical Datum 1988",2005],)" +
+                          unit + R"(,AXIS["Gravity-related height",UP],AUTHORITY["EPSG","6360"]])"};
 }
 
 MapGrid Geographic() {
@@ -79,9 +77,8 @@ std::string MapGrid::LasWkt(bool orthometric) const {
 }
 
 std::optional<MapGrid> FindMapGrid(std::string_view name) {
-  for (const int zone : {16, 17, 18}) {
+  for (const int zone : {16, 17, 18})
     if (MapGrid grid = UtmNorth(zone); grid.name == name) return grid;
-  }
   if (name == "geographic") return Geographic();
   if (name == "florida-east-ft") return FloridaEastFeet();
   return std::nullopt;

@@ -23,7 +23,7 @@ struct MapGrid {
   int epsg = 0;                                  // Of the horizontal coordinates.
   int linear_unit = 9001;                        // EPSG code of the unit.
   std::string wkt;                               // Well-known text 1 of the horizontal coordinates.
-  std::string vertical_wkt;  // VERT_CS of orthometric heights (NAVD 88) in the unit of the heights.
+  std::string vertical_wkt;                      // VERT_CS of orthometric heights (NAVD 88) in the unit of the heights.
 
   GridPoint At(double latitude, double longitude) const;
 

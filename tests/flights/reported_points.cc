@@ -20,8 +20,8 @@ std::array<Eigen::Vector3d, 2> Across(const Eigen::Vector3d& beam) {
 
 }  // namespace
 
-ReportedPoints::ReportedPoints(const ReportingErrors& errors, const Eigen::Vector3d& lever_arm,
-                               double range_noise, int lines, std::uint64_t seed)
+ReportedPoints::ReportedPoints(const ReportingErrors& errors, const Eigen::Vector3d& lever_arm, double range_noise,
+                               int lines, std::uint64_t seed)
     : errors_(errors), lever_arm_(lever_arm), range_noise_(range_noise), random_(seed + kStream) {
   const auto error = [&](std::size_t i) {
     return SmoothMotion(0, errors.trajectory ? kSigmas[i] : 0, kSlowest, kFastest, kTerms, random_);
@@ -36,8 +36,8 @@ Eigen::Vector3d ReportedPoints::Refracted(const BeamPath& path, const Eigen::Vec
   const Eigen::Matrix3d axes = EastNorthUp(here.latitude, here.longitude);
   const double sine = std::sin(errors_.wind_from), cosine = std::cos(errors_.wind_from);
   const Eigen::Vector3d along = axes.col(0) * sine + axes.col(1) * cosine, up = axes.col(2);
-  const Eigen::Vector3d slopes = errors_.slope_along * random_.Normal() * along +
-                                 errors_.slope_across * random_.Normal() * up.cross(along);
+  const Eigen::Vector3d slopes =
+      errors_.slope_along * random_.Normal() * along + errors_.slope_across * random_.Normal() * up.cross(along);
   return Refract(beam, (up - slopes).normalized());
 }
 
@@ -51,8 +51,8 @@ void ReportedPoints::Receive(int line, double since_start, const AircraftState& 
   told.heading += at(5);
   const Eigen::Matrix3d body = told.BodyAxes();
   const Eigen::Matrix3d axes = EastNorthUp(told.position.latitude, told.position.longitude);
-  const Eigen::Vector3d sensor = EarthCentred(kWgs84, told.position) + body * lever_arm_ +
-                                 at(0) * axes.col(1) + at(1) * axes.col(0) - at(2) * axes.col(2);
+  const Eigen::Vector3d sensor = EarthCentred(kWgs84, told.position) + body * lever_arm_ + at(0) * axes.col(1) +
+                                 at(1) * axes.col(0) - at(2) * axes.col(2);
   Eigen::Vector3d scanned = in_body;
   for (const Eigen::Vector3d& across : Across(in_body)) scanned += errors_.scan * random_.Normal() * across;
   const Eigen::Vector3d beam = body * scanned.normalized();

@@ -32,8 +32,8 @@ struct ReportingErrors {
 class ReportedPoints {
  public:
   // `lever_arm` in the body, m; `range_noise`: one sigma of the optical ranges to the surface and to the bottom, m.
-  ReportedPoints(const ReportingErrors& errors, const Eigen::Vector3d& lever_arm, double range_noise,
-                 int lines, std::uint64_t seed);
+  ReportedPoints(const ReportingErrors& errors, const Eigen::Vector3d& lever_arm, double range_noise, int lines,
+                 std::uint64_t seed);
 
   // The direction of the beam in the water at a slope that is drawn: that of the next pulse that is received.
   Eigen::Vector3d Refracted(const BeamPath& path, const Eigen::Vector3d& beam);

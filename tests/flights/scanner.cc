@@ -20,9 +20,7 @@ std::optional<ScannerKind> FindScanner(std::string_view name) {
 
 Eigen::Vector3d BeamDirection(ScannerKind kind, double turns) {
   const double phase = 2 * std::numbers::pi * turns;
-  const double along = kind == ScannerKind::kCone      ? kTangentAcross
-                       : kind == ScannerKind::kEllipse ? kTangentAlong
-                                                       : 0;
+  const double along = kind == ScannerKind::kCone ? kTangentAcross : kind == ScannerKind::kEllipse ? kTangentAlong : 0;
   return Eigen::Vector3d(along * std::cos(phase), kTangentAcross * std::sin(phase), 1).normalized();
 }
 

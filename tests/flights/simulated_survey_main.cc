@@ -60,34 +60,25 @@ void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
   app.add_option("--speed", survey.speed, "[m/s]");
   app.add_option("--pulse-rate", survey.pulse_rate, "[Hz]");
   app.add_option("--scan-rate", survey.scan_rate, "[Hz]");
-  app.add_option("--lever-arm", degrees.lever_arm, "X,Y,Z forward, right, down [m]")
-      ->delimiter(',')
-      ->expected(3);
-  app.add_option("--boresight", degrees.boresight, "ROLL,PITCH,HEADING [degree]")
-      ->delimiter(',')
-      ->expected(3);
+  app.add_option("--lever-arm", degrees.lever_arm, "X,Y,Z forward, right, down [m]")->delimiter(',')->expected(3);
+  app.add_option("--boresight", degrees.boresight, "ROLL,PITCH,HEADING [degree]")->delimiter(',')->expected(3);
   app.add_option("--water-level", survey.water_level, "Above the ellipsoid [m]");
   app.add_option("--wave-height", survey.wave_height, "Significant wave height [m]");
   app.add_option("--range-noise", survey.range_noise, "One sigma [m]");
   app.add_flag("--trajectory-errors", survey.errors.trajectory,
                "Deliver points with the errors that the trajectory's files state");
-  app.add_option("--scan-noise", degrees.scan_noise,
-                 "Deliver points with errors of the scan, one sigma [degree]");
-  app.add_option("--wave-slopes", degrees.wave_slopes,
-                 "ALONG,ACROSS the wind, one sigma, drawn anew for each pulse")
+  app.add_option("--scan-noise", degrees.scan_noise, "Deliver points with errors of the scan, one sigma [degree]");
+  app.add_option("--wave-slopes", degrees.wave_slopes, "ALONG,ACROSS the wind, one sigma, drawn anew for each pulse")
       ->delimiter(',')
       ->expected(2);
   app.add_option("--wind-from", degrees.wind_from, "Of the slopes [degree]");
-  app.add_option("--column-share", survey.column_share,
-                 "Share of the pulses with a return from the water column");
-  app.add_option("--surface-share", survey.surface_share,
-                 "Share of the pulses with a return from the surface");
+  app.add_option("--column-share", survey.column_share, "Share of the pulses with a return from the water column");
+  app.add_option("--surface-share", survey.surface_share, "Share of the pulses with a return from the surface");
   app.add_option("--sbet-rate", options.trajectory.rate, "[Hz]");
   app.add_option("--smrmsg-rate", options.trajectory.error_rate, "[Hz]");
   app.add_option("--margin", options.trajectory.margin, "Of the trajectory around each line [s]");
   app.add_option("--wander", degrees.wander, "Wander angle where the survey begins [degree]");
-  app.add_option("--gap-start", options.trajectory.gap_start,
-                 "Of a gap in the trajectory, in the first line [s]");
+  app.add_option("--gap-start", options.trajectory.gap_start, "Of a gap in the trajectory, in the first line [s]");
   app.add_option("--gap", options.trajectory.gap, "Length of that gap [s]");
   app.add_option("--clock", options.trajectory.clock, "Added to the times of the trajectory; -18: UTC [s]");
   app.add_option("--las-version", options.points.version_minor, "Of LAS: 2, 3 or 4")->check(CLI::Range(2, 4));
@@ -95,13 +86,11 @@ void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
   app.add_option("--time", options.time, "Times of the points: adjusted (GPS time less 1e9 s) or week")
       ->check(CLI::IsMember({"adjusted", "week"}));
   app.add_option("--geoid-separation", options.points.geoid_separation, "Of the heights of the points [m]");
-  app.add_option("--divergence", options.points.divergence,
-                 "Full angle, for the footprints of the truth [mrad]");
+  app.add_option("--divergence", options.points.divergence, "Full angle, for the footprints of the truth [mrad]");
   app.add_option("--scale", options.points.scale, "Resolution of the points [units of the grid]");
   app.add_flag("--geotiff-keys", options.points.geotiff_keys, "No well-known text in the LAS files");
   app.add_flag("--no-source-id", options.points.no_source_id, "Points do not name their line");
-  app.add_option("--files", options.files, "LAS files of equal size, in the order of time")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--files", options.files, "LAS files of equal size, in the order of time")->check(CLI::PositiveNumber);
   app.add_flag("--file-for-each-line", options.file_for_each_line, "A LAS file for each line");
   app.add_flag("--shuffle", options.shuffle, "Points in random order");
 }
@@ -126,8 +115,8 @@ void Convert(const Degrees& degrees, Options& options) {
 // The returns of each file.
 std::vector<std::vector<std::size_t>> Split(const SimulatedSurvey& survey, const Options& options) {
   const std::size_t count = survey.returns.size(), files = static_cast<std::size_t>(options.files);
-  std::vector<std::vector<std::size_t>> parts(
-      options.file_for_each_line ? static_cast<std::size_t>(survey.lines()) : files);
+  std::vector<std::vector<std::size_t>> parts(options.file_for_each_line ? static_cast<std::size_t>(survey.lines())
+                                                                         : files);
   RandomNumbers random(survey.options.seed + 1);
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -135,19 +124,16 @@ std::vector<std::vector<std::size_t>> Split(const SimulatedSurvey& survey, const
     const auto line = static_cast<std::size_t>(survey.pulses[survey.returns[i].pulse].line);
     parts[options.file_for_each_line ? line - 1 : i * files / count].push_back(i);
   }
-  for (std::vector<std::size_t>& part : parts) {  // Fisher and Yates.
-    for (std::size_t i = part.size(); options.shuffle && i > 1; --i) {
+  for (std::vector<std::size_t>& part : parts)  // Fisher and Yates.
+    for (std::size_t i = part.size(); options.shuffle && i > 1; --i)
       std::swap(part[i - 1], part[static_cast<std::size_t>(random.Uniform(0, static_cast<double>(i)))]);
-    }
-  }
   return parts;
 }
 
 bool Write(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
   file << bytes << std::flush;
-  if (!file)
-    std::cerr << "albtpu_simulated_survey: " << path.string() << " cannot be written; give another folder\n";
+  if (!file) std::cerr << "albtpu_simulated_survey: " << path.string() << " cannot be written; give another folder\n";
   return static_cast<bool>(file);
 }
 
@@ -166,8 +152,7 @@ int Run(const Options& options) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string name = "flight" + (parts.size() > 1 ? "_" + std::to_string(i + 1) : std::string());
     json["files"].push_back(name);
-    if (!Write(options.folder / (name + ".las"), BuildLas(PointsOf(survey, parts[i], options.points))))
-      return 1;
+    if (!Write(options.folder / (name + ".las"), BuildLas(PointsOf(survey, parts[i], options.points)))) return 1;
     if (!Write(options.folder / (name + ".truth"), TruthOf(survey, parts[i], options.points))) return 1;
   }
   return Write(options.folder / "sbet.out", SbetFile(survey, options.trajectory)) &&

@@ -20,8 +20,7 @@ double RandomNumbers::Normal() {  // Box and Muller (1958).
 }
 
 // The mean square of a sinusoid is half the square of its amplitude.
-SmoothMotion::SmoothMotion(double mean, double sigma, double lowest, double highest, int terms,
-                           RandomNumbers& random)
+SmoothMotion::SmoothMotion(double mean, double sigma, double lowest, double highest, int terms, RandomNumbers& random)
     : mean_(mean) {
   const double amplitude = sigma * std::sqrt(2.0 / terms);
   for (int i = 0; i < terms; ++i) {
@@ -45,9 +44,7 @@ double SmoothMotion::At(double time) const {
 
 double SmoothMotion::RateAt(double time) const {
   double rate = 0;
-  for (const Sinusoid& s : sinusoids_) {
-    rate += s.amplitude * s.frequency * std::cos(s.frequency * time + s.phase);
-  }
+  for (const Sinusoid& s : sinusoids_) rate += s.amplitude * s.frequency * std::cos(s.frequency * time + s.phase);
   return rate;
 }
 

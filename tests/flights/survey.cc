@@ -26,8 +26,7 @@ Coast MakeCoast(const SurveyOptions& options) {
           .water_level = options.water_level};
 }
 
-std::vector<Aircraft> MakeAircraft(const SurveyOptions& options, const AreaChart& chart,
-                                   RandomNumbers& random) {
+std::vector<Aircraft> MakeAircraft(const SurveyOptions& options, const AreaChart& chart, RandomNumbers& random) {
   std::vector<Aircraft> aircraft;
   const double length = options.speed * options.seconds;
   for (int line = 0; line < options.lines; ++line) {
@@ -73,10 +72,8 @@ class PulseSimulator {
   PulseSimulator(const Scene& scene, SimulatedSurvey& survey, RandomNumbers& random)
       : scene_(scene), survey_(survey), random_(random), scanner_axes_(Boresight(survey.options.boresight)) {
     const SurveyOptions& options = survey.options;
-    if (options.errors.any()) {
-      processing_.emplace(options.errors, options.lever_arm, options.range_noise, survey.lines(),
-                          options.seed);
-    }
+    if (options.errors.any())
+      processing_.emplace(options.errors, options.lever_arm, options.range_noise, survey.lines(), options.seed);
   }
 
   void Fire(int line, double since_start) {
@@ -84,8 +81,7 @@ class PulseSimulator {
     const AircraftState aircraft = survey_.aircraft[static_cast<std::size_t>(line)].At(since_start);
     const Eigen::Matrix3d body = aircraft.BodyAxes();
     const Eigen::Vector3d sensor = EarthCentred(kWgs84, aircraft.position) + body * options.lever_arm;
-    const Eigen::Vector3d in_body =
-        scanner_axes_ * BeamDirection(options.scanner, options.scan_rate * since_start);
+    const Eigen::Vector3d in_body = scanner_axes_ * BeamDirection(options.scanner, options.scan_rate * since_start);
     const Eigen::Vector3d beam = body * in_body;
 
     BeamPath path = PathToWater(scene_, sensor, beam, since_start);
@@ -118,11 +114,9 @@ class PulseSimulator {
   }
 
   // From `point`, which lies `way` m behind the water.
-  void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth,
-           double way) {
+  void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth, double way) {
     if (processing_.has_value() && kind != ReturnKind::kLand) {
-      found_.push_back(
-          {.kind = kind, .position = GeodeticFrom(kWgs84, processing_->Reported(way)), .depth = depth});
+      found_.push_back({.kind = kind, .position = GeodeticFrom(kWgs84, processing_->Reported(way)), .depth = depth});
       return;
     }
     const double noise = survey_.options.range_noise * random_.Normal();
@@ -131,8 +125,7 @@ class PulseSimulator {
 
   void UnderWater(const BeamPath& path, const Eigen::Vector3d& beam, double to_bottom, double depth) {
     const SurveyOptions& options = survey_.options;
-    if (random_.Uniform(0, 1) < options.surface_share)
-      Add(ReturnKind::kSurface, path.water_point, beam, 0, 0);
+    if (random_.Uniform(0, 1) < options.surface_share) Add(ReturnKind::kSurface, path.water_point, beam, 0, 0);
     const double highest = std::min(kMostAboveBottom, depth - kLeastBelowSurface);
     const double above = random_.Uniform(kLeastAboveBottom, std::max(highest, kLeastAboveBottom));
     if (random_.Uniform(0, 1) < options.column_share && highest > kLeastAboveBottom) {
@@ -165,9 +158,7 @@ class PulseSimulator {
 
 }  // namespace
 
-double SimulatedSurvey::LineStart(int line) const {
-  return options.start + line * (options.seconds + kPause);
-}
+double SimulatedSurvey::LineStart(int line) const { return options.start + line * (options.seconds + kPause); }
 
 SimulatedSurvey Simulate(const SurveyOptions& options) {
   RandomNumbers random(options.seed);
@@ -178,9 +169,8 @@ SimulatedSurvey Simulate(const SurveyOptions& options) {
   const Scene scene{chart, coast, waves};
   PulseSimulator simulator(scene, survey, random);
   const int pulses = static_cast<int>(options.seconds * options.pulse_rate);
-  for (int line = 0; line < survey.lines(); ++line) {
+  for (int line = 0; line < survey.lines(); ++line)
     for (int pulse = 0; pulse < pulses; ++pulse) simulator.Fire(line, pulse / options.pulse_rate);
-  }
   return survey;
 }
 

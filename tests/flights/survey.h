@@ -17,25 +17,24 @@ struct SurveyOptions {
   ScannerKind scanner = ScannerKind::kCone;
   std::uint64_t seed = 1;
   std::string grid = "utm17n";
-  double latitude = 0.4712, longitude = -1.3980;  // rad; the origin of the first line: 27.0 N, 80.1 W.
-  double start = 320000;                          // s of the GPS week
-  double seconds = 30;                            // of each line
-  int lines = 1;                                  // Side by side and to and fro, a minute apart.
-  int cross_lines = 0;                            // After these, across them.
-  double course = 0.61;                           // rad, of the first line
-  double altitude = 400;                          // m above the water
-  double speed = 60;                              // m/s
-  double crab_angle = 0.087;                      // rad
-  double pulse_rate = 1000, scan_rate = 17.3;     // Hz
-  Eigen::Vector3d lever_arm{0.3, -0.2, 0.5};      // m: forward, right, down from reference point to laser
-  Eigen::Vector3d boresight{0.00175, -0.00087,
-                            0.0035};  // rad: roll, pitch and heading of the scanner in the body
-  double water_level = -25;           // m above the ellipsoid
-  double wave_height = 0;             // m, significant
-  double range_noise = 0;             // m, one sigma, along the beam
-  double column_share = 0.2;          // Of the pulses over water: with a second return under water.
-  double surface_share = 0.3;         // With a return of the surface.
-  ReportingErrors errors;             // With any, range_noise is that of optical ranges.
+  double latitude = 0.4712, longitude = -1.3980;         // rad; the origin of the first line: 27.0 N, 80.1 W.
+  double start = 320000;                                 // s of the GPS week
+  double seconds = 30;                                   // of each line
+  int lines = 1;                                         // Side by side and to and fro, a minute apart.
+  int cross_lines = 0;                                   // After these, across them.
+  double course = 0.61;                                  // rad, of the first line
+  double altitude = 400;                                 // m above the water
+  double speed = 60;                                     // m/s
+  double crab_angle = 0.087;                             // rad
+  double pulse_rate = 1000, scan_rate = 17.3;            // Hz
+  Eigen::Vector3d lever_arm{0.3, -0.2, 0.5};             // m: forward, right, down from reference point to laser
+  Eigen::Vector3d boresight{0.00175, -0.00087, 0.0035};  // rad: roll, pitch and heading of the scanner in the body
+  double water_level = -25;                              // m above the ellipsoid
+  double wave_height = 0;                                // m, significant
+  double range_noise = 0;                                // m, one sigma, along the beam
+  double column_share = 0.2;                             // Of the pulses over water: with a second return under water.
+  double surface_share = 0.3;                            // With a return of the surface.
+  ReportingErrors errors;                                // With any, range_noise is that of optical ranges.
 };
 
 enum class ReturnKind : std::uint8_t { kBottom, kSurface, kColumn, kLand };

@@ -40,9 +40,8 @@ std::string GeoKeys(const MapGrid& grid, bool orthometric) {
   if (orthometric) keys.insert(keys.end() - 2, {4096, 5703});
   std::string bytes;
   for (const int number : {1, 1, 0, static_cast<int>(keys.size() / 2)}) AppendShort(bytes, number);
-  for (std::size_t i = 0; i < keys.size(); i += 2) {
+  for (std::size_t i = 0; i < keys.size(); i += 2)
     for (const int number : {keys[i], 0, 1, keys[i + 1]}) AppendShort(bytes, number);
-  }
   return bytes;
 }
 
@@ -50,8 +49,7 @@ double Degrees(double azimuth) { return std::fmod(azimuth / kDegree + 360, 360);
 
 }  // namespace
 
-LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns,
-                 const PointOptions& options) {
+LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns, const PointOptions& options) {
   const MapGrid grid = *FindMapGrid(survey.options.grid);
   const bool orthometric = options.geoid_separation != 0;
   LasSpec spec;
@@ -59,11 +57,10 @@ LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& 
   spec.point_format = options.point_format;
   spec.scale = options.scale;
   spec.adjusted_time = options.adjusted_time;
-  if (options.geotiff_keys) {
+  if (options.geotiff_keys)
     spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys(grid, orthometric)});
-  } else {
+  else
     spec.vlrs.push_back({"LASF_Projection", 2112, grid.LasWkt(orthometric) + '\0'});
-  }
   // Offsets are round numbers. Degrees need a finer resolution than heights, but a record of the builder has one for
   // all; at 1e-8, heights reach 21 m from their offset.
   const bool degrees = !grid.projection.has_value();
@@ -71,8 +68,7 @@ LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& 
   const double round = degrees ? 1 : 10000;
   if (degrees) spec.scale = 1e-8;
   const double mean_height = std::round(survey.options.water_level - options.geoid_separation - 7);
-  spec.offset = {round * std::floor(origin.x / round), round * std::floor(origin.y / round),
-                 degrees ? mean_height : 0};
+  spec.offset = {round * std::floor(origin.x / round), round * std::floor(origin.y / round), degrees ? mean_height : 0};
   const auto steps = [&](double value, std::size_t axis) {
     return static_cast<std::int32_t>(std::lround((value - spec.offset[axis]) / spec.scale));
   };

@@ -23,8 +23,7 @@ struct PointOptions {
 };
 
 // Returns of the survey by index, as the points of one LAS file.
-LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns,
-                 const PointOptions& options);
+LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns, const PointOptions& options);
 
 // For each of the same points kTruthColumns little-endian doubles. Angles are degrees, azimuths from 0 to 360.
 inline constexpr const char* kTruthColumns[] = {

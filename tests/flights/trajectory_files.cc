@@ -26,8 +26,7 @@ void VisitRecords(const SimulatedSurvey& survey, const TrajectoryOptions& option
     const int last = static_cast<int>((survey.options.seconds + options.margin) * rate);
     for (int i = static_cast<int>(-options.margin * rate); i <= last; ++i) {
       const double since_start = i / rate;
-      const bool in_gap =
-          line == 0 && since_start > options.gap_start && since_start < options.gap_start + options.gap;
+      const bool in_gap = line == 0 && since_start > options.gap_start && since_start < options.gap_start + options.gap;
       if (in_gap) continue;
       visit(survey.LineStart(static_cast<int>(line)) + since_start + options.clock,
             survey.aircraft[line].At(since_start));
@@ -48,10 +47,10 @@ std::string SbetFile(const SimulatedSurvey& survey, const TrajectoryOptions& opt
     const double alpha =
         options.wander - (position.longitude - survey.options.longitude) * std::sin(survey.options.latitude);
     const double north = state.velocity.x(), east = state.velocity.y();
-    Append(bytes, {time, position.latitude, position.longitude, position.height,
-                   north * std::cos(alpha) - east * std::sin(alpha),
-                   -north * std::sin(alpha) - east * std::cos(alpha), state.velocity.z(), state.roll,
-                   state.pitch, Wrapped(state.heading + alpha), alpha, 0, 0, 0, 0, 0, 0});
+    Append(bytes,
+           {time, position.latitude, position.longitude, position.height,
+            north * std::cos(alpha) - east * std::sin(alpha), -north * std::sin(alpha) - east * std::cos(alpha),
+            state.velocity.z(), state.roll, state.pitch, Wrapped(state.heading + alpha), alpha, 0, 0, 0, 0, 0, 0});
   });
   return bytes;
 }
@@ -59,9 +58,8 @@ std::string SbetFile(const SimulatedSurvey& survey, const TrajectoryOptions& opt
 std::string SmrmsgFile(const SimulatedSurvey& survey, const TrajectoryOptions& options) {
   std::string bytes;
   VisitRecords(survey, options, options.error_rate, [&](double time, const AircraftState&) {
-    Append(bytes,
-           {time, kPositionSigma, kPositionSigma, kHeightSigma, kVelocitySigma, kVelocitySigma,
-            kVelocitySigma, kRollSigma / kArcMinute, kRollSigma / kArcMinute, kHeadingSigma / kArcMinute});
+    Append(bytes, {time, kPositionSigma, kPositionSigma, kHeightSigma, kVelocitySigma, kVelocitySigma, kVelocitySigma,
+                   kRollSigma / kArcMinute, kRollSigma / kArcMinute, kHeadingSigma / kArcMinute});
   });
   return bytes;
 }
@@ -71,16 +69,14 @@ std::string AsciiTrajectory(const SimulatedSurvey& survey, const TrajectoryOptio
   std::string text;
   VisitRecords(survey, options, options.rate, [&](double time, const AircraftState& state) {
     const Geodetic& position = state.position;
-    const MapPoint point = grid.projection.has_value()
-                               ? grid.projection->Project(position.latitude, position.longitude)
-                               : MapPoint{};
+    const MapPoint point =
+        grid.projection.has_value() ? grid.projection->Project(position.latitude, position.longitude) : MapPoint{};
     char line[400];
-    std::snprintf(line, sizeof line,
-                  "%.6f %.12f %.12f %.5f %.5f %.5f %.7f %.7f %.7f %.3f %.3f %.3f %.5f %.5f %.5f\n", time,
-                  position.longitude / kDegree, position.latitude / kDegree, point.easting, point.northing,
-                  position.height, state.roll / kDegree, state.pitch / kDegree,
-                  Wrapped(state.heading) / kDegree, kPositionSigma, kPositionSigma, kHeightSigma,
-                  kRollSigma / kDegree, kRollSigma / kDegree, kHeadingSigma / kDegree);
+    std::snprintf(line, sizeof line, "%.6f %.12f %.12f %.5f %.5f %.5f %.7f %.7f %.7f %.3f %.3f %.3f %.5f %.5f %.5f\n",
+                  time, position.longitude / kDegree, position.latitude / kDegree, point.easting, point.northing,
+                  position.height, state.roll / kDegree, state.pitch / kDegree, Wrapped(state.heading) / kDegree,
+                  kPositionSigma, kPositionSigma, kHeightSigma, kRollSigma / kDegree, kRollSigma / kDegree,
+                  kHeadingSigma / kDegree);
     text += line;
   });
   return text;

@@ -14,8 +14,7 @@ struct TransverseMercator::Sphere {
 TransverseMercator::TransverseMercator(const Parameters& parameters) : parameters_(parameters) {
   const double flattening = parameters.ellipsoid.flattening();
   eccentricity_ = std::sqrt(parameters.ellipsoid.eccentricity_squared());
-  const double n = flattening / (2 - flattening), n2 = n * n, n3 = n2 * n, n4 = n2 * n2, n5 = n4 * n,
-               n6 = n3 * n3;
+  const double n = flattening / (2 - flattening), n2 = n * n, n3 = n2 * n, n4 = n2 * n2, n5 = n4 * n, n6 = n3 * n3;
   rectifying_radius_ =  // Eq. 14
       parameters.ellipsoid.semi_major_axis / (1 + n) * (1 + n2 / 4 + n4 / 64 + n6 / 256);
   alpha_ = {n / 2 - n2 * 2 / 3 + n3 * 5 / 16 + n4 * 41 / 180 - n5 * 127 / 288 + n6 * 7891 / 37800,
@@ -61,9 +60,8 @@ MapPoint TransverseMercator::Project(double latitude, double longitude) const {
       std::atan(sphere.conformal_tau / std::hypot(1, sphere.conformal_tau) * std::tan(sphere.longitude)) -
       std::arg(sphere.derivative);
   point.scale = parameters_.scale_factor * rectifying_radius_ / parameters_.ellipsoid.semi_major_axis *
-                std::sqrt(1 - parameters_.ellipsoid.eccentricity_squared() * sine * sine) *
-                std::hypot(1, sphere.tau) / std::hypot(sphere.conformal_tau, cosine) *
-                std::abs(sphere.derivative);
+                std::sqrt(1 - parameters_.ellipsoid.eccentricity_squared() * sine * sine) * std::hypot(1, sphere.tau) /
+                std::hypot(sphere.conformal_tau, cosine) * std::abs(sphere.derivative);
   return point;
 }
 

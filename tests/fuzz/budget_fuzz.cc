@@ -24,9 +24,7 @@ using namespace albtpu::server;
 TableCatalog MakeCatalog() {
   const testing::TemporaryFolder folder;
   ALBTPU_MUST(WriteTable(testing::SyntheticTable(), folder / "survey.h5", Existing::kKeep).ok());
-  ALBTPU_MUST(
-      WriteTable(testing::SyntheticTable({.published = true}), folder / "published.h5", Existing::kKeep)
-          .ok());
+  ALBTPU_MUST(WriteTable(testing::SyntheticTable({.published = true}), folder / "published.h5", Existing::kKeep).ok());
   absl::StatusOr<TableCatalog> catalog = TableCatalog::Load(folder.path(), "survey");
   ALBTPU_MUST(catalog.ok());
   return *std::move(catalog);
@@ -42,8 +40,7 @@ void CheckColumn(const v1::QueryBudgetResponse& response, const std::string& col
     float number;
     std::memcpy(&number, column.data() + i * sizeof number, sizeof number);
     const bool answered = response.outcomes()[i % count] == v1::OUTCOME_INTERPOLATED;
-    ALBTPU_MUST(answered ? std::isfinite(number) || (may_be_missing && std::isnan(number))
-                         : std::isnan(number));
+    ALBTPU_MUST(answered ? std::isfinite(number) || (may_be_missing && std::isnan(number)) : std::isnan(number));
   }
 }
 
@@ -58,14 +55,13 @@ void CheckAnswer(const v1::QueryBudgetResponse& response) {
     ALBTPU_MUST(outcome != v1::OUTCOME_OUT_OF_DOMAIN || axis != v1::AXIS_UNSPECIFIED);
   }
   const v1::BudgetColumns& budget = response.budget();
-  for (const std::string* column : {&budget.total_thu(), &budget.total_tvu(), &budget.thu_air(),
-                                    &budget.tvu_air(), &budget.thu_sea(), &budget.tvu_sea()})
+  for (const std::string* column : {&budget.total_thu(), &budget.total_tvu(), &budget.thu_air(), &budget.tvu_air(),
+                                    &budget.thu_sea(), &budget.tvu_sea()})
     CheckColumn(response, *column, 1, false);
   CheckColumn(response, budget.bias_along_beam(), 1, true);
   CheckColumn(response, budget.bias_vertical(), 1, true);
-  for (const std::string* column :
-       {&budget.covariance_total(), &budget.covariance_air(), &budget.covariance_sea(),
-        &budget.covariance_pulse(), &budget.covariance_line(), &budget.covariance_survey()})
+  for (const std::string* column : {&budget.covariance_total(), &budget.covariance_air(), &budget.covariance_sea(),
+                                    &budget.covariance_pulse(), &budget.covariance_line(), &budget.covariance_survey()})
     CheckColumn(response, *column, 6, false);
   ALBTPU_MUST(budget.best_s44_orders().empty() || budget.best_s44_orders().size() == count);
   for (std::size_t i = 0; i < budget.best_s44_orders().size(); ++i) {

@@ -17,8 +17,7 @@ void MutateBytes(std::mt19937& random, std::string& column) {
   switch (random() % 4) {
     case 0:  // Arbitrary bytes.
       column.resize(std::max(column.size(), kUsualBytes));
-      column.resize(
-          LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(column.data()), column.size() / 2, column.size()));
+      column.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(column.data()), column.size() / 2, column.size()));
       return;
     case 1:  // Another length.
       column.resize(random() % 64 == 0 ? random() % kMostBytes
@@ -34,9 +33,8 @@ void MutateBytes(std::mt19937& random, std::string& column) {
 }
 
 std::string* AnyColumn(std::mt19937& random, v1::PulseColumns& pulses) {
-  std::string* const columns[] = {pulses.mutable_wind_speed(), pulses.mutable_fetch(),
-                                  pulses.mutable_incidence(),  pulses.mutable_azimuth(),
-                                  pulses.mutable_footprint(),  pulses.mutable_depth()};
+  std::string* const columns[] = {pulses.mutable_wind_speed(), pulses.mutable_fetch(),     pulses.mutable_incidence(),
+                                  pulses.mutable_azimuth(),    pulses.mutable_footprint(), pulses.mutable_depth()};
   return fuzz::AnyOf(columns, random);
 }
 
@@ -68,10 +66,9 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   v1::QueryColumnsRequest request;
   const bool is_request = request.ParseFromArray(data, static_cast<int>(size));
   if (!is_request || random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
-  if (random() % 4 == 0) {
+  if (random() % 4 == 0)
     MutateOptions(random, request);
-  } else {
+  else
     MutateBytes(random, *AnyColumn(random, *request.mutable_pulses()));
-  }
   return fuzz::Replace(request.SerializeAsString(), data, size, max_size);
 }

@@ -39,11 +39,10 @@ void CheckCells(const CsvRecord& record) {
     ALBTPU_MUST(begin <= record.text.size());
     if (i > 0) ALBTPU_MUST(begin > record.cell_begins[i - 1] && record.text[begin - 1] == ',');
     const std::string_view raw = record.RawCell(i);
-    if (raw.empty() || raw.front() != '"') {
+    if (raw.empty() || raw.front() != '"')
       ALBTPU_MUST(raw.find_first_of(",\n") == std::string_view::npos);
-    } else {
+    else
       ALBTPU_MUST(Quoted(record.Cell(i)) == raw);
-    }
   }
 }
 
@@ -84,29 +83,24 @@ void CheckNumbers(const PulseBatch& pulses) {
 
 // The value of a cell by its column's name; none if there is no such column or if the cell is empty.
 std::optional<float> Value(const CsvRecord& header, const CsvRecord& record, std::string_view name) {
-  for (std::size_t i = 0; i < header.cell_count(); ++i) {
-    if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size())) {
+  for (std::size_t i = 0; i < header.cell_count(); ++i)
+    if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size()))
       return ParseFloat(record.Cell(i));
-    }
-  }
   return std::nullopt;
 }
 
 // An azimuth that follows from directions is their difference, and absent where one of them is.
-void CheckAzimuth(const CsvRecord& header, const CsvRecord& record, bool has_azimuth,
-                  const CsvPulseBatches& batches) {
-  const std::optional<float> beam = Value(header, record, "beam_azimuth"),
-                             wind = Value(header, record, "wind_from");
+void CheckAzimuth(const CsvRecord& header, const CsvRecord& record, bool has_azimuth, const CsvPulseBatches& batches) {
+  const std::optional<float> beam = Value(header, record, "beam_azimuth"), wind = Value(header, record, "wind_from");
   ALBTPU_MUST(has_azimuth == (beam.has_value() && wind.has_value()));
   if (!has_azimuth) return;
   const float azimuth = batches.with_azimuth.axis[Index(AxisId::kAzimuth)].back();
   const double expected = static_cast<double>(*beam) - (static_cast<double>(*wind) + 180);
   constexpr double kGreatest = std::numeric_limits<float>::max();
-  if (std::isfinite(expected)) {
+  if (std::isfinite(expected))
     ALBTPU_MUST(azimuth == static_cast<float>(std::clamp(expected, -kGreatest, kGreatest)));
-  } else {
+  else
     ALBTPU_MUST(!std::isfinite(azimuth));
-  }
 }
 
 // Every record that is not blank becomes one pulse, up to the first malformed record.
@@ -117,19 +111,16 @@ void CheckPulses(const CsvBlock& block) {
   if (!has_header.ok() || !*has_header) return;
   FixedInputs fixed;
   if (!absl::StrContains(block.text, "wind_speed")) fixed[PulseInput::kWindSpeed] = 5.0f;
-  if (!absl::StrContains(block.text, "divergence") && !absl::StrContains(block.text, "footprint")) {
+  if (!absl::StrContains(block.text, "divergence") && !absl::StrContains(block.text, "footprint"))
     fixed[PulseInput::kDivergence] = 1.5f;
-  }
   static const std::vector<std::string> appended = {"thu", "tvu"};
   const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind("file", header, fixed, appended);
   if (!columns.ok()) return MustNameALine(columns.status());
   CsvPulseBatches batches;
   columns->Clear(batches);
   const auto has_column = [&](std::string_view name) {
-    for (std::size_t i = 0; i < header.cell_count(); ++i) {
-      if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size()))
-        return true;
-    }
+    for (std::size_t i = 0; i < header.cell_count(); ++i)
+      if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size())) return true;
     return false;
   };
   std::size_t count = 0;

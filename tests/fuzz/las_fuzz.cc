@@ -43,8 +43,7 @@ class FlyingSensor final : public SensorTrack {
 LasAnnotation Annotation() {
   LasAnnotation annotation;
   annotation.classes.emplace();
-  for (int point_class = 0; point_class < kClassCount; point_class += 2)
-    annotation.classes->insert(point_class);
+  for (int point_class = 0; point_class < kClassCount; point_class += 2) annotation.classes->insert(point_class);
   annotation.plan.source = AcrossTrackScan{.flight_direction = 10, .altitude = 400};
   annotation.plan.wind_speed = 5;
   annotation.plan.wind_from = 200;
@@ -67,8 +66,8 @@ std::string_view Record(std::string_view file, const LasHeader& header, std::siz
   return file.substr(header.offset_to_points + i * header.record_length, header.record_length);
 }
 
-void CheckRecords(std::string_view before, const LasHeader& old_header, std::string_view after,
-                  const LasHeader& header, float largest_incidence) {
+void CheckRecords(std::string_view before, const LasHeader& old_header, std::string_view after, const LasHeader& header,
+                  float largest_incidence) {
   ALBTPU_MUST(header.point_count == old_header.point_count && header.point_format == old_header.point_format);
   ALBTPU_MUST(header.record_length ==
               old_header.record_length + AppendedFloats({.details = true}).size() * sizeof(float));
@@ -84,9 +83,7 @@ void CheckRecords(std::string_view before, const LasHeader& old_header, std::str
     const float incidence = detail(0), azimuth = detail(1);
     ALBTPU_MUST(std::isnan(incidence) || (incidence >= 0 && incidence <= largest_incidence));
     ALBTPU_MUST(std::isnan(azimuth) || (azimuth >= 0 && azimuth < 360));
-    for (const std::size_t length : {2, 3, 4}) {
-      ALBTPU_MUST(detail(length) == kNoNumber || detail(length) >= 0);
-    }
+    for (const std::size_t length : {2, 3, 4}) ALBTPU_MUST(detail(length) == kNoNumber || detail(length) >= 0);
   }
 }
 
@@ -154,8 +151,8 @@ void CheckAnnotated(std::string_view file, const LasReader& reader, const std::s
   CheckRecords(file, reader.header(), annotated, again->header(), largest_incidence);
   CheckVlrs(file, reader.vlrs(), annotated, again->vlrs());
   CheckVlrs(file, reader.evlrs(), annotated, again->evlrs());
-  ALBTPU_MUST(absl::IsInvalidArgument(
-      AnnotatedHead(*again, AppendedFloats({.details = true}), LasKind::kLas).status()));
+  ALBTPU_MUST(
+      absl::IsInvalidArgument(AnnotatedHead(*again, AppendedFloats({.details = true}), LasKind::kLas).status()));
 }
 
 }  // namespace
@@ -178,16 +175,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const LasHeader& header = reader->header();
-  const std::uint64_t length =
-      header.record_length + AppendedFloats({.details = true}).size() * sizeof(float);
-  MoveTailStarts(*reader, header.end_of_points(), head->bytes.size() + header.point_count * length,
-                 head->bytes);
+  const std::uint64_t length = header.record_length + AppendedFloats({.details = true}).size() * sizeof(float);
+  MoveTailStarts(*reader, header.end_of_points(), head->bytes.size() + header.point_count * length, head->bytes);
   static const LasAnnotation by_angle = Annotation(), by_track = TrackAnnotation();
   CheckAnnotated(file, *reader, Annotated(file, *reader, head->bytes, by_angle),
                  32768 * 0.006f);  // Of 16 bits.
   // LasBeams refuses a track where the points have no times.
-  if (HasGpsTime(reader->header().point_format)) {
+  if (HasGpsTime(reader->header().point_format))
     CheckAnnotated(file, *reader, Annotated(file, *reader, head->bytes, by_track), 90);
-  }
   return 0;
 }

@@ -29,21 +29,17 @@ void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
     ALBTPU_MUST(header.point_count <= room && header.point_count * header.record_length <= room);
     end_of_points = header.end_of_points();
   }
-  for (const std::uint64_t start : {header.start_of_evlrs, header.start_of_waveform_packet}) {
+  for (const std::uint64_t start : {header.start_of_evlrs, header.start_of_waveform_packet})
     ALBTPU_MUST(start == 0 || (end_of_points <= start && start <= file_size));
-  }
-  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
-    ALBTPU_MUST(std::isfinite(header.offset[axis]) && std::isfinite(header.scale[axis]) &&
-                header.scale[axis] != 0);
-  }
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis)
+    ALBTPU_MUST(std::isfinite(header.offset[axis]) && std::isfinite(header.scale[axis]) && header.scale[axis] != 0);
 }
 
 // The result starts with the existing description and ends with our entries of 192 bytes.
 void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   constexpr std::size_t kEntry = 192, kNameField = 4;
   const std::vector<AppendedFloat> appended = AppendedFloats({.details = true});
-  const absl::StatusOr<AppendedDescription> description =
-      DescribeAppended(kName, described, extra_bytes, appended);
+  const absl::StatusOr<AppendedDescription> description = DescribeAppended(kName, described, extra_bytes, appended);
   if (!description.ok()) return fuzz::MustExplain(description.status());
   const std::string* const ours = &description->record;
   ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + appended.size() * kEntry);

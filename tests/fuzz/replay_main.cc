@@ -24,8 +24,8 @@
 
 extern "C" {
 // Defined by targets that have a mutator; for others, bytes are mutated.
-__attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                                          std::size_t max_size, unsigned int seed);
+__attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                                          unsigned int seed);
 // Such a mutator expects this function from libFuzzer.
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 }
@@ -125,8 +125,7 @@ std::string NewInput(std::size_t most) {
   if (LLVMFuzzerCustomMutator == nullptr) return mutator->Mutate(std::move(bytes), most);
   const std::size_t size = bytes.size();
   bytes.resize(most);
-  bytes.resize(
-      LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most, mutator->Number()));
+  bytes.resize(LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most, mutator->Number()));
   return bytes;
 }
 
@@ -152,7 +151,6 @@ int main(int argc, char** argv) {
   }
   mutator.emplace(inputs, kSeed);
   std::size_t made = 0;
-  for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; ++made)
-    Try(NewInput(2 * longest));
+  for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; ++made) Try(NewInput(2 * longest));
   std::cout << inputs.size() << " inputs, " << made << " mutations of them\n";
 }

@@ -38,8 +38,7 @@ azimuth = [0, 90]
 footprint = [0.1, 1]
 depth = [0, 10]
 )";
-  return {"id = \"small\"\nversion = \"1\"\ntitle = \"Two seas\"\nseed = 7\n" + axes +
-              "[effort]\nrealizations = 50\n",
+  return {"id = \"small\"\nversion = \"1\"\ntitle = \"Two seas\"\nseed = 7\n" + axes + "[effort]\nrealizations = 50\n",
           R"(id = "w"
 kind = "water_column"
 version = "1"
@@ -79,16 +78,15 @@ checked_pulses = 4
 
 std::vector<std::string> CsvSeeds() {
   const std::string header = "wind_speed,fetch,incidence,azimuth,footprint,depth";
-  return {
-      header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
-      "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
-      "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
-      header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
-      "incidence,depth,beam_azimuth,wind_from,altitude,divergence\n12,8,100,250,400,1.5\n12,8,,250,1e39,-1\n",
-      "incidence,depth,altitude,beam_azimuth,wind_from,azimuth\n12,8,400,1,2,3\n",
-      "a;b;c\n1;2;3\n",
-      "incidence,footprint,depth,thu\n1,2,3,4\n",
-      "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
+  return {header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
+          "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
+          "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
+          header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
+          "incidence,depth,beam_azimuth,wind_from,altitude,divergence\n12,8,100,250,400,1.5\n12,8,,250,1e39,-1\n",
+          "incidence,depth,altitude,beam_azimuth,wind_from,azimuth\n12,8,400,1,2,3\n",
+          "a;b;c\n1;2;3\n",
+          "incidence,footprint,depth,thu\n1,2,3,4\n",
+          "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
 }
 
 std::vector<std::string> LasSeeds() {
@@ -207,9 +205,8 @@ Table SmallWaterTable() {
 std::vector<std::string> TableSeeds() {
   std::vector<std::string> seeds;
   for (const UncertaintyTable& table :
-       {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear, kOneSea)}) {
+       {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear, kOneSea)})
     seeds.push_back(EncodeTable(table).value());
-  }
   seeds.push_back(EncodeTable(SmallWaterTable()).value());
   return seeds;
 }
@@ -257,8 +254,7 @@ std::vector<std::string> SbetSeeds() {
 std::vector<std::string> SmrmsgSeeds() {
   return {testing::SmrmsgBytes(100, 1), testing::SmrmsgBytes(313200, 6),
           testing::SmrmsgBytes(604798, 3) + testing::SmrmsgBytes(0, 3),
-          testing::SmrmsgBytes(5, 2) + testing::SmrmsgBytes(90, 2),
-          testing::SmrmsgBytes(5, 2).substr(0, 150)};
+          testing::SmrmsgBytes(5, 2) + testing::SmrmsgBytes(90, 2), testing::SmrmsgBytes(5, 2).substr(0, 150)};
 }
 
 std::vector<std::string> AsciiTrajectorySeeds() {
@@ -287,19 +283,17 @@ std::vector<std::string> AsciiTrajectorySeeds() {
 }
 
 std::vector<std::string> WaterLevelSeeds() {
-  return {
-      "time,water_level\n2016-05-11T14:00:00Z,-23.02\n2016-05-11T14:06:00Z,-23.05\n2016-05-11 18:00Z,-23\n",
-      "time,water_level\n313200,1\n313560.5,1.5\n400000,2\n",
-      "\xEF\xBB\xBFstation,\"water_level\", time \r\nA,1,604500\r\n\r\nB,2e0,300\r\n",
-      "time,water_level\n2016-12-31T23:59:59.5Z,1\n2017-01-01T00:00:00Z,2\n",
-      "time,water_level\n1,x\n",
-      "time,level\n"};
+  return {"time,water_level\n2016-05-11T14:00:00Z,-23.02\n2016-05-11T14:06:00Z,-23.05\n2016-05-11 18:00Z,-23\n",
+          "time,water_level\n313200,1\n313560.5,1.5\n400000,2\n",
+          "\xEF\xBB\xBFstation,\"water_level\", time \r\nA,1,604500\r\n\r\nB,2e0,300\r\n",
+          "time,water_level\n2016-12-31T23:59:59.5Z,1\n2017-01-01T00:00:00Z,2\n",
+          "time,water_level\n1,x\n",
+          "time,level\n"};
 }
 
 std::vector<std::string> SeaStateSeeds() {
   std::vector<std::string> seeds;
-  for (const KnownSea& sea : testing::SeasOfAllForms())
-    seeds.push_back(client::ToWire(sea).SerializeAsString());
+  for (const KnownSea& sea : testing::SeasOfAllForms()) seeds.push_back(client::ToWire(sea).SerializeAsString());
   return seeds;
 }
 
@@ -331,9 +325,8 @@ int main(int argc, char** argv) {
   for (const auto& [target, inputs] : seeds) {
     const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
     std::filesystem::create_directories(folder);
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (std::size_t i = 0; i < inputs.size(); ++i)
       std::ofstream(folder / std::to_string(i), std::ios::binary) << inputs[i];
-    }
   }
   return 0;
 }

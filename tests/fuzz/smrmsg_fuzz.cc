@@ -31,8 +31,7 @@ void CheckBetween(const SmrmsgFile& file, std::size_t record) {
   const double before = file.TimeAt(record - 1), after = file.TimeAt(record);
   const double time = before + (after - before) / 3;
   const std::optional<TrajectorySigma> sigma = file.SigmaAt(time);
-  if (time > before && time < after)
-    ALBTPU_MUST(sigma.has_value() == (after - before <= SmrmsgFile::kLongestGap));
+  if (time > before && time < after) ALBTPU_MUST(sigma.has_value() == (after - before <= SmrmsgFile::kLongestGap));
   if (!sigma.has_value()) return;
   const TrajectorySigma a = file.SigmaOf(record - 1), b = file.SigmaOf(record);
   for (const auto field : kFields) ALBTPU_MUST(IsBetween((*sigma).*field, a.*field, b.*field));

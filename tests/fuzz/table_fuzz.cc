@@ -32,10 +32,9 @@ void CheckAnswers(const UncertaintyTable& table) {
   for (const AxisId id : kAxes) {
     const std::vector<double>& nodes = table.axis(id).nodes();
     const double first = nodes.front(), last = nodes.back(), second = nodes[nodes.size() / 2];
-    for (const double x : {first, last, second, (first + second) / 2, (second + last) / 2,
-                           first + 0.9 * (last - first), first - 1, 2 * last}) {
+    for (const double x : {first, last, second, (first + second) / 2, (second + last) / 2, first + 0.9 * (last - first),
+                           first - 1, 2 * last})
       columns[Index(id)].push_back(static_cast<float>(x));
-    }
     pulses.axis[Index(id)] = columns[Index(id)];
   }
   std::vector<std::uint8_t> outcomes(kPulses), axes(kPulses);

@@ -83,17 +83,15 @@ void ReplaceDataset(hid_t file, std::mt19937& random) {
   if (!shape.empty() && random() % 16 == 0) shape[0] = hsize_t{1} << (random() % 40);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   const bool chunked = !shape.empty() && random() % 2 == 0;
-  if (chunked)
-    H5Pset_chunk(creation, static_cast<int>(shape.size()), std::vector<hsize_t>(shape.size(), 1).data());
+  if (chunked) H5Pset_chunk(creation, static_cast<int>(shape.size()), std::vector<hsize_t>(shape.size(), 1).data());
   if (chunked && random() % 2 == 0) H5Pset_fletcher32(creation);
   if (!chunked && random() % 4 == 0) H5Pset_external(creation, "/dev/zero", 0, H5F_UNLIMITED);
   const hid_t types[] = {H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_IEEE_F64LE, H5T_STD_I32LE};
   const Handle space(shape.empty() ? H5Screate(random() % 2 == 0 ? H5S_SCALAR : H5S_NULL)
                                    : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                      H5Sclose);
-  const Handle dataset(
-      H5Dcreate2(file, name.c_str(), AnyOf(types, random), space, H5P_DEFAULT, creation, H5P_DEFAULT),
-      H5Dclose);
+  const Handle dataset(H5Dcreate2(file, name.c_str(), AnyOf(types, random), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                       H5Dclose);
   hdf5::WriteAttribute(dataset, "units", AnyValue(random));
   hdf5::WriteAttribute(dataset, "interpolation", std::string("linear"));
 }
@@ -132,8 +130,7 @@ std::string Edited(const std::string& bytes, const std::function<void(hid_t)>& e
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
   if (size <= 0) return bytes;
   std::string edited(seal::kSize + static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, edited.data() + seal::kSize, static_cast<std::size_t>(size)) != size)
-    return bytes;
+  if (H5Fget_file_image(file, edited.data() + seal::kSize, static_cast<std::size_t>(size)) != size) return bytes;
   seal::Apply(edited);
   return edited;
 }
@@ -141,28 +138,32 @@ std::string Edited(const std::string& bytes, const std::function<void(hid_t)>& e
 // Changes a table file at random but keeps it a sealed HDF5 file, as another program might write it. Returns the file
 // unchanged if HDF5 cannot open it.
 std::string EditTable(const std::string& file, std::mt19937& random) {
-  return Edited(file, [&](hid_t root) {
-    switch (random() % 8) {
-      case 0:
-        return ReplaceDataset(root, random);
-      case 1:
-        return Relink(root, random);
-      case 2:
-      case 3:
-        return ChangeAttribute(root, random);
-      default:
-        return ChangeNumbers(root, random);
-    }
-  });
+  return Edited(
+      file,
+      [&](hid_t root) {
+        switch (random() % 8) {
+          case 0:
+            return ReplaceDataset(root, random);
+          case 1:
+            return Relink(root, random);
+          case 2:
+          case 3:
+            return ChangeAttribute(root, random);
+          default:
+            return ChangeNumbers(root, random);
+        }
+      });
 }
 
 // The file with another content digest.
 std::string WithDigest(const std::string& file, const std::string& digest) {
-  return Edited(file, [&](hid_t root) {
-    const std::string name(format::kContentDigest);
-    H5Adelete(root, name.c_str());
-    hdf5::WriteAttribute(root, name, digest);
-  });
+  return Edited(
+      file,
+      [&](hid_t root) {
+        const std::string name(format::kContentDigest);
+        H5Adelete(root, name.c_str());
+        hdf5::WriteAttribute(root, name, digest);
+      });
 }
 
 std::string MutateBytes(std::string file, std::size_t max_size) {

@@ -30,10 +30,8 @@ inline void MustKeepPromises(const formats::Trajectory& trajectory) {
     ALBTPU_MUST(std::isfinite(record.roll) && std::isfinite(record.pitch) && std::isfinite(record.heading));
     const std::optional<formats::TrajectorySigma> sigma = trajectory.SigmaAt(i);
     if (!sigma.has_value()) continue;
-    for (const double value :
-         {sigma->north, sigma->east, sigma->down, sigma->roll, sigma->pitch, sigma->heading}) {
+    for (const double value : {sigma->north, sigma->east, sigma->down, sigma->roll, sigma->pitch, sigma->heading})
       ALBTPU_MUST(value >= 0 && std::isfinite(value));
-    }
   }
 }
 

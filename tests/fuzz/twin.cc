@@ -48,13 +48,10 @@ void Twin::MustAgree(const Query& query, const PulseColumns& pulses, const Answe
       const float* errors = answers.standard_errors[q];
       if (values != nullptr) MustBeNear(values[i], twin.values[q], largest_[q]);
       if (errors != nullptr) MustBeNear(errors[i], twin.standard_errors[q], largest_error_[q]);
-      if (inside && values != nullptr && table_.variable(kQuantities[q]) != nullptr) {
+      if (inside && values != nullptr && table_.variable(kQuantities[q]) != nullptr)
         ALBTPU_MUST(std::isfinite(values[i]));
-      }
     }
-    if (answers.best_s44_orders != nullptr) {
-      ALBTPU_MUST(answers.best_s44_orders[i] <= (inside ? kS44Orders.size() : 0));
-    }
+    if (answers.best_s44_orders != nullptr) ALBTPU_MUST(answers.best_s44_orders[i] <= (inside ? kS44Orders.size() : 0));
     for (const float* remaining : {answers.remaining_thu, answers.remaining_tvu}) {
       if (remaining != nullptr && !inside) ALBTPU_MUST(std::isnan(remaining[i]));
       if (remaining != nullptr && !std::isnan(remaining[i])) ALBTPU_MUST(remaining[i] >= 0);

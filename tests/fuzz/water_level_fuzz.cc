@@ -40,10 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   const PointTimeForm form = size % 2 == 0 ? PointTimeForm::kAdjustedStandard : PointTimeForm::kWeekSeconds;
   const absl::StatusOr<WaterLevelSeries> series = WaterLevelSeries::Parse("file", text, form);
-  if (series.ok()) {
+  if (series.ok())
     CheckSeries(*series);
-  } else {
+  else
     fuzz::MustExplain(series.status(), "file");
-  }
   return 0;
 }

@@ -39,8 +39,7 @@ grpc_call_error grpc_server_request_call(grpc_server* server, grpc_call** call, 
 }
 
 void grpc_server_shutdown_and_notify(grpc_server* server, grpc_completion_queue* queue, void* tag) {
-  static const auto next =
-      NextFunction<decltype(grpc_server_shutdown_and_notify)>("grpc_server_shutdown_and_notify");
+  static const auto next = NextFunction<decltype(grpc_server_shutdown_and_notify)>("grpc_server_shutdown_and_notify");
   __tsan_release(tag);
   next(server, queue, tag);
 }
@@ -50,8 +49,7 @@ grpc_event grpc_completion_queue_next(grpc_completion_queue* queue, gpr_timespec
   return Acquired(next(queue, deadline, reserved));
 }
 
-grpc_event grpc_completion_queue_pluck(grpc_completion_queue* queue, void* tag, gpr_timespec deadline,
-                                       void* reserved) {
+grpc_event grpc_completion_queue_pluck(grpc_completion_queue* queue, void* tag, gpr_timespec deadline, void* reserved) {
   static const auto next = NextFunction<decltype(grpc_completion_queue_pluck)>("grpc_completion_queue_pluck");
   return Acquired(next(queue, tag, deadline, reserved));
 }
@@ -71,8 +69,8 @@ void grpc_server_destroy(grpc_server* server) {
 // Happens after all callbacks of the call: each decremented the counter of outstanding callbacks, some of them inside
 // the library.
 void grpc::internal::ServerCallbackCall::ScheduleOnDone(bool within) {
-  static const auto next = NextFunction<void(ServerCallbackCall*, bool)>(
-      "_ZN4grpc8internal18ServerCallbackCall14ScheduleOnDoneEb");
+  static const auto next =
+      NextFunction<void(ServerCallbackCall*, bool)>("_ZN4grpc8internal18ServerCallbackCall14ScheduleOnDoneEb");
   callbacks_outstanding_.load(std::memory_order_acquire);
   next(this, within);
 }

@@ -73,8 +73,8 @@ void spawn(task& original, task_group_context& context, slot_id slot) {
 }
 
 void enqueue(task& original, task_arena_base* arena) {
-  static const auto next = NextFunction<void(task&, task_arena_base*)>(
-      "_ZN3tbb6detail2r17enqueueERNS0_2d14taskEPNS2_15task_arena_baseE");
+  static const auto next =
+      NextFunction<void(task&, task_arena_base*)>("_ZN3tbb6detail2r17enqueueERNS0_2d14taskEPNS2_15task_arena_baseE");
   next(*new WatchedTask(original), arena);
 }
 
@@ -86,8 +86,7 @@ void enqueue(task& original, task_group_context& context, task_arena_base* arena
 
 void execute_and_wait(task& first, task_group_context& first_context, wait_context& wait,
                       task_group_context& wait_context) {
-  static const auto next = NextFunction<void(task&, task_group_context&, d1::wait_context&,
-                                             task_group_context&)>(
+  static const auto next = NextFunction<void(task&, task_group_context&, d1::wait_context&, task_group_context&)>(
       "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
   const VisibleWait visible(wait);
   next(first, first_context, wait, wait_context);

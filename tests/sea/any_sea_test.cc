@@ -25,17 +25,14 @@ constexpr TailRule kTails[] = {TailRule::kWind, TailRule::kRelax, TailRule::kLev
 // Waves of 3.2 s from 230 degrees, with their wind.
 SeaDescription WavesOf(double hs, TailRule tail) {
   const double from = RadiansOfDegrees(230);
-  return {
-      .waves = std::make_shared<JonswapSpectrum>(std::vector{JonswapWaves{
-          .significant_wave_height = hs, .peak_period = 3.2, .travels_towards = from - std::numbers::pi}}),
-      .wind_speed_10m = 6,
-      .wind_from = from,
-      .tail = tail};
+  return {.waves = std::make_shared<JonswapSpectrum>(std::vector{JonswapWaves{
+              .significant_wave_height = hs, .peak_period = 3.2, .travels_towards = from - std::numbers::pi}}),
+          .wind_speed_10m = 6,
+          .wind_from = from,
+          .tail = tail};
 }
 
-BeamResponse ResponseTo(const HarmonicSpectrum& spectrum) {
-  return SeaResponse(spectrum, kRefractiveIndex)(kNadir);
-}
+BeamResponse ResponseTo(const HarmonicSpectrum& spectrum) { return SeaResponse(spectrum, kRefractiveIndex)(kNadir); }
 
 // Degrees, of the axis on which refraction is greater.
 double Refraction(const HarmonicSpectrum& spectrum) {

@@ -32,8 +32,8 @@ double Least(const PositiveSpreading& spreading) {
 TEST(PositiveSpreading, IsTheSeriesWhereThatIsPositive) {
   const PositiveSpreading spreading({0.3, 0.05}, {-0.2, 0.1});
   for (const double psi : {0.0, 0.4, 2.0, -1.0, 5.0}) {
-    const double series = 1 + 2 * (0.3 * std::cos(2 * psi) - 0.2 * std::sin(2 * psi) +
-                                   0.05 * std::cos(4 * psi) + 0.1 * std::sin(4 * psi));
+    const double series = 1 + 2 * (0.3 * std::cos(2 * psi) - 0.2 * std::sin(2 * psi) + 0.05 * std::cos(4 * psi) +
+                                   0.1 * std::sin(4 * psi));
     EXPECT_NEAR(spreading(psi), series / (2 * kPi), 1e-15);
   }
 }
@@ -52,8 +52,12 @@ TEST(PositiveSpreading, HasTheHarmonicsThatItIsGiven) {
     for (const double r2 : {0.55, 0.8, 0.95}) {
       const PositiveSpreading spreading({r2 * std::cos(2 * axis), 0, 0}, {r2 * std::sin(2 * axis), 0, 0});
       EXPECT_GE(Least(spreading), 0);
-      EXPECT_NEAR(Mean(spreading, [](double) { return 1; }), 1, 1e-9);
-      EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::cos(2 * (psi - axis)); }), r2, 1e-5);
+      EXPECT_NEAR(Mean(
+                      spreading, [](double) { return 1; }),
+                  1, 1e-9);
+      EXPECT_NEAR(Mean(
+                      spreading, [&](double psi) { return std::cos(2 * (psi - axis)); }),
+                  r2, 1e-5);
       EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::sin(2 * (psi - axis)); }), 0, 1e-5);
     }
   }
@@ -70,9 +74,8 @@ TEST(PositiveSpreading, HasAllHarmonicsOfANarrowSwell) {
   }
   const PositiveSpreading spreading(a, b);
   EXPECT_GE(Least(spreading), 0);
-  for (int n = 1; n <= 6; ++n) {
+  for (int n = 1; n <= 6; ++n)
     EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::cos(2 * n * psi); }), a[n - 1], 1e-5) << n;
-  }
   // The harmonics that are not given come out nearly right as well.
   for (int n = 13; n <= 14; ++n) product *= (kS - n + 1) / (kS + n);
   EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::cos(14 * psi); }), product, 0.02);

@@ -14,19 +14,16 @@ namespace albtpu {
 namespace {
 
 SeaState SeaOf(const HarmonicSpectrum& spectrum) {
-  return SeaState(
-      {.waves = KnownWaves{std::make_shared<SampledSpectrum>(spectrum, SpectrumText{"n", "r", "d"})}});
+  return SeaState({.waves = KnownWaves{std::make_shared<SampledSpectrum>(spectrum, SpectrumText{"n", "r", "d"})}});
 }
 
 // Covariance of the slopes by trapezoids in k over the samples, from the second harmonics alone.
 Eigen::Matrix2d FromSamples(const HarmonicSpectrum& sea) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < sea.size(); ++i) {
-    const double before = i > 0 ? sea.k[i - 1] : sea.k[i],
-                 after = i + 1 < sea.size() ? sea.k[i + 1] : sea.k[i];
+    const double before = i > 0 ? sea.k[i - 1] : sea.k[i], after = i + 1 < sea.size() ? sea.k[i + 1] : sea.k[i];
     const double slope = sea.s[i] * sea.k[i] * sea.k[i] * (after - before) / 2;
-    sum += 0.5 * slope *
-           (Eigen::Matrix2d() << 1 + sea.a[0][i], sea.b[0][i], sea.b[0][i], 1 - sea.a[0][i]).finished();
+    sum += 0.5 * slope * (Eigen::Matrix2d() << 1 + sea.a[0][i], sea.b[0][i], sea.b[0][i], 1 - sea.a[0][i]).finished();
   }
   return sum;
 }
@@ -34,9 +31,7 @@ Eigen::Matrix2d FromSamples(const HarmonicSpectrum& sea) {
 TEST(SampledSpectrum, IsTheSamplesAtTheSamples) {
   const HarmonicSpectrum sea = CrossingSea();
   const SampledSpectrum spectrum(sea, {"a name", "a reference", "departures"});
-  for (std::size_t i = 0; i < sea.size(); i += 7) {
-    EXPECT_NEAR(spectrum(sea.k[i]), sea.s[i], 1e-9 * sea.s[i]);
-  }
+  for (std::size_t i = 0; i < sea.size(); i += 7) EXPECT_NEAR(spectrum(sea.k[i]), sea.s[i], 1e-9 * sea.s[i]);
   EXPECT_EQ(spectrum(0.5 * sea.k.front()), 0);
   EXPECT_EQ(spectrum(2 * sea.k.back()), 0);
   EXPECT_EQ(spectrum.name(), "a name");
@@ -78,11 +73,8 @@ TEST(SampledSpectrum, OfAWindSeaRefractsAsItsModel) {
 TEST(SampledSpectrum, TurnsWithItsSea) {
   const double angle = 0.9;
   const SeaState sea = SeaOf(CrossingSea()), turned = SeaOf(Rotated(CrossingSea(), angle));
-  for (const double psi : {0.0, 0.5, 2.2}) {
-    for (const double k : {0.4, 3.0, 200.0}) {
-      EXPECT_NEAR(turned.Psi(k, psi + angle) / sea.Psi(k, psi), 1, 1e-6);
-    }
-  }
+  for (const double psi : {0.0, 0.5, 2.2})
+    for (const double k : {0.4, 3.0, 200.0}) EXPECT_NEAR(turned.Psi(k, psi + angle) / sea.Psi(k, psi), 1, 1e-6);
 }
 
 TEST(SampledSpectrum, MayHaveNoWaves) {

@@ -24,8 +24,8 @@ Eigen::Matrix2d FineSlopeCovariance(const SeaState& sea, const BeamOptions& beam
     for (int j = 0; j < kDirections; ++j) {
       const double psi = 2 * std::numbers::pi * (j + 0.5) / kDirections;
       const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
-      sum += sea.Psi(k, psi) * FootprintPower(beam, k, psi) * k * k * kStep *
-             (2 * std::numbers::pi / kDirections) * wave * wave.transpose();
+      sum += sea.Psi(k, psi) * FootprintPower(beam, k, psi) * k * k * kStep * (2 * std::numbers::pi / kDirections) *
+             wave * wave.transpose();
     }
   }
   return sum;
@@ -73,9 +73,8 @@ TEST(SeaState, LosesTheVarianceOfTheCorrectedWaves) {
     constexpr int kSteps = 2000;
     const double lowest = whole.energetic_range().lowest, step = (longest - lowest) / kSteps;
     double sum = 0;
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= kSteps; ++i)
       sum += whole.S(lowest + i * step) * step / 3 * (i == 0 || i == kSteps ? 1 : i % 2 == 1 ? 4 : 2);
-    }
     EXPECT_NEAR(removed / sum, 1, 1e-3) << model->key;
     EXPECT_EQ(rest.S(0.99 * longest), 0) << model->key;
     EXPECT_EQ(rest.S(1.01 * longest), whole.S(1.01 * longest)) << model->key;
@@ -92,8 +91,7 @@ TEST(SeaState, IsUnchangedByALimitAboveItsLongestWave) {
 }
 
 TEST(SeaState, ScalesTheHeightOfEveryWave) {
-  const SeaState sea(8, 1e4),
-      scaled({.waves = WindSea{.wind_speed_10m = 8, .fetch = 1e4}, .height_scale = 3});
+  const SeaState sea(8, 1e4), scaled({.waves = WindSea{.wind_speed_10m = 8, .fetch = 1e4}, .height_scale = 3});
   EXPECT_NEAR(ElevationVariance(scaled) / ElevationVariance(sea), 9, 1e-12);
   EXPECT_NEAR(scaled.Psi(3, 0.4) / sea.Psi(3, 0.4), 9, 1e-12);
 }
@@ -103,8 +101,7 @@ TEST(SlopeCovariance, IsAccurateToOnePartInTenThousandForAnyFootprint) {
     for (const double fetch : {100.0, kFullyDeveloped}) {
       for (const double footprint : {0.1, 0.5, 5.0}) {
         for (const SpectrumModel* model : kSpectrumModels) {
-          const SeaState sea(
-              {.waves = WindSea{.wind_speed_10m = wind_speed, .fetch = fetch, .model = model}});
+          const SeaState sea({.waves = WindSea{.wind_speed_10m = wind_speed, .fetch = fetch, .model = model}});
           const BeamOptions beam{.incidence = 0.4, .azimuth = 0.5, .footprint = footprint};
           const Eigen::Matrix2d fast =
               SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); });

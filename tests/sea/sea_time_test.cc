@@ -37,17 +37,16 @@ TEST(SeaTime, IsSecondsOfUtcSince1970) {
 }
 
 TEST(SeaTime, IsNoOtherText) {
-  for (const char* text : {"", "2020-06-08", "2020-06-08T03:50", "2020-06-08 03:50Z", "2020-06-08T03:50+0",
-                           "2020-06-31T03:50Z", "2020-06-08T24:00Z", "2020-06-08T03:50:60Z",
-                           "20200608T035000Z", "x020-06-08T03:50Z", "2020-06-08T03:50:7.5Z"})
+  for (const char* text :
+       {"", "2020-06-08", "2020-06-08T03:50", "2020-06-08 03:50Z", "2020-06-08T03:50+0", "2020-06-31T03:50Z",
+        "2020-06-08T24:00Z", "2020-06-08T03:50:60Z", "20200608T035000Z", "x020-06-08T03:50Z", "2020-06-08T03:50:7.5Z"})
     EXPECT_FALSE(ParseSeaTime(text)) << text;
 }
 
 TEST(SeaTimeText, IsReadBack) {
   EXPECT_EQ(SeaTimeText(1591588200), "2020-06-08T03:50Z");
   EXPECT_EQ(SeaTimeText(1591588207), "2020-06-08T03:50:07Z");
-  for (double time = -2.2e9; time < 7e9; time += 1e8 / 7)
-    EXPECT_EQ(ParseSeaTime(SeaTimeText(time)), std::round(time));
+  for (double time = -2.2e9; time < 7e9; time += 1e8 / 7) EXPECT_EQ(ParseSeaTime(SeaTimeText(time)), std::round(time));
 }
 
 }  // namespace

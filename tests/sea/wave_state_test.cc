@@ -96,8 +96,7 @@ TEST(WindSea, WithoutWindHasNoWaves) {
 TEST(WindSea, CanBeOfASpectrumThatNoListNames) {
   const SeaState sea({.waves = WindSea{.wind_speed_10m = 5, .model = &kBandModel}});
   EXPECT_EQ(sea.spectrum().name(), "a band");
-  const double mean_square_slope =
-      BandSpectrum::kLevel * std::log(BandSpectrum::kHighest / BandSpectrum::kLowest);
+  const double mean_square_slope = BandSpectrum::kLevel * std::log(BandSpectrum::kHighest / BandSpectrum::kLowest);
   const Eigen::Matrix2d slopes = SlopeCovariance(sea);
   EXPECT_NEAR(slopes(0, 0) / (0.5 * mean_square_slope), 1, 1e-9);
   EXPECT_NEAR(slopes(1, 1) / (0.5 * mean_square_slope), 1, 1e-9);

@@ -15,11 +15,7 @@ namespace albtpu::testing {
 inline KnownSea DescribedWaves() {
   return {.waves = std::make_shared<const std::vector<JonswapWaves>>(std::vector<JonswapWaves>{
               {.significant_wave_height = 0.42, .peak_period = 2.7, .travels_towards = 0.8},
-              {.significant_wave_height = 1.1,
-               .peak_period = 9.5,
-               .gamma = 7,
-               .travels_towards = 2.1,
-               .spread = 0.3}}),
+              {.significant_wave_height = 1.1, .peak_period = 9.5, .gamma = 7, .travels_towards = 2.1, .spread = 0.3}}),
           .wind_speed_10m = 6.5,
           .wind_from = 3.9,
           .water_depth = 12.0};

@@ -44,8 +44,7 @@ TEST(Axis, RefusesNodesThatSinglePrecisionCannotInterpolateBetween) {
 TEST(Axis, RefusesNoNodes) { EXPECT_THAT(Problem(AxisId::kFetch, {}), HasSubstr("'fetch' has no nodes")); }
 
 TEST(Axis, RefusesNodesThatAreNotFinite) {
-  EXPECT_THAT(Problem(AxisId::kFetch, {100, kInfinity}),
-              HasSubstr("'fetch' node 1 is inf m: nodes must be finite"));
+  EXPECT_THAT(Problem(AxisId::kFetch, {100, kInfinity}), HasSubstr("'fetch' node 1 is inf m: nodes must be finite"));
   EXPECT_THAT(Problem(AxisId::kWindSpeed, {kNaN}), HasSubstr("'wind_speed' node 0 is nan m s-1"));
 }
 
@@ -56,8 +55,7 @@ TEST(Axis, RefusesNodesThatSinglePrecisionCannotRepresent) {
 }
 
 TEST(Axis, RefusesNegativeNodes) {
-  EXPECT_THAT(Problem(AxisId::kDepth, {-1, 0}),
-              HasSubstr("'depth' node 0 is -1 m: nodes must not be negative"));
+  EXPECT_THAT(Problem(AxisId::kDepth, {-1, 0}), HasSubstr("'depth' node 0 is -1 m: nodes must not be negative"));
 }
 
 TEST(Axis, RefusesZeroOnALogScale) {
@@ -72,11 +70,9 @@ TEST(Axis, RefusesAzimuthsAboveAQuarterTurn) {
 
 TEST(Axis, LocatesItsNodesExactly) {
   const UncertaintyTable table = testing::SyntheticTable();
-  for (const Axis& axis : table.axes()) {
-    for (std::size_t i = 0; i < axis.size(); ++i) {
+  for (const Axis& axis : table.axes())
+    for (std::size_t i = 0; i < axis.size(); ++i)
       EXPECT_EQ(Place(axis, axis.nodes()[i]), static_cast<double>(i)) << Describe(axis.id()).name;
-    }
-  }
 }
 
 TEST(Axis, LocatesLinearlyBetweenNodes) {
@@ -98,10 +94,8 @@ TEST(Axis, UsesTheGivenScale) {
 
 TEST(Axis, LocatesNothingOutsideItsNodes) {
   const Axis depth = MakeAxis(AxisId::kDepth, {1, 2});
-  for (double outside :
-       {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfinity, -kInfinity, kNaN}) {
+  for (double outside : {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfinity, -kInfinity, kNaN})
     EXPECT_EQ(depth.Locate(outside), std::nullopt) << outside;
-  }
 }
 
 TEST(Axis, HoldsFetchAboveItsLastNode) {
@@ -149,8 +143,7 @@ TEST(Axis, FoldsAzimuthIntoHalfATurn) {
     EXPECT_NEAR(Place(azimuth, same), 1.0 / 3, 1e-15) << same;
   }
   for (double mirrored : {-30.0, 150.0}) EXPECT_EQ(FoldAzimuth(mirrored, Fold::kHalfTurn), 150) << mirrored;
-  for (double whole : {0.0, -0.0, 180.0, -180.0, 720.0})
-    EXPECT_EQ(FoldAzimuth(whole, Fold::kHalfTurn), 0) << whole;
+  for (double whole : {0.0, -0.0, 180.0, -180.0, 720.0}) EXPECT_EQ(FoldAzimuth(whole, Fold::kHalfTurn), 0) << whole;
   EXPECT_EQ(FoldAzimuth(-1e-9, Fold::kHalfTurn), 180);
   for (double any : {1e300, -1e300, 179.99999999, -179.99999999}) {
     EXPECT_GE(FoldAzimuth(any, Fold::kHalfTurn), 0);
@@ -163,8 +156,7 @@ TEST(Axis, FoldsAzimuthIntoHalfATurn) {
 TEST(Axis, WithOneNodeOnAnEndlessLinearScaleAnswersFromZero) {
   const Axis wind_speed = *Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {6.5});
   for (double inside : {0.0, 1.0, 6.5, 100.0, kInfinity}) EXPECT_EQ(Place(wind_speed, inside), 0) << inside;
-  for (double outside : {-1.0, -kInfinity, kNaN})
-    EXPECT_EQ(wind_speed.Locate(outside), std::nullopt) << outside;
+  for (double outside : {-1.0, -kInfinity, kNaN}) EXPECT_EQ(wind_speed.Locate(outside), std::nullopt) << outside;
 }
 
 }  // namespace

@@ -53,14 +53,12 @@ TEST(Coverage, OfAnIsotropicNormalIsTheRayleighQuantile) {
 }
 
 TEST(Coverage, RadiusContains95PercentForEveryAxisRatio) {
-  for (double q : {0.02, 0.05, 0.1, 0.1234, 0.2, 0.33333, 0.5, 0.6543, 0.7777, 0.85, 0.95, 0.9999}) {
+  for (double q : {0.02, 0.05, 0.1, 0.1234, 0.2, 0.33333, 0.5, 0.6543, 0.7777, 0.85, 0.95, 0.9999})
     EXPECT_NEAR(RadiusFactor95(q), FactorByBisection(q), 1e-6) << q;
-  }
 }
 
 TEST(Coverage, RadiusFactorFallsWithTheAxisRatio) {
-  for (int i = 1; i <= 5000; ++i)
-    EXPECT_LT(RadiusFactor95(i / 5000.0), RadiusFactor95((i - 1) / 5000.0)) << i;
+  for (int i = 1; i <= 5000; ++i) EXPECT_LT(RadiusFactor95(i / 5000.0), RadiusFactor95((i - 1) / 5000.0)) << i;
 }
 
 TEST(Coverage, TwoSigmaChangesNothing) {

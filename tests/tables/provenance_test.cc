@@ -49,8 +49,7 @@ TEST(Provenance, RefusesATitleOfTwoLines) {
 
 TEST(Provenance, RefusesTextThatIsNotUtf8) {
   // A lone continuation byte, an overlong slash, a surrogate, a character above U+10FFFF, and a truncated character.
-  for (const char* bad :
-       {"\x80", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE6\xB5"}) {
+  for (const char* bad : {"\x80", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE6\xB5"}) {
     Provenance provenance = Good();
     provenance.attributes["source"] = "ab" + std::string(bad);
     EXPECT_THAT(Problem(provenance), HasSubstr("attribute 'source' is not UTF-8 at byte 2"));

@@ -47,8 +47,7 @@ UncertaintyTable RoughTable(std::uint32_t seed, Scale scale) {
   return UncertaintyTable::Create(all, std::move(variables), TinyTable().provenance()).value();
 }
 
-Corners CornersAround(const UncertaintyTable& table, Quantity quantity,
-                      const std::array<float, kAxisCount>& at) {
+Corners CornersAround(const UncertaintyTable& table, Quantity quantity, const std::array<float, kAxisCount>& at) {
   const Variable& variable = *table.variable(quantity);
   std::vector<std::size_t> rows = {0};
   const std::size_t dimensions = Describe(quantity).over_last_axis ? kAxisCount : kAxisCount - 1;

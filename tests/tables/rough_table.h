@@ -16,7 +16,6 @@ UncertaintyTable RoughTable(std::uint32_t seed, Scale scale = Scale::kLinear);
 struct Corners {
   std::vector<float> values, standard_errors;
 };
-Corners CornersAround(const UncertaintyTable& table, Quantity quantity,
-                      const std::array<float, kAxisCount>& at);
+Corners CornersAround(const UncertaintyTable& table, Quantity quantity, const std::array<float, kAxisCount>& at);
 
 }  // namespace albtpu::testing

@@ -6,9 +6,8 @@ namespace albtpu {
 namespace {
 
 TEST(Schema, NeedsAllCoordinatesButFetchAndAzimuth) {
-  for (AxisId axis : kAxes) {
+  for (AxisId axis : kAxes)
     EXPECT_EQ(MayBeAbsent(axis), axis == AxisId::kFetch || axis == AxisId::kAzimuth) << Describe(axis).name;
-  }
 }
 
 TEST(Schema, OfOneSeaHasTheNamesUnitsAndQuantitiesOfTheSeaSurface) {

@@ -80,21 +80,18 @@ Axis MakeAxis(AxisId id, const std::vector<double>& nodes, const TableSchema& ki
 }
 
 UncertaintyTable SyntheticTable(const SyntheticOptions& options) {
-  UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {3, 4, 5, 7, 10}),
-                                 MakeAxis(AxisId::kFetch, {1e3, 3e3, 1e4, 1e5}),
-                                 MakeAxis(AxisId::kIncidence, {0, 5, 10, 15, 20, 25}),
-                                 MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}),
-                                 MakeAxis(AxisId::kFootprint, {0.25, 0.5, 1, 2}),
-                                 MakeAxis(AxisId::kDepth, {0, 0.5, 1, 2, 5, 10, 20})};
+  UncertaintyTable::Axes axes = {
+      MakeAxis(AxisId::kWindSpeed, {3, 4, 5, 7, 10}),       MakeAxis(AxisId::kFetch, {1e3, 3e3, 1e4, 1e5}),
+      MakeAxis(AxisId::kIncidence, {0, 5, 10, 15, 20, 25}), MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}),
+      MakeAxis(AxisId::kFootprint, {0.25, 0.5, 1, 2}),      MakeAxis(AxisId::kDepth, {0, 0.5, 1, 2, 5, 10, 20})};
   UncertaintyTable::Variables variables;
   for (Quantity quantity : kQuantities) {
     if (options.published && Describe(quantity).is_bias) continue;
     const auto value = [&](const Coordinates& at) { return options.factor * Formula(quantity, at); };
-    Variable variable{
-        .values = Tabulate(axes, quantity, value), .standard_errors = {}, .scale = Scale::kLinear};
+    Variable variable{.values = Tabulate(axes, quantity, value), .standard_errors = {}, .scale = Scale::kLinear};
     if (!options.published) {
-      variable.standard_errors =
-          Tabulate(axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); });
+      variable.standard_errors = Tabulate(
+          axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); });
     }
     variables[Index(quantity)] = std::move(variable);
   }
@@ -115,31 +112,29 @@ UncertaintyTable SyntheticSea() {
       azimuth = azimuth < 180 ? azimuth + 20 * std::sin(azimuth * std::numbers::pi / 180) : 0;
       return Formula(quantity, at) * (1 + 0.1 * std::sin(azimuth * std::numbers::pi / 90));
     };
-    variables[Index(quantity)] =
-        Variable{.values = Tabulate(axes, quantity, value),
-                 .standard_errors = Tabulate(
-                     axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); }),
-                 .scale = Scale::kLinear};
+    variables[Index(quantity)] = Variable{
+        .values = Tabulate(axes, quantity, value),
+        .standard_errors = Tabulate(axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); }),
+        .scale = Scale::kLinear};
   }
   return OrDie(UncertaintyTable::Create(kOneSea, std::move(axes), std::move(variables),
                                         MakeProvenance({.id = "synthetic-sea"})));
 }
 
 UncertaintyTable TinyTable(Scale scale, const TableSchema& kind) {
-  UncertaintyTable::Axes axes = {
-      MakeAxis(AxisId::kWindSpeed, {2, 4}, kind),  MakeAxis(AxisId::kFetch, {1000}, kind),
-      MakeAxis(AxisId::kIncidence, {0, 20}, kind), MakeAxis(AxisId::kAzimuth, {0, 90}, kind),
-      MakeAxis(AxisId::kFootprint, {1}, kind),     MakeAxis(AxisId::kDepth, {0, 10}, kind)};
+  UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {2, 4}, kind),  MakeAxis(AxisId::kFetch, {1000}, kind),
+                                 MakeAxis(AxisId::kIncidence, {0, 20}, kind), MakeAxis(AxisId::kAzimuth, {0, 90}, kind),
+                                 MakeAxis(AxisId::kFootprint, {1}, kind),     MakeAxis(AxisId::kDepth, {0, 10}, kind)};
   UncertaintyTable::Variables variables;
   for (Quantity quantity : kQuantities) {
-    variables[Index(quantity)] = Variable{
-        .values =
-            Tabulate(axes, quantity, [&](const Coordinates& at) { return 1 + at[0] + Index(quantity); }),
-        .standard_errors = Tabulate(axes, quantity, [](const Coordinates& at) { return 0.1 * (1 + at[5]); }),
-        .scale = scale};
+    variables[Index(quantity)] =
+        Variable{.values = Tabulate(
+                     axes, quantity, [&](const Coordinates& at) { return 1 + at[0] + Index(quantity); }),
+                 .standard_errors = Tabulate(
+                     axes, quantity, [](const Coordinates& at) { return 0.1 * (1 + at[5]); }),
+                 .scale = scale};
   }
-  return OrDie(
-      UncertaintyTable::Create(kind, std::move(axes), std::move(variables), MakeProvenance({.id = "tiny"})));
+  return OrDie(UncertaintyTable::Create(kind, std::move(axes), std::move(variables), MakeProvenance({.id = "tiny"})));
 }
 
 }  // namespace albtpu::testing

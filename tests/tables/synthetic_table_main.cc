@@ -17,27 +17,26 @@ int main(int argc, char** argv) {
   bool of_sea = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const auto value = [&] { return i + 1 < arguments.size() ? arguments[++i] : std::string(); };
-    if (arguments[i] == "--id") {
+    if (arguments[i] == "--id")
       options.id = value();
-    } else if (arguments[i] == "--version") {
+    else if (arguments[i] == "--version")
       options.version = value();
-    } else if (arguments[i] == "--factor") {
+    else if (arguments[i] == "--factor")
       options.factor = std::strtod(value().c_str(), nullptr);
-    } else if (arguments[i] == "--published") {
+    else if (arguments[i] == "--published")
       options.published = true;
-    } else if (arguments[i] == "--sea") {
+    else if (arguments[i] == "--sea")
       of_sea = true;
-    } else {
+    else
       output = arguments[i];
-    }
   }
   if (output.empty()) {
     std::cerr << "albtpu_synthetic_table: no output: name a file to write\n";
     return 2;
   }
   using albtpu::testing::SyntheticSea, albtpu::testing::SyntheticTable;
-  const absl::Status status = albtpu::WriteTable(of_sea ? SyntheticSea() : SyntheticTable(options), output,
-                                                 albtpu::Existing::kReplace);
+  const absl::Status status =
+      albtpu::WriteTable(of_sea ? SyntheticSea() : SyntheticTable(options), output, albtpu::Existing::kReplace);
   if (!status.ok()) std::cerr << "albtpu_synthetic_table: " << status.message() << "\n";
   return status.ok() ? 0 : 1;
 }

@@ -22,9 +22,7 @@ struct Parts {
   Provenance provenance;
 
   Variable& operator[](Quantity quantity) { return *variables[Index(quantity)]; }
-  absl::StatusOr<UncertaintyTable> Create() const {
-    return UncertaintyTable::Create(axes, variables, provenance);
-  }
+  absl::StatusOr<UncertaintyTable> Create() const { return UncertaintyTable::Create(axes, variables, provenance); }
   std::string Problem() const {
     const absl::StatusOr<UncertaintyTable> table = Create();
     EXPECT_EQ(table.status().code(), absl::StatusCode::kInvalidArgument);
@@ -35,9 +33,8 @@ struct Parts {
 
 Parts PartsOf(const UncertaintyTable& table) {
   Parts parts{table.axes(), {}, table.provenance()};
-  for (Quantity quantity : kQuantities) {
+  for (Quantity quantity : kQuantities)
     if (const Variable* variable = table.variable(quantity)) parts.variables[Index(quantity)] = *variable;
-  }
   return parts;
 }
 
@@ -58,11 +55,10 @@ TEST(UncertaintyTable, RefusesMissingRequiredQuantities) {
   for (Quantity quantity : kQuantities) {
     Parts parts = PartsOf(TinyTable());
     parts.variables[Index(quantity)].reset();
-    if (Describe(quantity).is_bias) {
+    if (Describe(quantity).is_bias)
       EXPECT_TRUE(parts.Create().ok());
-    } else {
+    else
       EXPECT_THAT(parts.Problem(), HasSubstr("' is missing"));
-    }
   }
 }
 
@@ -81,8 +77,7 @@ TEST(UncertaintyTable, RefusesAWrongNumberOfValues) {
 TEST(UncertaintyTable, RefusesAWrongNumberOfStandardErrors) {
   Parts parts = PartsOf(TinyTable());
   parts[Quantity::kRefractionCrossWind].standard_errors.push_back(0);
-  EXPECT_EQ(parts.Problem(),
-            "variable 'refraction_cross_wind_standard_error' has 9 values: its axes have 8 nodes");
+  EXPECT_EQ(parts.Problem(), "variable 'refraction_cross_wind_standard_error' has 9 values: its axes have 8 nodes");
 }
 
 TEST(UncertaintyTable, NamesTheNodeOfAValueThatIsNotFinite) {
@@ -103,11 +98,10 @@ TEST(UncertaintyTable, AllowsNegativeBiasesOnly) {
   for (Quantity quantity : kQuantities) {
     Parts parts = PartsOf(TinyTable());
     parts[quantity].values[0] = -1;
-    if (Describe(quantity).is_bias) {
+    if (Describe(quantity).is_bias)
       EXPECT_TRUE(parts.Create().ok());
-    } else {
+    else
       EXPECT_THAT(parts.Problem(), HasSubstr("it must not be negative"));
-    }
   }
 }
 

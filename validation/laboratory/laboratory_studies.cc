@@ -88,16 +88,15 @@ StaffReading Measure(const SeaState& sea, int records, std::uint64_t seed, std::
 }
 
 DataTable TableOfFetches(const Table2& published, const std::vector<Waves>& ours) {
-  DataTable table{
-      "table_2",
-      "Waves by fetch: published, and by Apel's spectrum at 5.25 m/s",
-      {"fetch_m", "published_peak_wavelength_m", "peak_wavelength_m", "published_peak_frequency_hz",
-       "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"},
-      {}};
+  DataTable table{"table_2",
+                  "Waves by fetch: published, and by Apel's spectrum at 5.25 m/s",
+                  {"fetch_m", "published_peak_wavelength_m", "peak_wavelength_m", "published_peak_frequency_hz",
+                   "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"},
+                  {}};
   for (std::size_t i = 0; i < ours.size(); ++i) {
     table.rows.push_back({published.fetch[i], published.peak_wavelength[i], ours[i].peak_wavelength,
-                          published.peak_frequency[i], ours[i].peak_frequency,
-                          published.significant_wave_height[i], ours[i].significant_wave_height});
+                          published.peak_frequency[i], ours[i].peak_frequency, published.significant_wave_height[i],
+                          ours[i].significant_wave_height});
   }
   return table;
 }
@@ -114,33 +113,29 @@ DataTable TableOfWinds(const Table2& published) {
   for (const double wind : kWinds) {
     for (const double fetch : fetches) {
       const Waves waves = WavesOf(SeaState(wind, fetch));
-      table.rows.push_back(
-          {wind, fetch, waves.peak_wavelength, waves.peak_frequency, waves.significant_wave_height});
+      table.rows.push_back({wind, fetch, waves.peak_wavelength, waves.peak_frequency, waves.significant_wave_height});
     }
   }
   return table;
 }
 
 // The wavelength [m] at a frequency with gravity alone, g / (2 pi f^2).
-double GravityWavelength(double frequency) {
-  return kGravity / (2 * std::numbers::pi * frequency * frequency);
-}
+double GravityWavelength(double frequency) { return kGravity / (2 * std::numbers::pi * frequency * frequency); }
 
 double CapillaryGravityWavelength(double frequency) {
   return 2 * std::numbers::pi / Wavenumber(2 * std::numbers::pi * frequency);
 }
 
 DataTable TableOfDispersion(const Table2& published) {
-  DataTable table{
-      "table_2_dispersion",
-      "The wavelength at the published peak frequency, with gravity alone and with surface tension",
-      {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
-       "with_surface_tension_m"},
-      {}};
+  DataTable table{"table_2_dispersion",
+                  "The wavelength at the published peak frequency, with gravity alone and with surface tension",
+                  {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
+                   "with_surface_tension_m"},
+                  {}};
   for (std::size_t i = 0; i < published.fetch.size(); ++i) {
     const double f = published.peak_frequency[i];
-    table.rows.push_back({published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f),
-                          CapillaryGravityWavelength(f)});
+    table.rows.push_back(
+        {published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f), CapillaryGravityWavelength(f)});
   }
   return table;
 }
@@ -165,12 +160,11 @@ DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
 }
 
 DataTable TableOfSpectra(const Table2& published, const std::vector<StaffReading>& staffs) {
-  DataTable table{
-      "table_2_spectrum",
-      "The spectrum of elevation over frequency at 5.25 m/s, and as measured by the virtual staff",
-      {"fetch_m", "frequency_hz", "spectrum_m2_per_hz", "staff_m2_per_hz"},
-      {},
-      false};
+  DataTable table{"table_2_spectrum",
+                  "The spectrum of elevation over frequency at 5.25 m/s, and as measured by the virtual staff",
+                  {"fetch_m", "frequency_hz", "spectrum_m2_per_hz", "staff_m2_per_hz"},
+                  {},
+                  false};
   for (std::size_t i = 0; i < staffs.size(); ++i) {
     const SeaState sea(kWind, published.fetch[i]);
     const RecordSpectrum& spectrum = staffs[i].spectrum;
@@ -197,8 +191,7 @@ std::vector<Comparison> Comparisons(const Table2& published, const std::vector<W
     };
     compare("peak wavelength", "m", published.peak_wavelength[i], ours[i].peak_wavelength);
     compare("peak frequency", "Hz", published.peak_frequency[i], ours[i].peak_frequency);
-    compare("significant wave height", "m", published.significant_wave_height[i],
-            ours[i].significant_wave_height);
+    compare("significant wave height", "m", published.significant_wave_height[i], ours[i].significant_wave_height);
   }
   return comparisons;
 }
@@ -230,49 +223,46 @@ std::vector<std::string> Paragraphs(const Table2& published, const std::vector<W
   const std::size_t rows = ours.size();
   const Range length = RangeOf(
       rows, [&](std::size_t i) { return ours[i].peak_wavelength / published.peak_wavelength[i] - 1; });
-  const Range height = RangeOf(rows, [&](std::size_t i) {
-    return ours[i].significant_wave_height / published.significant_wave_height[i];
-  });
-  const Range steepness = RangeOf(rows, [&](std::size_t i) {
-    return published.significant_wave_height[i] / published.peak_wavelength[i];
-  });
-  const Range lengthening = RangeOf(rows, [&](std::size_t i) {
-    const double f = published.peak_frequency[i];
-    return CapillaryGravityWavelength(f) / GravityWavelength(f) - 1;
-  });
-  const Range highest_third = RangeOf(rows, [&](std::size_t i) {
-    return staffs[i].highest_third.value / staffs[i].significant_wave_height.value;
-  });
+  const Range height = RangeOf(
+      rows, [&](std::size_t i) { return ours[i].significant_wave_height / published.significant_wave_height[i]; });
+  const Range steepness =
+      RangeOf(rows, [&](std::size_t i) { return published.significant_wave_height[i] / published.peak_wavelength[i]; });
+  const Range lengthening = RangeOf(
+      rows,
+      [&](std::size_t i) {
+        const double f = published.peak_frequency[i];
+        return CapillaryGravityWavelength(f) / GravityWavelength(f) - 1;
+      });
+  const Range highest_third = RangeOf(
+      rows, [&](std::size_t i) { return staffs[i].highest_third.value / staffs[i].significant_wave_height.value; });
   int explained = 0;
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = 0; i < rows; ++i)
     explained += GravityExplains(published.peak_wavelength[i], published.peak_frequency[i]);
-  }
-  return {
-      absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest wind of the paper, the "
-                      "peak wavelengths of Apel's spectrum differ from the published ones by %+.0f to %+.0f "
-                      "%%; weaker winds make shorter waves (second table).",
-                      100 * length.least, 100 * length.most),
-      absl::StrFormat(
-          "At 5.25 m/s the significant wave heights of the spectrum are only %.2f to %.2f of the measured "
-          "ones: the spectrum has the saturation level of mature seas at all fetches, and young waves are "
-          "steeper. The measured heights, however, are %.2f to %.2f of the measured wavelengths, and a "
-          "gravity wave breaks at 0.14 (Michell 1893): at the short fetches they cannot be the height of the "
-          "waves at the peak alone. The records must contain something else, such as longer waves or the "
-          "noise that the paper mentions.",
-          height.least, height.most, steepness.least, steepness.most),
-      absl::StrFormat("The published wavelengths follow from the published frequencies with gravity alone, g "
-                      "/ (2 pi f^2): %d of %d rows agree within the rounding of both. With surface tension "
-                      "the wavelengths at these frequencies are %.0f to %.0f %% longer.",
-                      explained, static_cast<int>(rows), 100 * lengthening.least, 100 * lengthening.most),
-      absl::StrFormat(
-          "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the paper's "
-          "staff did (means of %d records). Waves above 15 Hz alias into its record. The paper does not say "
-          "how its spectrum was estimated; here it is the mean of half-overlapping periodograms of 8.5 s "
-          "under a Hann window, 0.12 Hz apart. The significant wave height is four times the root of the "
-          "integral of the spectrum. The paper uses the mean of the highest third of the waves, which on the "
-          "same records is %.2f to %.2f of that. For a narrow spectrum the two are equal; short waves on "
-          "longer ones, and a sampling of five points a period, make them differ.",
-          records, highest_third.least, highest_third.most)};
+  return {absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest wind of the paper, the "
+                          "peak wavelengths of Apel's spectrum differ from the published ones by %+.0f to %+.0f "
+                          "%%; weaker winds make shorter waves (second table).",
+                          100 * length.least, 100 * length.most),
+          absl::StrFormat(
+              "At 5.25 m/s the significant wave heights of the spectrum are only %.2f to %.2f of the measured "
+              "ones: the spectrum has the saturation level of mature seas at all fetches, and young waves are "
+              "steeper. The measured heights, however, are %.2f to %.2f of the measured wavelengths, and a "
+              "gravity wave breaks at 0.14 (Michell 1893): at the short fetches they cannot be the height of the "
+              "waves at the peak alone. The records must contain something else, such as longer waves or the "
+              "noise that the paper mentions.",
+              height.least, height.most, steepness.least, steepness.most),
+          absl::StrFormat("The published wavelengths follow from the published frequencies with gravity alone, g "
+                          "/ (2 pi f^2): %d of %d rows agree within the rounding of both. With surface tension "
+                          "the wavelengths at these frequencies are %.0f to %.0f %% longer.",
+                          explained, static_cast<int>(rows), 100 * lengthening.least, 100 * lengthening.most),
+          absl::StrFormat(
+              "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the paper's "
+              "staff did (means of %d records). Waves above 15 Hz alias into its record. The paper does not say "
+              "how its spectrum was estimated; here it is the mean of half-overlapping periodograms of 8.5 s "
+              "under a Hann window, 0.12 Hz apart. The significant wave height is four times the root of the "
+              "integral of the spectrum. The paper uses the mean of the highest third of the waves, which on the "
+              "same records is %.2f to %.2f of that. For a narrow spectrum the two are equal; short waves on "
+              "longer ones, and a sampling of five points a period, make them differ.",
+              records, highest_third.least, highest_third.most)};
 }
 
 }  // namespace

@@ -33,23 +33,22 @@ absl::StatusOr<std::vector<TankCell>> ReadTable4(const StudyOptions& options) {
   const auto table = PublishedTable::Read(options.published / "table4_empirical.csv");
   if (!table.ok()) return table.status();
   std::vector<TankCell> cells(table->size());
-  const std::pair<const char*, double TankCell::*> columns[] = {
-      {"wind_speed_m_s", &TankCell::wind_speed},
-      {"incidence_deg", &TankCell::incidence},
-      {"along_wind_deg", &TankCell::published_along},
-      {"cross_wind_deg", &TankCell::published_across}};
+  const std::pair<const char*, double TankCell::*> columns[] = {{"wind_speed_m_s", &TankCell::wind_speed},
+                                                                {"incidence_deg", &TankCell::incidence},
+                                                                {"along_wind_deg", &TankCell::published_along},
+                                                                {"cross_wind_deg", &TankCell::published_across}};
   for (const auto& [name, member] : columns) {
     const auto numbers = table->Numbers(name);
     if (!numbers.ok()) return numbers.status();
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].*member = (*numbers)[i];
   }
   if (options.quick) {  // two incidences, three winds
-    cells.erase(std::remove_if(cells.begin(), cells.end(),
-                               [](const TankCell& cell) {
-                                 const bool wind =
-                                     cell.wind_speed == 2.5 || cell.wind_speed == 3.5 || cell.wind_speed == 4;
-                                 return wind || cell.incidence == 10 || cell.incidence == 15;
-                               }),
+    cells.erase(std::remove_if(
+                    cells.begin(), cells.end(),
+                    [](const TankCell& cell) {
+                      const bool wind = cell.wind_speed == 2.5 || cell.wind_speed == 3.5 || cell.wind_speed == 4;
+                      return wind || cell.incidence == 10 || cell.incidence == 15;
+                    }),
                 cells.end());
   }
   return cells;
@@ -86,14 +85,13 @@ void Measure(std::vector<TankCell>& cells, std::uint64_t seed) {
 }
 
 DataTable TableOfCells(const std::vector<TankCell>& cells) {
-  DataTable table{
-      "table_4",
-      "2 sigma refraction measured by the photodiode array: published, simulated, and of the full beam in "
-      "the same frames",
-      {"wind_speed_m_s", "incidence_deg", "published_along_wind_deg", "along_wind_deg",
-       "along_wind_standard_error_deg", "published_cross_wind_deg", "cross_wind_deg",
-       "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"},
-      {}};
+  DataTable table{"table_4",
+                  "2 sigma refraction measured by the photodiode array: published, simulated, and of the full beam in "
+                  "the same frames",
+                  {"wind_speed_m_s", "incidence_deg", "published_along_wind_deg", "along_wind_deg",
+                   "along_wind_standard_error_deg", "published_cross_wind_deg", "cross_wind_deg",
+                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"},
+                  {}};
   for (const TankCell& c : cells) {
     table.rows.push_back({c.wind_speed, c.incidence, c.published_along, c.array.along_wind.value,
                           c.array.along_wind.standard_error, c.published_across, c.array.cross_wind.value,
@@ -157,16 +155,16 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
   }
   for (const double incidence : {0.0, 20.0}) {
     const Trends trends = AlongWindTrends(cells, incidence);
-    Comparison& trend = compare(
-        absl::StrFormat("photodiodes, rise of 2 sigma along wind with wind, incidence %g deg", incidence),
-        trends.published.value, trends.ours,
-        absl::StrFormat("within 3 standard errors of the difference; that of the published slope follows "
-                        "from 400 frames a cell: %.2g deg/(m/s)",
-                        trends.published.standard_error));
+    Comparison& trend =
+        compare(absl::StrFormat("photodiodes, rise of 2 sigma along wind with wind, incidence %g deg", incidence),
+                trends.published.value, trends.ours,
+                absl::StrFormat("within 3 standard errors of the difference; that of the published slope follows "
+                                "from 400 frames a cell: %.2g deg/(m/s)",
+                                trends.published.standard_error));
     trend.unit = "deg/(m/s)";
     const double error = std::hypot(trends.published.standard_error, trends.ours.standard_error);
-    trend.verdict = std::abs(trends.published.value - trends.ours.value) <= 3 * error ? Verdict::kAgrees
-                                                                                      : Verdict::kDiffers;
+    trend.verdict =
+        std::abs(trends.published.value - trends.ours.value) <= 3 * error ? Verdict::kAgrees : Verdict::kDiffers;
   }
   return comparisons;
 }
@@ -185,9 +183,12 @@ Range RangeOf(const std::vector<TankCell>& cells, const Value& value) {
 }
 
 std::string SizeParagraph(const std::vector<TankCell>& cells) {
-  const Range published = RangeOf(cells, [](const TankCell& c) { return c.published_along; });
-  const Range ours = RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value; });
-  const Range beam = RangeOf(cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
+  const Range published = RangeOf(
+      cells, [](const TankCell& c) { return c.published_along; });
+  const Range ours = RangeOf(
+      cells, [](const TankCell& c) { return c.array.along_wind.value; });
+  const Range beam = RangeOf(
+      cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
   const Range excess = RangeOf(
       cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
   const Range shape =
@@ -250,10 +251,9 @@ std::string GridParagraph(const std::vector<TankVariation>& variations) {
       "and a finer grid holds shorter waves, which blur the caustics. The number of rays and the size of the "
       "patch have converged: four times the rays give %.2f, twice the side of the patch %.2f, and three "
       "other random draws of the waves %.2f, %.2f and %.2f.",
-      Along(variations, "grid (mm)", 4), Along(variations, "grid (mm)", 1),
-      Along(variations, "grid (mm)", 0.5), Along(variations, "rays", 160000),
-      Along(variations, "side of the patch (m)", 2.048), Along(variations, "other waves", 1),
-      Along(variations, "other waves", 2), Along(variations, "other waves", 3));
+      Along(variations, "grid (mm)", 4), Along(variations, "grid (mm)", 1), Along(variations, "grid (mm)", 0.5),
+      Along(variations, "rays", 160000), Along(variations, "side of the patch (m)", 2.048),
+      Along(variations, "other waves", 1), Along(variations, "other waves", 2), Along(variations, "other waves", 3));
 }
 
 // The evolving sea over independent frames of the same wind, at nadir.
@@ -269,8 +269,8 @@ std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const s
     most = std::max(most, ratio);
     alike = std::max(alike, std::abs(tank.array_correlation));
   }
-  const std::string ratios = evolving.size() == 1 ? absl::StrFormat("%.2f", least)
-                                                  : absl::StrFormat("between %.2f and %.2f", least, most);
+  const std::string ratios =
+      evolving.size() == 1 ? absl::StrFormat("%.2f", least) : absl::StrFormat("between %.2f and %.2f", least, most);
   return absl::StrFormat(
       "With waves that evolve in time, at 20 frames per second for 20 s as in the laboratory, the 2 sigma "
       "along the wind at nadir is %s of that of independent frames (the table has the winds). Successive "
@@ -307,8 +307,7 @@ absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options) {
                       "no other grids, patches and draws; the full run has them."
                     : GridParagraph(variations));
   study.comparisons = Comparisons(*cells);
-  study.tables = {TableOfCells(*cells), TableOf(variations), TableOf(evolving),
-                  LightUnderWaves(options.seed)};
+  study.tables = {TableOfCells(*cells), TableOf(variations), TableOf(evolving), LightUnderWaves(options.seed)};
   study.figures = {
       {"table_4",
        "2 sigma refraction over wind, along and across the wind: measured, by the virtual array, and of the "

@@ -37,19 +37,17 @@ DataTable LightUnderWaves(std::uint64_t seed) {
                   {},
                   false};
   const double footprint = experiment.beams.front().footprint;
-  const double rays_of_bin =
-      experiment.rays * kBin * kBin / (0.25 * std::numbers::pi * footprint * footprint);
+  const double rays_of_bin = experiment.rays * kBin * kBin / (0.25 * std::numbers::pi * footprint * footprint);
   for (int i = 0; i < kBins; ++i) {
     for (int j = 0; j < kBins; ++j) {
-      table.rows.push_back({(i + 0.5 - 0.5 * kBins) * kBin, (j + 0.5 - 0.5 * kBins) * kBin,
-                            light[i * kBins + j] / rays_of_bin});
+      table.rows.push_back(
+          {(i + 0.5 - 0.5 * kBins) * kBin, (j + 0.5 - 0.5 * kBins) * kBin, light[i * kBins + j] / rays_of_bin});
     }
   }
   return table;
 }
 
-std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, int frames,
-                                            std::uint64_t seed) {
+std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, int frames, std::uint64_t seed) {
   std::vector<EvolvingTank> tanks;
   for (const double wind : winds) {
     TankExperiment experiment;
@@ -59,27 +57,24 @@ std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, in
         SuccessiveFrames(TankSea(wind, kTankWaveHeight), experiment.grid, kFrameRate, seed, draw);
     const TankReading reading = ObserveTank(experiment, water).front();
     const CentroidAngles& array = reading.arrays.front();
-    tanks.push_back({wind, ScatterOf(array), ScatterOf(reading.full_beam),
-                     CorrelationWithNext(array.along_wind),
+    tanks.push_back({wind, ScatterOf(array), ScatterOf(reading.full_beam), CorrelationWithNext(array.along_wind),
                      CorrelationWithNext(reading.full_beam.along_wind)});
   }
   return tanks;
 }
 
 DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
-  DataTable table{
-      "table_4_evolving",
-      "The array at nadir under waves that evolve in time, 20 frames per second: standard errors as if "
-      "frames were independent, and the correlation of each frame with the next",
-      {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
-       "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
-       "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},
-      {}};
+  DataTable table{"table_4_evolving",
+                  "The array at nadir under waves that evolve in time, 20 frames per second: standard errors as if "
+                  "frames were independent, and the correlation of each frame with the next",
+                  {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
+                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
+                   "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},
+                  {}};
   for (const EvolvingTank& t : tanks) {
     table.rows.push_back({t.wind_speed, t.array.along_wind.value, t.array.along_wind.standard_error,
-                          t.array.cross_wind.value, t.array.cross_wind.standard_error,
-                          t.full_beam.along_wind.value, t.full_beam.cross_wind.value, t.array_correlation,
-                          t.full_beam_correlation});
+                          t.array.cross_wind.value, t.array.cross_wind.standard_error, t.full_beam.along_wind.value,
+                          t.full_beam.cross_wind.value, t.array_correlation, t.full_beam_correlation});
   }
   return table;
 }
@@ -99,21 +94,18 @@ struct VariedArray {
 
 std::vector<VariedArray> Apertures(const std::string& parameter) {
   std::vector<VariedArray> varied;
-  for (const double centimetres : {0.4, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0}) {
+  for (const double centimetres : {0.4, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0})
     varied.push_back({parameter, centimetres, {.aperture = centimetres / 100}});
-  }
   return varied;
 }
 
 std::vector<VariedArray> PitchesAndDetectors() {
   std::vector<VariedArray> varied;
-  for (const double centimetres : {2.0, 3.0, 4.0, 5.0}) {
+  for (const double centimetres : {2.0, 3.0, 4.0, 5.0})
     varied.push_back({"pitch of 6 x 6 detectors (cm)", centimetres, {.pitch = centimetres / 100}});
-  }
   for (const int per_side : {3, 6, 10, 15, 30}) {
-    varied.push_back({"detectors along 0.30 m",
-                      static_cast<double>(per_side),
-                      {.per_side = per_side, .pitch = kSide / per_side}});
+    varied.push_back(
+        {"detectors along 0.30 m", static_cast<double>(per_side), {.per_side = per_side, .pitch = kSide / per_side}});
   }
   return varied;
 }
@@ -127,8 +119,7 @@ class Variations {
            std::uint32_t draw = 0) {
     experiment.arrays.clear();
     for (const VariedArray& v : varied) experiment.arrays.push_back(v.array);
-    const TankReading reading =
-        ObserveTank(experiment, IndependentFrames(sea, experiment.grid, seed_, draw)).front();
+    const TankReading reading = ObserveTank(experiment, IndependentFrames(sea, experiment.grid, seed_, draw)).front();
     for (std::size_t i = 0; i < varied.size(); ++i) {
       found_.push_back(
           {varied[i].parameter, varied[i].value, ScatterOf(reading.arrays[i]), ScatterOf(reading.full_beam)});
@@ -167,8 +158,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
   const std::vector<double> heights =
       quick ? std::vector<double>{3, 5, 11} : std::vector<double>{1.6, 2, 3, 4, 5, 6.5, 8, 9, 11};
   for (const double millimetres : heights) {
-    variations.Run(TankExperiment(), TankSea(kWind, millimetres / 1000), "wave height, 2 m/s (mm)",
-                   millimetres);
+    variations.Run(TankExperiment(), TankSea(kWind, millimetres / 1000), "wave height, 2 m/s (mm)", millimetres);
     if (quick) continue;
     variations.Run(TankExperiment(), TankSea(kStrongWind, millimetres / 1000), "wave height, 5.25 m/s (mm)",
                    millimetres);
@@ -187,9 +177,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
     TankExperiment wide;
     wide.grid = {2 * wide.grid.length, 2 * wide.grid.size};
     variations.Run(wide, sea, "side of the patch (m)", wide.grid.length);
-    for (const std::uint32_t draw : {1, 2, 3}) {
-      variations.Run(TankExperiment(), sea, "other waves", draw, draw);
-    }
+    for (const std::uint32_t draw : {1, 2, 3}) variations.Run(TankExperiment(), sea, "other waves", draw, draw);
   }
   return variations.Take();
 }
@@ -202,8 +190,7 @@ DataTable TableOf(const std::vector<TankVariation>& variations) {
                   {}};
   for (const TankVariation& v : variations) {
     table.rows.push_back({v.parameter, v.value, v.array.along_wind.value, v.array.along_wind.standard_error,
-                          v.array.cross_wind.value, v.array.cross_wind.standard_error,
-                          v.full_beam.along_wind.value});
+                          v.array.cross_wind.value, v.array.cross_wind.standard_error, v.full_beam.along_wind.value});
   }
   return table;
 }

@@ -36,9 +36,9 @@ EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const
       const double forward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi));
       const double backward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi + std::numbers::pi));
       const double* normal = &normals[4 * j];
-      modes_[static_cast<std::size_t>(row) * half + j] = {
-          AngularFrequency(k), forward * std::complex<double>(normal[0], normal[1]),
-          backward * std::complex<double>(normal[2], normal[3])};
+      modes_[static_cast<std::size_t>(row) * half + j] = {AngularFrequency(k),
+                                                          forward * std::complex<double>(normal[0], normal[1]),
+                                                          backward * std::complex<double>(normal[2], normal[3])};
     }
   }
   // Both halves of the column j = 0 are stored: each mode is the mirror of the one at -i.
@@ -86,8 +86,7 @@ std::vector<Eigen::Vector2d> SpotsAtDepth(const std::vector<Ray>& rays, const He
   spots.reserve(rays.size());
   for (const Ray& ray : rays) {
     const Hit hit = Intersect(water, ray);
-    const Eigen::Vector3d refracted =
-        Refract(ray.direction, NormalOfSlope(hit.facet.slope), refractive_index);
+    const Eigen::Vector3d refracted = Refract(ray.direction, NormalOfSlope(hit.facet.slope), refractive_index);
     const Eigen::Vector2d tangent = refracted.head<2>() / -refracted.z();
     spots.push_back(ray.at_zero + hit.height * ray.per_height() + (depth + hit.height) * tangent);
   }
@@ -117,9 +116,8 @@ struct PreparedBeam {
     const Beam beam(options, experiment.rays);
     rays = beam.Rays(0);
     const double tangent = std::tan(StillWaterRefraction(options.incidence, experiment.refractive_index));
-    for (const PhotodiodeArrayOptions& array : experiment.arrays) {
+    for (const PhotodiodeArrayOptions& array : experiment.arrays)
       arrays.emplace_back(array, experiment.depth * tangent * beam.azimuth_direction());
-    }
   }
 
   Frame Observe(const HeightField& water, const TankExperiment& experiment) const {
@@ -147,9 +145,8 @@ HeightField WindowOf(const std::vector<double>& patch, const TankGrid& grid, int
 int PointsToHold(const std::vector<PreparedBeam>& beams, double spacing) {
   constexpr double kMargin = 0.02;  // m
   double reach = 0;
-  for (const PreparedBeam& beam : beams) {
+  for (const PreparedBeam& beam : beams)
     for (const Ray& ray : beam.rays) reach = std::max(reach, ray.at_zero.cwiseAbs().maxCoeff());
-  }
   return 2 * static_cast<int>(std::ceil((reach + kMargin) / spacing)) + 1;
 }
 
@@ -179,19 +176,17 @@ SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
                    .height_scale = significant_wave_height / UnscaledTankWaveHeight(wind_speed_10m)});
 }
 
-WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
-                               std::uint32_t cell) {
+WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed, std::uint32_t cell) {
   // The waves of the tank are much shorter than the patch, so the patch takes all of them.
   const double longer_than_all = 0.5 * sea.energetic_range().lowest;
-  const auto model = std::make_shared<const WavePatchModel>(
-      sea, grid.length, grid.size, CrossFade(0.5 * longer_than_all, longer_than_all));
+  const auto model = std::make_shared<const WavePatchModel>(sea, grid.length, grid.size,
+                                                            CrossFade(0.5 * longer_than_all, longer_than_all));
   return [model, seed, cell](int frame) { return model->Draw(NormalStream(seed, cell, frame)); };
 }
 
 WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
                               std::uint32_t cell) {
-  const auto patch =
-      std::make_shared<const EvolvingPatch>(sea, grid.length, grid.size, NormalStream(seed, cell, 0));
+  const auto patch = std::make_shared<const EvolvingPatch>(sea, grid.length, grid.size, NormalStream(seed, cell, 0));
   return [patch, rate](int frame) { return patch->HeightsAt(frame / rate); };
 }
 
@@ -226,16 +221,14 @@ std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const Wat
     };
     TankReading reading;
     reading.full_beam = angles_of([](const Frame& frame) { return std::optional(frame.full_beam); });
-    for (std::size_t a = 0; a < experiment.arrays.size(); ++a) {
+    for (std::size_t a = 0; a < experiment.arrays.size(); ++a)
       reading.arrays.push_back(angles_of([a](const Frame& frame) { return frame.arrays[a]; }));
-    }
     readings.push_back(std::move(reading));
   }
   return readings;
 }
 
-std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment,
-                                          const std::vector<double>& water) {
+std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment, const std::vector<double>& water) {
   const PreparedBeam beam(experiment.beams.front(), experiment);
   const int points = PointsToHold({beam}, experiment.grid.length / experiment.grid.size);
   return SpotsAtDepth(beam.rays, WindowOf(water, experiment.grid, points), experiment.refractive_index,

@@ -89,8 +89,7 @@ struct TankGrid {
 };
 
 // Frames of independent waves.
-WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
-                               std::uint32_t cell);
+WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed, std::uint32_t cell);
 // Frames of one sea that evolves in time, at `rate` [Hz].
 WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
                               std::uint32_t cell);

@@ -43,14 +43,11 @@ AngleMethodUncertainty AngleMethod(double refracted, double two_sigma_angle) {
   return {two_sigma(x, x_squared), two_sigma(z, z_squared)};
 }
 
-AngleMethodUncertainty AngleMethodByDraws(double refracted, double two_sigma_angle, int draws,
-                                          NormalStream stream) {
+AngleMethodUncertainty AngleMethodByDraws(double refracted, double two_sigma_angle, int draws, NormalStream stream) {
   std::vector<double> normals(draws);
   stream.Fill(normals);
-  const Eigen::ArrayXd delta =
-      0.5 * two_sigma_angle * Eigen::Map<const Eigen::ArrayXd>(normals.data(), draws);
-  return {TwoSigma((refracted + delta).tan()).value,
-          TwoSigma(std::cos(refracted) / (refracted + delta).cos()).value};
+  const Eigen::ArrayXd delta = 0.5 * two_sigma_angle * Eigen::Map<const Eigen::ArrayXd>(normals.data(), draws);
+  return {TwoSigma((refracted + delta).tan()).value, TwoSigma(std::cos(refracted) / (refracted + delta).cos()).value};
 }
 
 }  // namespace albtpu

@@ -27,7 +27,6 @@ AngleMethodUncertainty AngleMethod(double refracted, double two_sigma_angle);
 
 // The same as the paper computes it: from the sample standard deviations over `draws` (at least 2) random values of
 // delta. Both have a relative standard error of about 1 / sqrt(2 draws).
-AngleMethodUncertainty AngleMethodByDraws(double refracted, double two_sigma_angle, int draws,
-                                          NormalStream stream);
+AngleMethodUncertainty AngleMethodByDraws(double refracted, double two_sigma_angle, int draws, NormalStream stream);
 
 }  // namespace albtpu

@@ -22,13 +22,11 @@ PaperMonteCarloSize SizeOfPaperMonteCarlo(bool quick) {
   return {{500, 10'000, Estimator::kPlain}, {2000, std::nullopt, Estimator::kControlVariate}};
 }
 
-PaperMonteCarlo RunPaperMonteCarlo(PublishedAngles table_3, const PaperMonteCarloSize& size,
-                                   std::uint64_t seed) {
+PaperMonteCarlo RunPaperMonteCarlo(PublishedAngles table_3, const PaperMonteCarloSize& size, std::uint64_t seed) {
   // Another seed makes the surfaces of the plain run independent of those of the fine run.
   const std::uint64_t another_seed = seed + 1;
   GridOptions grid{table_3.wind_speeds, table_3.incidences};
-  PaperMonteCarlo runs{
-      std::move(table_3), ClosedFormGrid(grid), SimulateGrid(grid, size.fine, seed), {}, {}, {}, {}};
+  PaperMonteCarlo runs{std::move(table_3), ClosedFormGrid(grid), SimulateGrid(grid, size.fine, seed), {}, {}, {}, {}};
   grid.height_scale = std::numbers::sqrt2;
   runs.fine_sqrt2 = SimulateGrid(grid, size.fine, seed);
   grid.height_scale = 1;
@@ -45,11 +43,10 @@ DataTable Table3(const PaperMonteCarlo& runs) {
   DataTable table{
       .name = "table_3",
       .title = "Table 3 as printed and simulated: 2 sigma refraction, 0.25 m footprint, fully developed sea",
-      .columns = {"wind_speed_m_s", "incidence_deg", "paper_along_deg", "along_reading",
-                  "closed_form_along_deg", "monte_carlo_along_deg", "monte_carlo_along_se_deg",
-                  "sqrt2_monte_carlo_along_deg", "sqrt2_monte_carlo_along_se_deg",
-                  "ln_sqrt2_closed_form_over_paper_along", "paper_cross_deg", "cross_reading",
-                  "closed_form_cross_deg", "monte_carlo_cross_deg", "monte_carlo_cross_se_deg",
+      .columns = {"wind_speed_m_s", "incidence_deg", "paper_along_deg", "along_reading", "closed_form_along_deg",
+                  "monte_carlo_along_deg", "monte_carlo_along_se_deg", "sqrt2_monte_carlo_along_deg",
+                  "sqrt2_monte_carlo_along_se_deg", "ln_sqrt2_closed_form_over_paper_along", "paper_cross_deg",
+                  "cross_reading", "closed_form_cross_deg", "monte_carlo_cross_deg", "monte_carlo_cross_se_deg",
                   "sqrt2_monte_carlo_cross_deg", "sqrt2_monte_carlo_cross_se_deg",
                   "ln_sqrt2_closed_form_over_paper_cross"},
       .rows = {}};
@@ -59,13 +56,12 @@ DataTable Table3(const PaperMonteCarlo& runs) {
       const PublishedAngles::Cell& paper = runs.paper.At(w, i);
       const RefractionGrid::Cell &theory = runs.closed_form.At(w, i), &ours = runs.fine.At(w, i),
                                  &scaled = runs.fine_sqrt2.At(w, i);
-      table.rows.push_back({runs.paper.wind_speeds[w], runs.paper.incidences[i], paper.along,
-                            reading(paper.along_is_clean), theory.along.value, ours.along.value,
-                            ours.along.standard_error, scaled.along.value, scaled.along.standard_error,
-                            std::log(kSqrt2 * theory.along.value / paper.along), paper.cross,
-                            reading(paper.cross_is_clean), theory.cross.value, ours.cross.value,
-                            ours.cross.standard_error, scaled.cross.value, scaled.cross.standard_error,
-                            std::log(kSqrt2 * theory.cross.value / paper.cross)});
+      table.rows.push_back(
+          {runs.paper.wind_speeds[w], runs.paper.incidences[i], paper.along, reading(paper.along_is_clean),
+           theory.along.value, ours.along.value, ours.along.standard_error, scaled.along.value,
+           scaled.along.standard_error, std::log(kSqrt2 * theory.along.value / paper.along), paper.cross,
+           reading(paper.cross_is_clean), theory.cross.value, ours.cross.value, ours.cross.standard_error,
+           scaled.cross.value, scaled.cross.standard_error, std::log(kSqrt2 * theory.cross.value / paper.cross)});
     }
   }
   return table;
@@ -79,8 +75,8 @@ DataTable LinesInWind(const PaperMonteCarlo& runs) {
   const auto add = [&](const char* whose, const RefractionGrid& grid) {
     const std::vector<LineFit> fits = FitAlongWindByIncidence(grid);
     for (std::size_t i = 0; i < fits.size(); ++i) {
-      table.rows.push_back({std::string(whose), grid.options.incidences[i], fits[i].slope, fits[i].intercept,
-                            fits[i].r_squared});
+      table.rows.push_back(
+          {std::string(whose), grid.options.incidences[i], fits[i].slope, fits[i].intercept, fits[i].r_squared});
     }
   };
   add("paper", GridOf(runs.paper));
@@ -99,22 +95,20 @@ DataTable AngleModels(const PaperMonteCarlo& runs) {
                   .columns = {"axis", "whose", "a", "b", "c", "d"},
                   .rows = {}};
   const auto row = [&](const char* axis, const char* whose, const AngleModel& model) {
-    table.rows.push_back({std::string(axis), std::string(whose), model.wind_incidence, model.wind,
-                          model.incidence, model.constant});
+    table.rows.push_back(
+        {std::string(axis), std::string(whose), model.wind_incidence, model.wind, model.incidence, model.constant});
   };
   const RefractionGrid printed = GridOf(runs.paper);
   row("along", "printed, read with 0.0276", kPublishedAlongWind);
   row("along", "our fit to Table 3", FitAngleModel(AlongWindSamples(printed)));
   row("along", "our fit to our closed form", FitAngleModel(AlongWindSamples(runs.closed_form)));
   row("along", "our fit to our Monte Carlo", FitAngleModel(AlongWindSamples(runs.fine)));
-  row("along", "our fit to our Monte Carlo, heights times sqrt 2",
-      FitAngleModel(AlongWindSamples(runs.fine_sqrt2)));
+  row("along", "our fit to our Monte Carlo, heights times sqrt 2", FitAngleModel(AlongWindSamples(runs.fine_sqrt2)));
   row("cross", "printed, read with 0.0281", kPublishedCrossWind);
   row("cross", "our fit to Table 3", FitAngleModel(CrossWindSamples(printed)));
   row("cross", "our fit to our closed form", FitAngleModel(CrossWindSamples(runs.closed_form)));
   row("cross", "our fit to our Monte Carlo", FitAngleModel(CrossWindSamples(runs.fine)));
-  row("cross", "our fit to our Monte Carlo, heights times sqrt 2",
-      FitAngleModel(CrossWindSamples(runs.fine_sqrt2)));
+  row("cross", "our fit to our Monte Carlo, heights times sqrt 2", FitAngleModel(CrossWindSamples(runs.fine_sqrt2)));
   return table;
 }
 
@@ -126,18 +120,17 @@ DataTable Figure8(const PaperMonteCarlo& runs) {
                   "line_deg", "line_slope_deg_s_m", "line_r_squared", "equation_27_29_deg"},
       .rows = {}};
   const std::vector<double>& incidences = runs.paper.incidences;
-  const auto i = static_cast<std::size_t>(std::find(incidences.begin(), incidences.end(), kFigure8Incidence) -
-                                          incidences.begin());
+  const auto i =
+      static_cast<std::size_t>(std::find(incidences.begin(), incidences.end(), kFigure8Incidence) - incidences.begin());
   for (std::size_t d = 0; d < kPaperDiameters.size() && i < incidences.size(); ++d) {
     const LineFit line = FitAlongWindByIncidence(runs.by_diameter[d])[i];
     for (std::size_t w = 0; w < runs.paper.wind_speeds.size(); ++w) {
       const double wind_speed = runs.paper.wind_speeds[w];
       const Estimate& ours = runs.by_diameter[d].At(w, i).along;
-      table.rows.push_back({kPaperDiameters[d], wind_speed, ours.value, ours.standard_error,
-                            runs.closed_form_by_diameter[d].At(w, i).along.value, line(wind_speed),
-                            line.slope, line.r_squared,
-                            kPublishedAlongWind(wind_speed, kFigure8Incidence) *
-                                PublishedAlongWindDiameterFactor(kPaperDiameters[d])});
+      table.rows.push_back(
+          {kPaperDiameters[d], wind_speed, ours.value, ours.standard_error,
+           runs.closed_form_by_diameter[d].At(w, i).along.value, line(wind_speed), line.slope, line.r_squared,
+           kPublishedAlongWind(wind_speed, kFigure8Incidence) * PublishedAlongWindDiameterFactor(kPaperDiameters[d])});
     }
   }
   return table;

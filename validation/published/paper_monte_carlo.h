@@ -30,8 +30,7 @@ struct PaperMonteCarlo {
       closed_form_by_diameter;  // the plain run, one for each of kPaperDiameters
   std::string plain_name;       // "plain Monte Carlo, 500 surfaces"
 };
-PaperMonteCarlo RunPaperMonteCarlo(PublishedAngles table_3, const PaperMonteCarloSize& size,
-                                   std::uint64_t seed);
+PaperMonteCarlo RunPaperMonteCarlo(PublishedAngles table_3, const PaperMonteCarloSize& size, std::uint64_t seed);
 
 // Table 3, Figures 8 and 9 and Eq. 27-28 beside our numbers.
 DataTable Table3(const PaperMonteCarlo& runs);

@@ -20,8 +20,7 @@ absl::StatusOr<std::vector<PublishedAngles::Cell>> ReadCells(const PublishedTabl
   const absl::StatusOr<std::vector<double>> cross = table.Numbers("cross_wind_deg");
   if (!cross.ok()) return cross.status();
   std::vector<PublishedAngles::Cell> cells;
-  for (std::size_t i = 0; i < table.size(); ++i)
-    cells.push_back({.along = (*along)[i], .cross = (*cross)[i]});
+  for (std::size_t i = 0; i < table.size(); ++i) cells.push_back({.along = (*along)[i], .cross = (*cross)[i]});
   return cells;
 }
 
@@ -37,10 +36,8 @@ absl::StatusOr<PublishedAngles> Arrange(const std::filesystem::path& file, const
   PublishedAngles angles{Distinct(*winds), Distinct(*incidences), *std::move(cells)};
   const std::size_t columns = angles.incidences.size();
   bool complete = table.size() == angles.wind_speeds.size() * columns;
-  for (std::size_t i = 0; complete && i < table.size(); ++i) {
-    complete =
-        (*winds)[i] == angles.wind_speeds[i / columns] && (*incidences)[i] == angles.incidences[i % columns];
-  }
+  for (std::size_t i = 0; complete && i < table.size(); ++i)
+    complete = (*winds)[i] == angles.wind_speeds[i / columns] && (*incidences)[i] == angles.incidences[i % columns];
   if (complete) return angles;
   return absl::InvalidArgumentError(
       absl::StrCat(file.string(), ": expected every wind with every incidence, once, in increasing order"));

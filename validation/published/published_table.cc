@@ -26,8 +26,7 @@ absl::StatusOr<PublishedTable> PublishedTable::Read(const std::filesystem::path&
       table.rows_.push_back({line, std::move(cells)});
     } else {
       return absl::InvalidArgumentError(absl::StrCat(file.string(), ": line ", line, " has ", cells.size(),
-                                                     " cells: there are ", table.columns_.size(),
-                                                     " columns"));
+                                                     " cells: there are ", table.columns_.size(), " columns"));
     }
   }
   if (table.rows_.empty()) {
@@ -38,11 +37,10 @@ absl::StatusOr<PublishedTable> PublishedTable::Read(const std::filesystem::path&
 }
 
 absl::StatusOr<std::size_t> PublishedTable::Find(std::string_view column) const {
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
+  for (std::size_t i = 0; i < columns_.size(); ++i)
     if (columns_[i] == column) return i;
-  }
-  return absl::InvalidArgumentError(absl::StrCat(file_.string(), ": no column '", std::string(column),
-                                                 "': there are ", absl::StrJoin(columns_, ", ")));
+  return absl::InvalidArgumentError(absl::StrCat(file_.string(), ": no column '", std::string(column), "': there are ",
+                                                 absl::StrJoin(columns_, ", ")));
 }
 
 absl::StatusOr<std::vector<std::string>> PublishedTable::Words(std::string_view column) const {

@@ -30,8 +30,7 @@ AngleModel FitAngleModel(const std::vector<AngleSample>& samples) {
   Eigen::VectorXd angles(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const AngleSample& sample = samples[i];
-    terms.row(i) << sample.incidence_degrees * sample.wind_speed, sample.wind_speed, sample.incidence_degrees,
-        1;
+    terms.row(i) << sample.incidence_degrees * sample.wind_speed, sample.wind_speed, sample.incidence_degrees, 1;
     angles[i] = sample.angle_degrees;
   }
   const Eigen::Vector4d fit = terms.colPivHouseholderQr().solve(angles);
@@ -117,28 +116,26 @@ constexpr char kAlongTheWind[] =
 
 // The provenance of either table.
 Provenance MakeProvenance(std::string id, std::string title, std::string source, const std::string& comment) {
-  return {
-      .id = std::move(id),
-      .version = "1",
-      .title = std::move(title),
-      .campaign = "",
-      .attributes = {
-          {"source", std::move(source)},
-          {"references",
-           "Birkebak, M., Eren, F., Pe'eri, S., Weston, N. (2018): The Effect of Surface Waves on Airborne "
-           "Lidar Bathymetry (ALB) Measurement Uncertainties. Remote Sensing 10(3), 453, "
-           "doi:10.3390/rs10030453"},
-          {"license", "CC BY 4.0, https://creativecommons.org/licenses/by/4.0/"},
-          {"comment", comment + kAlongTheWind},
-          {"component", "sea surface only: no water column, air side, platform or system"},
-          {"refractive_index", kRefractiveIndex},
-          {"program_version", std::string(Version())},
-          {"date_created", DateCreated()},
-      }};
+  return {.id = std::move(id),
+          .version = "1",
+          .title = std::move(title),
+          .campaign = "",
+          .attributes = {
+              {"source", std::move(source)},
+              {"references",
+               "Birkebak, M., Eren, F., Pe'eri, S., Weston, N. (2018): The Effect of Surface Waves on Airborne "
+               "Lidar Bathymetry (ALB) Measurement Uncertainties. Remote Sensing 10(3), 453, "
+               "doi:10.3390/rs10030453"},
+              {"license", "CC BY 4.0, https://creativecommons.org/licenses/by/4.0/"},
+              {"comment", comment + kAlongTheWind},
+              {"component", "sea surface only: no water column, air side, platform or system"},
+              {"refractive_index", kRefractiveIndex},
+              {"program_version", std::string(Version())},
+              {"date_created", DateCreated()},
+          }};
 }
 
-absl::StatusOr<UncertaintyTable> Make(const TableNodes& nodes, const AnglesAt& angles_at,
-                                      Provenance provenance) {
+absl::StatusOr<UncertaintyTable> Make(const TableNodes& nodes, const AnglesAt& angles_at, Provenance provenance) {
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
   if (!axes.ok()) return axes.status();
   return UncertaintyTable::Create(*std::move(axes), MakeVariables(nodes, angles_at), std::move(provenance));
@@ -156,8 +153,7 @@ absl::StatusOr<UncertaintyTable> MeasuredTable(const PublishedAngles& table_4) {
   };
   return Make(
       nodes, angles,
-      MakeProvenance("birkebak2018-measured",
-                     "Birkebak et al. (2018), Table 4: refraction measured in a wave tank",
+      MakeProvenance("birkebak2018-measured", "Birkebak et al. (2018), Table 4: refraction measured in a wave tank",
                      "Measured angles of a published table, THU and TVU from them by its angle method (Eq. "
                      "24-26)",
                      "Measured with an array of 6 x 6 photodiodes 0.25 m below the water of a wave tank, 3.5 "
@@ -178,8 +174,7 @@ absl::StatusOr<UncertaintyTable> ModelTable() {
   };
   return Make(
       nodes, angles,
-      MakeProvenance("birkebak2018-model",
-                     "Birkebak et al. (2018), Eq. 27-30: the fit to its simulated refraction",
+      MakeProvenance("birkebak2018-model", "Birkebak et al. (2018), Eq. 27-30: the fit to its simulated refraction",
                      "Equations of a published fit to its Monte Carlo simulation, THU and TVU from them by "
                      "its angle method (Eq. 24-26)",
                      "Eq. 27 and 28 with 0.0276 theta and 0.0281 theta (printed a decimal smaller, against "

@@ -20,8 +20,7 @@ struct AngleModel {
   double wind_incidence, wind, incidence, constant;
 
   double operator()(double wind_speed, double incidence_degrees) const {
-    return (wind_incidence * incidence_degrees + wind) * wind_speed + incidence * incidence_degrees +
-           constant;
+    return (wind_incidence * incidence_degrees + wind) * wind_speed + incidence * incidence_degrees + constant;
   }
 };
 

@@ -24,12 +24,9 @@ SeaCase SeaCaseAt(const GridOptions& options, double wind_speed) {
 
 std::vector<AngleSample> Samples(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis) {
   std::vector<AngleSample> samples;
-  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w) {
-    for (std::size_t i = 0; i < grid.options.incidences.size(); ++i) {
-      samples.push_back(
-          {grid.options.wind_speeds[w], grid.options.incidences[i], (grid.At(w, i).*axis).value});
-    }
-  }
+  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w)
+    for (std::size_t i = 0; i < grid.options.incidences.size(); ++i)
+      samples.push_back({grid.options.wind_speeds[w], grid.options.incidences[i], (grid.At(w, i).*axis).value});
   return samples;
 }
 
@@ -87,8 +84,7 @@ double LargestRelativeStandardError(const RefractionGrid& grid) {
 
 RefractionGrid GridOf(const PublishedAngles& published) {
   RefractionGrid grid{{published.wind_speeds, published.incidences}, {}};
-  for (const PublishedAngles::Cell& cell : published.cells)
-    grid.cells.push_back({{cell.along, 0}, {cell.cross, 0}});
+  for (const PublishedAngles::Cell& cell : published.cells) grid.cells.push_back({{cell.along, 0}, {cell.cross, 0}});
   return grid;
 }
 
@@ -113,8 +109,7 @@ std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid) {
   std::vector<LineFit> fits;
   for (std::size_t i = 0; i < grid.options.incidences.size(); ++i) {
     std::vector<double> angles;
-    for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w)
-      angles.push_back(grid.At(w, i).along.value);
+    for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w) angles.push_back(grid.At(w, i).along.value);
     fits.push_back(FitLine(grid.options.wind_speeds, angles));
   }
   return fits;
@@ -155,19 +150,17 @@ LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const Publ
 
 CaseCount AlongWindRisesWithWind(const RefractionGrid& grid) {
   CaseCount count;
-  for (std::size_t w = 1; w < grid.options.wind_speeds.size(); ++w) {
+  for (std::size_t w = 1; w < grid.options.wind_speeds.size(); ++w)
     for (std::size_t i = 0; i < grid.options.incidences.size(); ++i)
       count.Add(grid.At(w, i).along.value > grid.At(w - 1, i).along.value);
-  }
   return count;
 }
 
 CaseCount AlongWindRisesWithIncidence(const RefractionGrid& grid) {
   CaseCount count;
-  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w) {
+  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w)
     for (std::size_t i = 1; i < grid.options.incidences.size(); ++i)
       count.Add(grid.At(w, i).along.value > grid.At(w, i - 1).along.value);
-  }
   return count;
 }
 

@@ -28,9 +28,8 @@ constexpr const char* kPython = "/usr/bin/python3";  // for which Debian's pytho
 std::string LastLine(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string last;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; std::getline(in, line);)
     if (!line.empty()) last = line;
-  }
   return last;
 }
 
@@ -39,8 +38,7 @@ std::string LastLine(const std::filesystem::path& file) {
 std::string DrawFigures(const std::filesystem::path& plots, const std::filesystem::path& folder,
                         const std::vector<std::string>& figures) {
   if (figures.empty()) return "";
-  std::vector<std::string> words = {kPython, "-B", (plots / "draw.py").string(), folder.string(),
-                                    folder.string()};
+  std::vector<std::string> words = {kPython, "-B", (plots / "draw.py").string(), folder.string(), folder.string()};
   words.insert(words.end(), figures.begin(), figures.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -50,8 +48,7 @@ std::string DrawFigures(const std::filesystem::path& plots, const std::filesyste
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t child = 0;
   const int failure = posix_spawn(&child, kPython, &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -93,9 +90,8 @@ absl::Status NotWritable(const std::filesystem::path& folder) {
 
 absl::Status WriteFile(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream out(file, std::ios::binary);
-  if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())) || !out.flush()) {
+  if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())) || !out.flush())
     return absl::DataLossError(absl::StrCat(file.string(), ": cannot be written: ", std::strerror(errno)));
-  }
   return absl::OkStatus();
 }
 
@@ -108,19 +104,16 @@ std::string Contents(const std::filesystem::path& file) {
 absl::Status WriteTables(const std::vector<Study>& studies, const std::filesystem::path& folder) {
   std::vector<DataTable> tables = {SummaryOf(studies)};
   for (const Study& study : studies) tables.insert(tables.end(), study.tables.begin(), study.tables.end());
-  for (const DataTable& table : tables) {
-    if (const auto status = WriteFile(folder / (table.name + ".csv"), CsvOf(table)); !status.ok())
-      return status;
-  }
+  for (const DataTable& table : tables)
+    if (const auto status = WriteFile(folder / (table.name + ".csv"), CsvOf(table)); !status.ok()) return status;
   return absl::OkStatus();
 }
 
 // Moves every file of `from` to `to`, the page last, so that a page never refers to files that do not exist yet.
 absl::Status Publish(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(from)) {
+  for (const auto& entry : std::filesystem::directory_iterator(from))
     if (entry.path().filename() != kPage) files.push_back(entry.path());
-  }
   files.push_back(from / kPage);
   for (const std::filesystem::path& file : files) {
     std::error_code error;
@@ -140,12 +133,12 @@ absl::Status PrepareReport(const ReportOptions& options) {
   std::error_code error;
   std::filesystem::create_directory(folder, error);
   if (!std::filesystem::is_directory(folder)) {
-    return absl::NotFoundError(absl::StrCat(
-        folder.string(), ": cannot be created; give a folder, or a new name in an existing folder"));
+    return absl::NotFoundError(
+        absl::StrCat(folder.string(), ": cannot be created; give a folder, or a new name in an existing folder"));
   }
   if (!std::filesystem::is_empty(folder, error) && !options.overwrite) {
-    return absl::AlreadyExistsError(absl::StrCat(
-        folder.string(), ": is not empty; --overwrite replaces the files of an earlier report in it"));
+    return absl::AlreadyExistsError(
+        absl::StrCat(folder.string(), ": is not empty; --overwrite replaces the files of an earlier report in it"));
   }
   return HiddenFolder(folder).path().empty() ? NotWritable(folder) : absl::OkStatus();
 }
@@ -157,9 +150,8 @@ absl::StatusOr<std::string> WriteReport(const std::vector<Study>& studies, const
   if (const auto status = WriteTables(studies, folder); !status.ok()) return status;
 
   std::vector<std::string> figures;
-  for (const Study& study : studies) {
+  for (const Study& study : studies)
     for (const FigureRequest& figure : study.figures) figures.push_back(figure.name);
-  }
   ReportPage page{options.made_by, {}, DrawFigures(options.plots, folder, figures)};
   for (const std::string& figure : figures) {
     const std::filesystem::path svg = folder / (figure + ".svg");
@@ -213,8 +205,7 @@ std::string Escaped(absl::string_view text) {
 std::string NumberText(double number) { return std::isnan(number) ? "" : absl::StrFormat("%.4g", number); }
 
 std::string CellHtml(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell))
-    return absl::StrCat("<td>", Escaped(*text), "</td>");
+  if (const auto* text = std::get_if<std::string>(&cell)) return absl::StrCat("<td>", Escaped(*text), "</td>");
   return absl::StrCat("<td class=\"number\">", NumberText(std::get<double>(cell)), "</td>");
 }
 
@@ -241,15 +232,15 @@ std::string SummaryHtml(const std::vector<Study>& studies) {
       "<th>standard error</th><th>difference</th><th>verdict</th><th>basis</th></tr></thead>\n<tbody>\n";
   for (const Study& study : studies) {
     if (study.comparisons.empty()) continue;
-    absl::StrAppend(&html, "<tr class=\"study\"><th colspan=\"8\"><a href=\"#", study.id, "\">",
-                    Escaped(study.title), "</a></th></tr>\n");
+    absl::StrAppend(&html, "<tr class=\"study\"><th colspan=\"8\"><a href=\"#", study.id, "\">", Escaped(study.title),
+                    "</a></th></tr>\n");
     for (const Comparison& c : study.comparisons) {
       const auto number = [](const char* label, double value) {
         return absl::StrCat("<td class=\"number\" data-label=\"", label, "\">", NumberText(value), "</td>");
       };
       const std::string verdict(Name(c.verdict));
-      absl::StrAppend(&html, "<tr><td class=\"quantity\">", Escaped(c.quantity),
-                      "</td><td data-label=\"unit\">", Escaped(c.unit), "</td>");
+      absl::StrAppend(&html, "<tr><td class=\"quantity\">", Escaped(c.quantity), "</td><td data-label=\"unit\">",
+                      Escaped(c.unit), "</td>");
       absl::StrAppend(&html, number("published", c.published), number("ours", c.ours),
                       number("standard error", c.standard_error), number("difference", c.ours - c.published));
       absl::StrAppend(&html, "<td data-label=\"verdict\" class=\"", verdict, "\">", verdict,
@@ -267,9 +258,8 @@ std::string CountsHtml(const std::vector<Study>& studies) {
 
 std::string FigureHtml(const FigureRequest& figure, const ReportPage& page) {
   const auto svg = page.figures.find(figure.name);
-  if (svg == page.figures.end()) {
+  if (svg == page.figures.end())
     return absl::StrCat("<p>[Figure ", figure.name, " is missing.] ", Escaped(figure.caption), "</p>\n");
-  }
   return absl::StrCat("<figure><img alt=\"", Escaped(figure.caption), "\" src=\"data:image/svg+xml;base64,",
                       absl::Base64Escape(svg->second), "\"><figcaption>", Escaped(figure.caption),
                       "</figcaption></figure>\n");
@@ -277,8 +267,7 @@ std::string FigureHtml(const FigureRequest& figure, const ReportPage& page) {
 
 std::string StudyHtml(const Study& study, const ReportPage& page) {
   std::string html = absl::StrCat("<h2 id=\"", study.id, "\">", Escaped(study.title), "</h2>\n");
-  for (const std::string& paragraph : study.paragraphs)
-    absl::StrAppend(&html, "<p>", Escaped(paragraph), "</p>\n");
+  for (const std::string& paragraph : study.paragraphs) absl::StrAppend(&html, "<p>", Escaped(paragraph), "</p>\n");
   for (const FigureRequest& figure : study.figures) html += FigureHtml(figure, page);
   for (const DataTable& table : study.tables) html += TableHtml(table);
   return html;
@@ -300,9 +289,8 @@ std::string HtmlOf(const std::vector<Study>& studies, const ReportPage& page) {
                     "</p>\n");
   }
   html += CountsHtml(studies) + "<ul>";
-  for (const Study& study : studies) {
+  for (const Study& study : studies)
     absl::StrAppend(&html, "<li><a href=\"#", study.id, "\">", Escaped(study.title), "</a></li>");
-  }
   html += "</ul>\n" + SummaryHtml(studies);
   for (const Study& study : studies) html += StudyHtml(study, page);
   return html + "</body></html>\n";

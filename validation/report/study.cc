@@ -47,9 +47,8 @@ std::string_view Name(Verdict verdict) {
 
 int Count(const std::vector<Study>& studies, Verdict verdict) {
   int count = 0;
-  for (const Study& study : studies) {
+  for (const Study& study : studies)
     for (const Comparison& comparison : study.comparisons) count += comparison.verdict == verdict;
-  }
   return count;
 }
 
@@ -61,8 +60,8 @@ DataTable SummaryOf(const std::vector<Study>& studies) {
       {}};
   for (const Study& study : studies) {
     for (const Comparison& c : study.comparisons) {
-      summary.rows.push_back({study.id, c.quantity, c.unit, c.published, c.ours, c.standard_error,
-                              c.ours - c.published, std::string(Name(c.verdict)), c.basis});
+      summary.rows.push_back({study.id, c.quantity, c.unit, c.published, c.ours, c.standard_error, c.ours - c.published,
+                              std::string(Name(c.verdict)), c.basis});
     }
   }
   return summary;

@@ -62,7 +62,7 @@ struct Study {
 
 struct StudyOptions {
   std::filesystem::path published;  // the folder of the paper's tables as CSV
-  bool quick = false;  // minutes on two cores; otherwise the paper's numbers of surfaces and rays
+  bool quick = false;               // minutes on two cores; otherwise the paper's numbers of surfaces and rays
   std::uint64_t seed = 1;
 };
 

@@ -51,8 +51,7 @@ std::vector<MapPart> MakeMap(const Domain& domain, std::uint64_t seed) {
                                     .footprint = footprint});
         }
         const auto cell = static_cast<std::uint32_t>(map.size());
-        map.push_back(
-            {wind_speed, fetch, footprint, CompareWithClosedForm(sea_case, domain.realizations, seed, cell)});
+        map.push_back({wind_speed, fetch, footprint, CompareWithClosedForm(sea_case, domain.realizations, seed, cell)});
       }
     }
   }
@@ -95,9 +94,8 @@ Eigen::Vector3d FitDeparture(const std::vector<const MapPart*>& parts) {
 // its surfaces.
 std::vector<Estimate> FitDepartureWithErrors(const std::vector<MapPart>& map) {
   std::vector<const MapPart*> parts;
-  for (const MapPart& part : map) {
+  for (const MapPart& part : map)
     if (part.is_judged()) parts.push_back(&part);
-  }
   const Eigen::Vector3d fit = FitDeparture(parts);
   const double count = static_cast<double>(parts.size());
   Eigen::Array3d variance = Eigen::Array3d::Zero();
@@ -106,8 +104,7 @@ std::vector<Estimate> FitDepartureWithErrors(const std::vector<MapPart>& map) {
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     variance += (count - 1) / count * (FitDeparture(others) - fit).array().square();
   }
-  return {
-      {fit[0], std::sqrt(variance[0])}, {fit[1], std::sqrt(variance[1])}, {fit[2], std::sqrt(variance[2])}};
+  return {{fit[0], std::sqrt(variance[0])}, {fit[1], std::sqrt(variance[1])}, {fit[2], std::sqrt(variance[2])}};
 }
 
 // The theoretical value of at_nadir as the slopes vanish; see "The third order in slope" in docs/physics.md. A slope
@@ -128,8 +125,7 @@ struct Tally {
 
 Tally CountWithin(const std::vector<MapPart>& map) {
   Tally tally;
-  for (const MapPart& part : map)
-    tally.all += part.is_judged() ? 3 * static_cast<int>(kDirections.size()) : 0;
+  for (const MapPart& part : map) tally.all += part.is_judged() ? 3 * static_cast<int>(kDirections.size()) : 0;
   const double k = StandardErrorsFor(tally.all);
   for (const MapPart& part : map) {
     if (!part.is_judged()) continue;
@@ -145,23 +141,22 @@ Tally CountWithin(const std::vector<MapPart>& map) {
 }
 
 DataTable WholeMap(const std::vector<MapPart>& map) {
-  DataTable table{.name = "closed_form_map",
-                  .title = "Ratio of Monte Carlo to closed form at every node of the domain, depth 10 m",
-                  .columns = {"wind_speed_m_s", "fetch_m", "footprint_m", "incidence_deg", "azimuth_deg",
-                              "along_ratio", "along_ratio_se", "cross_ratio", "cross_ratio_se", "thu_ratio",
-                              "thu_ratio_se", "tvu_ratio", "tvu_ratio_se", "least_ratio", "most_ratio",
-                              "mean_square_slope", "seen_fraction", "judged"},
-                  .rows = {},
-                  .on_the_page = false};
+  DataTable table{
+      .name = "closed_form_map",
+      .title = "Ratio of Monte Carlo to closed form at every node of the domain, depth 10 m",
+      .columns = {"wind_speed_m_s", "fetch_m", "footprint_m", "incidence_deg", "azimuth_deg", "along_ratio",
+                  "along_ratio_se", "cross_ratio", "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio",
+                  "tvu_ratio_se", "least_ratio", "most_ratio", "mean_square_slope", "seen_fraction", "judged"},
+      .rows = {},
+      .on_the_page = false};
   for (const MapPart& part : map) {
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
       const ClosedFormRatio& beam = part.ratios.beams[b];
-      table.rows.push_back({part.wind_speed, part.fetch, part.footprint, kDirections[b].incidence,
-                            kDirections[b].azimuth, beam.along.value, beam.along.standard_error,
-                            beam.cross.value, beam.cross.standard_error, beam.thu.value,
-                            beam.thu.standard_error, beam.tvu.value, beam.tvu.standard_error,
-                            1 - beam.allowed, 1 + kDiscretizationError, part.ratios.mean_square_slope,
-                            part.ratios.seen_fraction, std::string(part.is_judged() ? "yes" : "no")});
+      table.rows.push_back(
+          {part.wind_speed, part.fetch, part.footprint, kDirections[b].incidence, kDirections[b].azimuth,
+           beam.along.value, beam.along.standard_error, beam.cross.value, beam.cross.standard_error, beam.thu.value,
+           beam.thu.standard_error, beam.tvu.value, beam.tvu.standard_error, 1 - beam.allowed, 1 + kDiscretizationError,
+           part.ratios.mean_square_slope, part.ratios.seen_fraction, std::string(part.is_judged() ? "yes" : "no")});
     }
   }
   return table;
@@ -171,8 +166,8 @@ DataTable MeanMap(const std::vector<MapPart>& map, const Domain& domain) {
   DataTable table{
       .name = "closed_form_map_mean",
       .title = "Ratio of Monte Carlo to closed form, mean over fetches and footprints",
-      .columns = {"wind_speed_m_s", "incidence_deg", "azimuth_deg", "along_ratio", "along_ratio_se",
-                  "cross_ratio", "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio", "tvu_ratio_se"},
+      .columns = {"wind_speed_m_s", "incidence_deg", "azimuth_deg", "along_ratio", "along_ratio_se", "cross_ratio",
+                  "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio", "tvu_ratio_se"},
       .rows = {}};
   for (const double wind_speed : domain.wind_speeds) {
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
@@ -181,8 +176,8 @@ DataTable MeanMap(const std::vector<MapPart>& map, const Domain& domain) {
       const Estimate thu = MeanRatio(map, wind_speed, b, &ClosedFormRatio::thu);
       const Estimate tvu = MeanRatio(map, wind_speed, b, &ClosedFormRatio::tvu);
       table.rows.push_back({wind_speed, kDirections[b].incidence, kDirections[b].azimuth, along.value,
-                            along.standard_error, cross.value, cross.standard_error, thu.value,
-                            thu.standard_error, tvu.value, tvu.standard_error});
+                            along.standard_error, cross.value, cross.standard_error, thu.value, thu.standard_error,
+                            tvu.value, tvu.standard_error});
     }
   }
   return table;
@@ -205,9 +200,8 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
        .unit = "1",
        .ours = fit[0].value,
        .standard_error = fit[0].standard_error,
-       .verdict = std::abs(fit[0].value) <= kDiscretizationError + 3 * fit[0].standard_error
-                      ? Verdict::kAgrees
-                      : Verdict::kDiffers,
+       .verdict = std::abs(fit[0].value) <= kDiscretizationError + 3 * fit[0].standard_error ? Verdict::kAgrees
+                                                                                             : Verdict::kDiffers,
        .basis = "zero within three standard errors and 0.005, the accuracy for which grid, patch and rays "
                 "are chosen"});
   const auto coefficient = [&](const char* quantity, const Estimate& ours, const std::string& basis) {
@@ -227,13 +221,12 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
   Estimate calm = MeanRatio(map, domain.wind_speeds.front(), 0, &ClosedFormRatio::thu);
   Estimate storm = MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::thu);
   const auto report = [&](const char* where, const Estimate& ratio) {
-    study.comparisons.push_back(
-        {.quantity = absl::StrCat("THU, ratio of Monte Carlo to closed form, ", where),
-         .unit = "1",
-         .ours = ratio.value,
-         .standard_error = ratio.standard_error,
-         .verdict = Verdict::kReported,
-         .basis = "mean over fetches and footprints"});
+    study.comparisons.push_back({.quantity = absl::StrCat("THU, ratio of Monte Carlo to closed form, ", where),
+                                 .unit = "1",
+                                 .ours = ratio.value,
+                                 .standard_error = ratio.standard_error,
+                                 .verdict = Verdict::kReported,
+                                 .basis = "mean over fetches and footprints"});
   };
   report("1 m/s at nadir", calm);
   report("15 m/s at 25 degrees along the wind", storm);
@@ -245,8 +238,7 @@ absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options) {
   const Domain& domain = options.quick ? kQuick : kWhole;
   const std::vector<MapPart> map = MakeMap(domain, options.seed);
   const std::vector<Estimate> fit = FitDepartureWithErrors(map);
-  const auto judged =
-      std::count_if(map.begin(), map.end(), [](const MapPart& part) { return part.is_judged(); });
+  const auto judged = std::count_if(map.begin(), map.end(), [](const MapPart& part) { return part.is_judged(); });
 
   Study study;
   study.id = "closed_form";
@@ -257,14 +249,13 @@ absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options) {
           "to 15 m/s, fetches from 100 m to fully developed, footprints of 0.1 to 5 m, incidences of 0 to 25 "
           "degrees, with %d independent surfaces for each of %d combinations of sea and footprint.",
           domain.realizations, map.size()),
-      absl::StrFormat(
-          "The theory fails slowly and to one side, because it is linear in slope and Snell's law is not. "
-          "Over all seas and footprints the THU of the Monte Carlo is below the theory by %.3f (+- %.3f) "
-          "times the mean square slope at nadir and by another %.3f (+- %.3f) times it at 20 degrees, "
-          "growing with the square of the incidence. The difference reaches 1 %% at a mean square slope of "
-          "%.3f at nadir and of %.3f at 25 degrees.",
-          fit[1].value, fit[1].standard_error, fit[2].value, fit[2].standard_error, 0.01 / fit[1].value,
-          0.01 / (fit[1].value + fit[2].value * std::pow(25.0 / 20, 2))),
+      absl::StrFormat("The theory fails slowly and to one side, because it is linear in slope and Snell's law is not. "
+                      "Over all seas and footprints the THU of the Monte Carlo is below the theory by %.3f (+- %.3f) "
+                      "times the mean square slope at nadir and by another %.3f (+- %.3f) times it at 20 degrees, "
+                      "growing with the square of the incidence. The difference reaches 1 %% at a mean square slope of "
+                      "%.3f at nadir and of %.3f at 25 degrees.",
+                      fit[1].value, fit[1].standard_error, fit[2].value, fit[2].standard_error, 0.01 / fit[1].value,
+                      0.01 / (fit[1].value + fit[2].value * std::pow(25.0 / 20, 2))),
       absl::StrFormat(
           "Vertical errors are of second order in slope at nadir, where the theory has none, and the second "
           "order still contributes at 5 degrees: there the TVU of the Monte Carlo is %.3f of the theory's in "

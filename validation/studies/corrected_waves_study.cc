@@ -22,15 +22,13 @@ namespace albtpu {
 namespace {
 
 Estimate Over(const Estimate& ours, double theory) {
-  if (theory == 0)
-    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  if (theory == 0) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   return {ours.value / theory, ours.standard_error / theory};
 }
 
 }  // namespace
 
-SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed,
-                                    std::uint32_t cell) {
+SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed, std::uint32_t cell) {
   assert(sea_case.depths.size() == 1 && sea_case.depths[0] > 0);
   const SeaCaseResult result =
       Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations}, seed, cell);
@@ -86,13 +84,10 @@ struct Case {
 };
 
 SeaOptions SeaOf(const Case& c, double corrected_above) {
-  return {.waves = WindSea{.wind_speed_10m = c.wind_speed, .model = c.model},
-          .corrected_above = corrected_above};
+  return {.waves = WindSea{.wind_speed_10m = c.wind_speed, .model = c.model}, .corrected_above = corrected_above};
 }
 
-BeamOptions BeamOf(const Case& c) {
-  return {.incidence = RadiansOfDegrees(kIncidence), .footprint = c.footprint};
-}
+BeamOptions BeamOf(const Case& c) { return {.incidence = RadiansOfDegrees(kIncidence), .footprint = c.footprint}; }
 
 SmallSlopeUncertainty ClosedFormOf(const Case& c, double corrected_above) {
   return ClosedForm(SeaState(SeaOf(c, corrected_above)), BeamOf(c), kRefractiveIndex);
@@ -113,36 +108,35 @@ DataTable InClosedForm() {
     results[i] = ClosedFormOf(cases[i / kLengths], kCorrectedAbove[i % kLengths]);
   });
 
-  DataTable table{
-      .name = "corrected_waves",
-      .title =
-          "2 sigma values for the remaining waves, fully developed, 20 degrees along the wind, in closed "
-          "form: angles in degrees, THU and TVU per m of depth, and THU relative to that of the whole sea",
-      .columns = {"spectrum", "wind_speed_m_s", "footprint_m", "corrected_above_m", "along_wind_deg",
-                  "cross_wind_deg", "thu_per_depth", "tvu_per_depth", "thu_left"},
-      .rows = {},
-      .on_the_page = false};
+  DataTable table{.name = "corrected_waves",
+                  .title =
+                      "2 sigma values for the remaining waves, fully developed, 20 degrees along the wind, in closed "
+                      "form: angles in degrees, THU and TVU per m of depth, and THU relative to that of the whole sea",
+                  .columns = {"spectrum", "wind_speed_m_s", "footprint_m", "corrected_above_m", "along_wind_deg",
+                              "cross_wind_deg", "thu_per_depth", "tvu_per_depth", "thu_left"},
+                  .rows = {},
+                  .on_the_page = false};
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Case& c = cases[i / kLengths];
     const SmallSlopeUncertainty& whole = results[i / kLengths * kLengths];
     const SmallSlopeUncertainty& left = results[i];
-    table.rows.push_back(
-        {std::string(c.model->key), c.wind_speed, c.footprint, LengthCell(kCorrectedAbove[i % kLengths]),
-         DegreesOfRadians(left.refraction_along_wind), DegreesOfRadians(left.refraction_cross_wind),
-         left.thu_per_depth, left.tvu_per_depth, left.thu_per_depth / whole.thu_per_depth});
+    table.rows.push_back({std::string(c.model->key), c.wind_speed, c.footprint,
+                          LengthCell(kCorrectedAbove[i % kLengths]), DegreesOfRadians(left.refraction_along_wind),
+                          DegreesOfRadians(left.refraction_cross_wind), left.thu_per_depth, left.tvu_per_depth,
+                          left.thu_per_depth / whole.thu_per_depth});
   }
   return table;
 }
 
 // The fraction of Apel's THU that remains, by wind and footprint, for the page.
 DataTable Summary() {
-  DataTable table{.name = "corrected_waves_summary",
-                  .title =
-                      "Fraction of THU that remains if waves longer than a length are corrected for: Apel's "
-                      "sea, 20 degrees, closed form",
-                  .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m",
-                              "above_3_m", "above_1_m"},
-                  .rows = {}};
+  DataTable table{
+      .name = "corrected_waves_summary",
+      .title =
+          "Fraction of THU that remains if waves longer than a length are corrected for: Apel's "
+          "sea, 20 degrees, closed form",
+      .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m", "above_3_m", "above_1_m"},
+      .rows = {}};
   for (const double wind_speed : {3.0, 6.0, 10.0, 15.0}) {
     for (const double footprint : {0.25, 0.5, 2.0}) {
       const Case c{&kApelModel, wind_speed, footprint};
@@ -195,10 +189,9 @@ DataTable TableOf(const std::vector<SimulatedSea>& seas) {
       .name = "corrected_waves_monte_carlo",
       .title = "2 sigma values and vertical bias by Monte Carlo, at a depth of 20 m, at 20 degrees and nadir",
       .columns = {"wind_speed_m_s", "footprint_m", "corrected_above_m", "mean_square_slope", "thu_m",
-                  "thu_standard_error_m", "closed_form_thu_m", "tvu_m", "tvu_standard_error_m",
-                  "closed_form_tvu_m", "bias_vertical_m", "bias_vertical_standard_error_m", "nadir_tvu_m",
-                  "nadir_tvu_standard_error_m", "nadir_bias_vertical_m",
-                  "nadir_bias_vertical_standard_error_m"},
+                  "thu_standard_error_m", "closed_form_thu_m", "tvu_m", "tvu_standard_error_m", "closed_form_tvu_m",
+                  "bias_vertical_m", "bias_vertical_standard_error_m", "nadir_tvu_m", "nadir_tvu_standard_error_m",
+                  "nadir_bias_vertical_m", "nadir_bias_vertical_standard_error_m"},
       .rows = {}};
   for (const SimulatedSea& sea : seas) {
     table.rows.push_back({kSimulated.wind_speed, kSimulated.footprint, LengthCell(sea.corrected_above),
@@ -218,24 +211,22 @@ Comparison CompareThu(const SimulatedSea& sea) {
   const std::string corrected = std::isinf(sea.corrected_above)
                                     ? "nothing corrected"
                                     : absl::StrFormat("corrected above %g m", sea.corrected_above);
-  return {
-      .quantity = absl::StrFormat("THU, ratio of Monte Carlo to closed form, %g m/s, %g m, %s",
-                                  kSimulated.wind_speed, kSimulated.footprint, corrected),
-      .unit = "1",
-      .published = 1,
-      .ours = ratio.value,
-      .standard_error = ratio.standard_error,
-      .verdict = within ? Verdict::kAgrees : Verdict::kDiffers,
-      .basis = absl::StrFormat(
-          "from %.3f to %.3f, and %g standard errors: below 1 by 0.015, 0.3 of the remaining mean square "
-          "slope and 0.02 at 20 degrees for the nonlinearity of Snell's law, above 1 for the discretization",
-          1 - allowed, 1 + kDiscretizationError, kStandardErrors)};
+  return {.quantity = absl::StrFormat("THU, ratio of Monte Carlo to closed form, %g m/s, %g m, %s",
+                                      kSimulated.wind_speed, kSimulated.footprint, corrected),
+          .unit = "1",
+          .published = 1,
+          .ours = ratio.value,
+          .standard_error = ratio.standard_error,
+          .verdict = within ? Verdict::kAgrees : Verdict::kDiffers,
+          .basis = absl::StrFormat(
+              "from %.3f to %.3f, and %g standard errors: below 1 by 0.015, 0.3 of the remaining mean square "
+              "slope and 0.02 at 20 degrees for the nonlinearity of Snell's law, above 1 for the discretization",
+              1 - allowed, 1 + kDiscretizationError, kStandardErrors)};
 }
 
 // The fraction of each uncertainty and bias that remains, and the number of seas whose THU agrees with the closed
 // form.
-std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
-                                const std::vector<Comparison>& comparisons) {
+std::string SimulationParagraph(const std::vector<SimulatedSea>& seas, const std::vector<Comparison>& comparisons) {
   const SimulatedSea &whole = seas.front(), &least = seas.back();
   const auto percent = [&](Estimate SimulatedSea::*quantity) {
     return 100 * (least.*quantity).value / (whole.*quantity).value;
@@ -243,9 +234,7 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
   const auto agree = std::count_if(comparisons.begin(), comparisons.end(),
                                    [](const Comparison& c) { return c.verdict == Verdict::kAgrees; });
   const double gain = 1 - 1 / kRefractiveIndex;
-  const auto second_order = [&](const SimulatedSea& sea) {
-    return -gain * gain / 2 * kDepth * sea.mean_square_slope;
-  };
+  const auto second_order = [&](const SimulatedSea& sea) { return -gain * gain / 2 * kDepth * sea.mean_square_slope; };
   return absl::StrFormat(
       "By Monte Carlo at %g m/s and a footprint of %g m, if all waves above %g m are corrected for, %.0f %% "
       "of THU and %.0f %% of TVU remain at 20 degrees; at nadir, where TVU is of second order in slope, %.0f "
@@ -257,9 +246,8 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
       kSimulated.wind_speed, kSimulated.footprint, least.corrected_above, percent(&SimulatedSea::thu),
       percent(&SimulatedSea::tvu), percent(&SimulatedSea::nadir_tvu), kDepth, whole.nadir_bias_vertical.value,
       whole.nadir_bias_vertical.standard_error, least.nadir_bias_vertical.value,
-      least.nadir_bias_vertical.standard_error, percent(&SimulatedSea::nadir_bias_vertical),
-      second_order(whole), second_order(least), 100 * least.mean_square_slope / whole.mean_square_slope,
-      agree, comparisons.size());
+      least.nadir_bias_vertical.standard_error, percent(&SimulatedSea::nadir_bias_vertical), second_order(whole),
+      second_order(least), 100 * least.mean_square_slope / whole.mean_square_slope, agree, comparisons.size());
 }
 
 }  // namespace
@@ -279,8 +267,7 @@ absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options) {
   };
   for (const double length : {30.0, 3.0}) {
     study.comparisons.push_back(
-        {.quantity =
-             absl::StrFormat("THU that remains, 6 m/s, 0.5 m, 20 degrees, corrected above %g m", length),
+        {.quantity = absl::StrFormat("THU that remains, 6 m/s, 0.5 m, 20 degrees, corrected above %g m", length),
          .unit = "%",
          .ours = left(length),
          .basis = "no verdict: the paper gives no number"});
@@ -301,9 +288,8 @@ absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options) {
       by_monte_carlo};
   study.figures = {
       {.name = "corrected_waves",
-       .caption =
-           "THU at 20 degrees relative to that of the whole sea, if waves longer than the abscissa are "
-           "corrected for; fully developed sea, closed form. Solid: Apel's sea; dashed: Elfouhaily's."},
+       .caption = "THU at 20 degrees relative to that of the whole sea, if waves longer than the abscissa are "
+                  "corrected for; fully developed sea, closed form. Solid: Apel's sea; dashed: Elfouhaily's."},
       {.name = "corrected_waves_thu",
        .caption = "The same as THU per metre of depth, footprint 0.25 m, with the Monte Carlo at 6 m/s "
                   "(bars: two standard errors)."}};

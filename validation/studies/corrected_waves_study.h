@@ -25,8 +25,7 @@ struct SeaCaseRatios {
 };
 
 // `sea_case` must have one depth, above 0.
-SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed,
-                                    std::uint32_t cell);
+SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed, std::uint32_t cell);
 
 // The relative error of a standard deviation that grid, patch and rays may cause (discretization.h): each of them is
 // chosen for an error of half a per cent of the variance or a little more.

@@ -85,13 +85,11 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
           AlongWindRisesWithWind(runs.fine));
   compare("Along wind rises from one incidence to the next", AlongWindRisesWithIncidence(printed),
           AlongWindRisesWithIncidence(runs.fine));
-  compare("Along wind exceeds cross wind", AlongWindExceedsCrossWind(printed),
-          AlongWindExceedsCrossWind(runs.fine));
+  compare("Along wind exceeds cross wind", AlongWindExceedsCrossWind(printed), AlongWindExceedsCrossWind(runs.fine));
   CaseCount falling;
-  for (std::size_t d = 1; d < runs.by_diameter.size(); ++d) {
+  for (std::size_t d = 1; d < runs.by_diameter.size(); ++d)
     for (std::size_t c = 0; c < runs.by_diameter[d].cells.size(); ++c)
       falling.Add(runs.by_diameter[d].cells[c].along.value < runs.by_diameter[d - 1].cells[c].along.value);
-  }
   compare("Along wind falls from one diameter to the next", {}, falling);
 
   const auto line = [&](const char* whose, const RefractionGrid& grid, double least, const std::string& why) {

@@ -44,8 +44,7 @@ double PiersonMoskowitzWaveHeightOf(double wind_speed_10m) {
 
 double JonswapWaveHeight(double wind_speed_10m, double fetch) {
   const double scale = wind_speed_10m * wind_speed_10m / kGravity;  // m
-  return std::min(4 * std::sqrt(1.6e-7 * fetch / scale) * scale,
-                  PiersonMoskowitzWaveHeightOf(wind_speed_10m));
+  return std::min(4 * std::sqrt(1.6e-7 * fetch / scale) * scale, PiersonMoskowitzWaveHeightOf(wind_speed_10m));
 }
 
 namespace {
@@ -78,23 +77,21 @@ double RmsDepartureOfSlope(const SpectrumModel& model, int first) {
 void CompareSlopes(Study& study) {
   DataTable table{.name = "real_sea_slopes",
                   .title = "Mean square slope of fully developed seas, compared with Cox and Munk (1954)",
-                  .columns = {"wind_speed_m_s", "cox_munk_along", "apel_along", "elfouhaily_along",
-                              "cox_munk_cross", "apel_cross", "elfouhaily_cross"},
+                  .columns = {"wind_speed_m_s", "cox_munk_along", "apel_along", "elfouhaily_along", "cox_munk_cross",
+                              "apel_cross", "elfouhaily_cross"},
                   .rows = {}};
   const auto compare = [&](const SpectrumModel& model, double wind, const char* direction, double ours,
                            const ObservedSlope& observed) {
     study.comparisons.push_back(
-        {.quantity =
-             absl::StrFormat("Mean square slope %s, %g m/s, %s", direction, wind, std::string(model.author)),
+        {.quantity = absl::StrFormat("Mean square slope %s, %g m/s, %s", direction, wind, std::string(model.author)),
          .unit = "1",
          .published = observed.mean_square,
          .ours = ours,
-         .verdict = std::abs(ours - observed.mean_square) <= 2 * observed.scatter ? Verdict::kAgrees
-                                                                                  : Verdict::kDiffers,
-         .basis =
-             absl::StrFormat("within %g, two standard deviations of Cox and Munk's observations about their "
-                             "line",
-                             2 * observed.scatter)});
+         .verdict =
+             std::abs(ours - observed.mean_square) <= 2 * observed.scatter ? Verdict::kAgrees : Verdict::kDiffers,
+         .basis = absl::StrFormat("within %g, two standard deviations of Cox and Munk's observations about their "
+                                  "line",
+                                  2 * observed.scatter)});
   };
   for (int wind = 1; wind <= 15; ++wind) {
     const ObservedSlope along = CoxMunkAlongWind(wind), cross = CoxMunkCrossWind(wind);
@@ -118,20 +115,18 @@ void CompareSlopes(Study& study) {
     const double scatter = CoxMunkTotal(1).scatter;
     for (const auto& [first, winds] :
          {std::pair{kMinObserved, "all observed winds, including those below 3 m/s"},
-          std::pair{
-              kShortWavesFrom,
-              "only from 3 m/s on: in lighter winds Elfouhaily's sea has no short waves and is too steep"}}) {
+          std::pair{kShortWavesFrom,
+                    "only from 3 m/s on: in lighter winds Elfouhaily's sea has no short waves and is too steep"}}) {
       const double rms = RmsDepartureOfSlope(*model, first);
       study.comparisons.push_back(
-          {.quantity =
-               absl::StrFormat("Mean square slope, rms departure from Cox and Munk over %d-%d m/s, %s", first,
-                               kMaxObserved, std::string(model->author)),
+          {.quantity = absl::StrFormat("Mean square slope, rms departure from Cox and Munk over %d-%d m/s, %s", first,
+                                       kMaxObserved, std::string(model->author)),
            .unit = "1",
            .published = scatter,
            .ours = rms,
            .verdict = rms <= scatter ? Verdict::kAgrees : Verdict::kDiffers,
-           .basis = absl::StrFormat(
-               "no more than the standard deviation of the observations about the line; %s", winds)});
+           .basis =
+               absl::StrFormat("no more than the standard deviation of the observations about the line; %s", winds)});
     }
   }
 }
@@ -168,11 +163,10 @@ void CompareHeights(Study& study) {
 }
 
 void CompareHeightsByFetch(Study& study) {
-  DataTable table{
-      .name = "real_sea_heights_by_fetch",
-      .title = "Significant wave height by fetch, compared with JONSWAP (Hasselmann et al., 1973)",
-      .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"},
-      .rows = {}};
+  DataTable table{.name = "real_sea_heights_by_fetch",
+                  .title = "Significant wave height by fetch, compared with JONSWAP (Hasselmann et al., 1973)",
+                  .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"},
+                  .rows = {}};
   for (const double wind : {5.0, 10.0, 15.0}) {
     for (const double kilometres : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
       const double observed = JonswapWaveHeight(wind, 1e3 * kilometres);
@@ -240,12 +234,10 @@ absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options) {
        .caption = "Mean square slope along and across the wind, fully developed. The bands are one standard "
                   "deviation of the observations of Cox and Munk."},
       {.name = "real_sea_heights",
-       .caption =
-           "Significant wave height: over wind, fully developed (left), and over fetch at 10 m/s (right)."},
+       .caption = "Significant wave height: over wind, fully developed (left), and over fetch at 10 m/s (right)."},
       {.name = "spectra_thu",
-       .caption =
-           "Ratio of the THU of Elfouhaily's sea to that of Apel's over wind, closed form, 20 degrees: for "
-           "several footprints (fully developed, left) and several fetches (footprint 0.5 m, right)."}};
+       .caption = "Ratio of the THU of Elfouhaily's sea to that of Apel's over wind, closed form, 20 degrees: for "
+                  "several footprints (fully developed, left) and several fetches (footprint 0.5 m, right)."}};
   return study;
 }
 

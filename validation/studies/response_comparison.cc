@@ -78,9 +78,7 @@ WindSea NarrowSea() { return {.wind_speed_10m = 6, .spreading = 15}; }
 
 }  // namespace
 
-ResponseSea ResponseSeaOf(std::string name, const WindSea& waves) {
-  return {std::move(name), waves, SamplesOf(waves)};
-}
+ResponseSea ResponseSeaOf(std::string name, const WindSea& waves) { return {std::move(name), waves, SamplesOf(waves)}; }
 
 ResponseSea ResponseSeaOf(std::string name, const HarmonicSpectrum& spectrum) {
   const KnownWaves waves{std::make_shared<SampledSpectrum>(
@@ -168,22 +166,20 @@ constexpr Bound kUnderFarLongerBeams = {ComparedQuantity::kThu, kAny, 0.015};
 Comparison Judge(const std::vector<ComparedBeam>& beams, const Bound& bound, const char* seas) {
   const double k = StandardErrorsFor(static_cast<int>(kComparedQuantities.size() * beams.size()));
   const Agreement found = AgreementOf(beams, bound.quantity, k);
-  Comparison judged{.quantity = absl::StrFormat("theory over tracing, %s, rms departure from 1, %s",
-                                                Name(bound.quantity), seas),
-                    .unit = "%",
-                    .published = 0,
-                    .ours = 100 * found.rms,
-                    .standard_error = 100 * found.standard_error,
-                    .basis = "no verdict: under no beam is it large enough to matter"};
+  Comparison judged{
+      .quantity = absl::StrFormat("theory over tracing, %s, rms departure from 1, %s", Name(bound.quantity), seas),
+      .unit = "%",
+      .published = 0,
+      .ours = 100 * found.rms,
+      .standard_error = 100 * found.standard_error,
+      .basis = "no verdict: under no beam is it large enough to matter"};
   if (found.beams == 0) return judged;
-  const bool agrees =
-      found.worst_beyond <= bound.each && found.rms <= std::hypot(bound.rms, found.standard_error);
+  const bool agrees = found.worst_beyond <= bound.each && found.rms <= std::hypot(bound.rms, found.standard_error);
   judged.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;
   const std::string of_all =
       std::isinf(bound.rms) ? "" : absl::StrFormat("%.2f %% rms besides standard errors, ", 100 * bound.rms);
-  judged.basis =
-      absl::StrFormat("within %s%.2f %% and %.1f standard errors for each of %d beams; at worst %.2f %%",
-                      of_all, 100 * bound.each, k, found.beams, 100 * found.worst);
+  judged.basis = absl::StrFormat("within %s%.2f %% and %.1f standard errors for each of %d beams; at worst %.2f %%",
+                                 of_all, 100 * bound.each, k, found.beams, 100 * found.worst);
   return judged;
 }
 
@@ -198,16 +194,16 @@ std::vector<ComparedBeam> CompareBeams(const ResponseSea& sea, SeaCase sea_case,
   grid.points_per_footprint *= effort.finer;
   grid.rays = std::min(effort.finer * effort.finer * grid.rays, kMaxRays);
   sea_case.discretization = grid;
-  const SeaCaseResult traced = Simulate(
-      sea_case, {.realizations = effort.realizations, .most_realizations = effort.realizations}, seed, cell);
+  const SeaCaseResult traced =
+      Simulate(sea_case, {.realizations = effort.realizations, .most_realizations = effort.realizations}, seed, cell);
   const SeaResponse theory(sea.spectrum, sea_case.refractive_index);
   const double all_slopes = SlopeCovariance(state).trace();
   std::vector<ComparedBeam> compared;
   for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
     const BeamOptions& beam = sea_case.beams[b];
     const auto power = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
-    compared.push_back({sea.name, beam, sea_case.refractive_index,
-                        SlopeCovariance(state, power).trace() / all_slopes, theory(beam), traced.beams[b]});
+    compared.push_back({sea.name, beam, sea_case.refractive_index, SlopeCovariance(state, power).trace() / all_slopes,
+                        theory(beam), traced.beams[b]});
   }
   return compared;
 }
@@ -279,8 +275,7 @@ Estimate RatioOf(const ComparedBeam& beam, ComparedQuantity quantity) {
   return {};
 }
 
-Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity,
-                      double standard_errors) {
+Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity, double standard_errors) {
   Agreement agreement;
   double squares = 0, variances = 0;
   for (const ComparedBeam& beam : beams) {
@@ -309,8 +304,7 @@ std::vector<Comparison> VerdictsOnResolvedSeas(const std::vector<ComparedBeam>& 
   std::vector<ComparedBeam> shorter, longer;
   for (const ComparedBeam& beam : beams) (beam.seen < kFarLonger ? longer : shorter).push_back(beam);
   std::vector<Comparison> verdicts;
-  for (const Bound& bound : kOnResolvedSeas)
-    verdicts.push_back(Judge(shorter, bound, "seas that a grid holds"));
+  for (const Bound& bound : kOnResolvedSeas) verdicts.push_back(Judge(shorter, bound, "seas that a grid holds"));
   verdicts.push_back(Judge(longer, kUnderFarLongerBeams, "footprints far longer than the waves"));
   return verdicts;
 }

@@ -60,10 +60,10 @@ std::vector<ComparedBeam> CompareRandomBeams(const std::vector<ResponseSea>& sea
 // The compared quantities of a beam, with lower limits: refraction from 0.2 degrees on, TVU and the bias along the beam
 // from 0.5 mm per metre of depth, THU at the surface from 0.5 mm.
 enum class ComparedQuantity { kAlong, kCross, kThu, kTvu, kBiasAlongBeam, kBiasVertical, kThuAtSurface };
-inline constexpr std::array kComparedQuantities = {
-    ComparedQuantity::kAlong,       ComparedQuantity::kCross,         ComparedQuantity::kThu,
-    ComparedQuantity::kTvu,         ComparedQuantity::kBiasAlongBeam, ComparedQuantity::kBiasVertical,
-    ComparedQuantity::kThuAtSurface};
+inline constexpr std::array kComparedQuantities = {ComparedQuantity::kAlong,         ComparedQuantity::kCross,
+                                                   ComparedQuantity::kThu,           ComparedQuantity::kTvu,
+                                                   ComparedQuantity::kBiasAlongBeam, ComparedQuantity::kBiasVertical,
+                                                   ComparedQuantity::kThuAtSurface};
 const char* Name(ComparedQuantity quantity);  // "along", "cross", "thu", ...
 
 // The theory over the tracing, with the standard error of the tracing; NaN where the quantity is too small.
@@ -76,8 +76,7 @@ struct Agreement {
   double standard_error = 0;  // rms of those of the tracing
   double worst_beyond = 0;    // the largest error less `allowed` standard errors
 };
-Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity,
-                      double standard_errors);
+Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity, double standard_errors);
 
 // Whether the theory is within its bounds of the tracing, for each quantity; and its closer bounds on seas of which a
 // grid holds all waves.

@@ -37,10 +37,9 @@ absl::StatusOr<Table5> ReadTable5(const std::filesystem::path& folder) {
   const absl::StatusOr<PublishedTable> table = PublishedTable::Read(folder / "table5_thu_tvu.csv");
   if (!table.ok()) return table.status();
   Table5 result;
-  for (const auto& [name, column] :
-       {std::pair{"depth_m", &result.depth}, std::pair{"thu_m", &result.thu},
-        std::pair{"iho_1b_thu_m", &result.thu_limit}, std::pair{"tvu_m", &result.tvu},
-        std::pair{"iho_1b_tvu_m", &result.tvu_limit}}) {
+  for (const auto& [name, column] : {std::pair{"depth_m", &result.depth}, std::pair{"thu_m", &result.thu},
+                                     std::pair{"iho_1b_thu_m", &result.thu_limit}, std::pair{"tvu_m", &result.tvu},
+                                     std::pair{"iho_1b_tvu_m", &result.tvu_limit}}) {
     absl::StatusOr<std::vector<double>> numbers = table->Numbers(name);
     if (!numbers.ok()) return numbers.status();
     *column = *std::move(numbers);
@@ -68,8 +67,7 @@ void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours
   }
 }
 
-double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
-                        double per_depth) {
+double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published, double per_depth) {
   double greatest = 0;
   for (std::size_t i = 0; i < depth.size(); ++i)
     greatest = std::max(greatest, std::abs(depth[i] * per_depth - published[i]));
@@ -100,32 +98,30 @@ void CompareLimits(const Table5& paper, Study& study) {
                                .basis = "within 0.005 m, the rounding of two decimals"});
   const double depth = paper.depth.back();
   const double limit = ThuLimit(S44Order::k1b, depth);
-  study.comparisons.push_back(
-      {.quantity = absl::StrFormat("THU limit of order 1b in S-44 itself at %g m", depth),
-       .unit = "m",
-       .published = paper.thu_limit.back(),
-       .ours = limit,
-       .verdict = Judge(limit - paper.thu_limit.back(), kLimitTolerance),
-       .basis = absl::StrCat("within 0.005 m of 5 m + 5 % of the depth (", std::string(kS44Edition),
-                             "); the paper prints 2 %")});
+  study.comparisons.push_back({.quantity = absl::StrFormat("THU limit of order 1b in S-44 itself at %g m", depth),
+                               .unit = "m",
+                               .published = paper.thu_limit.back(),
+                               .ours = limit,
+                               .verdict = Judge(limit - paper.thu_limit.back(), kLimitTolerance),
+                               .basis = absl::StrCat("within 0.005 m of 5 m + 5 % of the depth (",
+                                                     std::string(kS44Edition), "); the paper prints 2 %")});
 }
 
 DataTable BesideTable5(const Table5& paper, const AngleMethodUncertainty& quadrature,
                        const AngleMethodUncertainty& draws) {
   DataTable table{
       .name = "table_5",
-      .title =
-          "Table 5 as printed (columns of the paper), and by the angle method from the angles of Table 4",
-      .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m",
-                  "quadrature_tvu_m", "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m",
-                  "s44_1b_thu_limit_m", "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
+      .title = "Table 5 as printed (columns of the paper), and by the angle method from the angles of Table 4",
+      .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m", "quadrature_tvu_m",
+                  "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m", "s44_1b_thu_limit_m",
+                  "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
       .rows = {}};
   for (std::size_t i = 0; i < paper.depth.size(); ++i) {
     const double d = paper.depth[i];
-    table.rows.push_back({d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth,
-                          paper.tvu[i], d * quadrature.tvu_per_depth, d * draws.tvu_per_depth,
-                          paper.thu_limit[i], ThuLimitAsPrintedByBirkebak(d), ThuLimit(S44Order::k1b, d),
-                          paper.tvu_limit[i], TvuLimit(S44Order::k1b, d)});
+    table.rows.push_back({d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth, paper.tvu[i],
+                          d * quadrature.tvu_per_depth, d * draws.tvu_per_depth, paper.thu_limit[i],
+                          ThuLimitAsPrintedByBirkebak(d), ThuLimit(S44Order::k1b, d), paper.tvu_limit[i],
+                          TvuLimit(S44Order::k1b, d)});
   }
   return table;
 }
@@ -145,20 +141,18 @@ absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
   const double angle = RadiansOfDegrees(std::hypot(cell.along, cell.cross));
   const double refracted = StillWaterRefraction(incidence, kRefractiveIndex);
   const AngleMethodUncertainty quadrature = AngleMethod(refracted, angle);
-  const AngleMethodUncertainty draws =
-      AngleMethodByDraws(refracted, angle, kDraws, NormalStream(options.seed, 0, 0));
+  const AngleMethodUncertainty draws = AngleMethodByDraws(refracted, angle, kDraws, NormalStream(options.seed, 0, 0));
   const AngleMethodUncertainty in_air = AngleMethod(incidence, angle);
 
   Study study;
   study.id = "table_5";
   study.title = "Table 5: THU and TVU from measured angles";
   study.paragraphs = {
-      absl::StrFormat(
-          "Eq. 24-26 convert a refraction angle to THU and TVU. theta is the angle of the ray in still "
-          "water, %.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 "
-          "sigma = sqrt(along^2 + cross^2) = %.3f degrees from Table 4 at %g m/s. We evaluate them by "
-          "quadrature, which has no random error, and with one set of 10,000 draws as in the paper.",
-          DegreesOfRadians(refracted), measured->incidences.back(), DegreesOfRadians(angle), wind_speed),
+      absl::StrFormat("Eq. 24-26 convert a refraction angle to THU and TVU. theta is the angle of the ray in still "
+                      "water, %.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 "
+                      "sigma = sqrt(along^2 + cross^2) = %.3f degrees from Table 4 at %g m/s. We evaluate them by "
+                      "quadrature, which has no random error, and with one set of 10,000 draws as in the paper.",
+                      DegreesOfRadians(refracted), measured->incidences.back(), DegreesOfRadians(angle), wind_speed),
       absl::StrFormat(
           "The paper does not say in which medium theta is measured. With the incidence in air the THU at 10 "
           "m would be %.2f m and the TVU %.2f m, while the paper prints %.2f m and %.2f m.",
@@ -170,10 +164,10 @@ absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
   CompareByDraws(*paper, draws, study);
   CompareLimits(*paper, study);
   study.tables = {BesideTable5(*paper, quadrature, draws)};
-  study.figures = {
-      {.name = "table_5_thu_tvu",
-       .caption = "THU and TVU over depth: Table 5 (points) and the angle method (lines), with the TVU limit "
-                  "of S-44 order 1b. The THU limit, above 5 m, is off the scale."}};
+  study.figures = {{.name = "table_5_thu_tvu",
+                    .caption =
+                        "THU and TVU over depth: Table 5 (points) and the angle method (lines), with the TVU limit "
+                        "of S-44 order 1b. The THU limit, above 5 m, is off the scale."}};
   return study;
 }
 
@@ -182,17 +176,16 @@ namespace {
 DataTable EachBeam(const std::vector<ComparedBeam>& beams, std::string name, std::string title) {
   DataTable table{.name = std::move(name),
                   .title = std::move(title),
-                  .columns = {"sea", "incidence_deg", "azimuth_deg", "footprint_m", "profile",
-                              "refractive_index", "seen", "quantity", "ratio", "standard_error"},
+                  .columns = {"sea", "incidence_deg", "azimuth_deg", "footprint_m", "profile", "refractive_index",
+                              "seen", "quantity", "ratio", "standard_error"},
                   .rows = {},
                   .on_the_page = false};
   for (const ComparedBeam& each : beams) {
     for (const ComparedQuantity quantity : kComparedQuantities) {
       const Estimate ratio = RatioOf(each, quantity);
       if (std::isnan(ratio.value)) continue;
-      table.rows.push_back({each.sea, DegreesOfRadians(each.beam.incidence),
-                            DegreesOfRadians(each.beam.azimuth), each.beam.footprint,
-                            std::string(Name(each.beam.profile)), each.refractive_index, each.seen,
+      table.rows.push_back({each.sea, DegreesOfRadians(each.beam.incidence), DegreesOfRadians(each.beam.azimuth),
+                            each.beam.footprint, std::string(Name(each.beam.profile)), each.refractive_index, each.seen,
                             std::string(Name(quantity)), ratio.value, ratio.standard_error});
     }
   }
@@ -200,21 +193,20 @@ DataTable EachBeam(const std::vector<ComparedBeam>& beams, std::string name, std
 }
 
 DataTable EachSea(const std::vector<ComparedBeam>& beams) {
-  DataTable table{
-      .name = "response_theory",
-      .title =
-          "Theory over tracing on each sea: departures from 1 in %, rms and standard error of the "
-          "tracing, at a depth of 20 m",
-      .columns = {"sea", "beams", "along_rms", "along_error", "cross_rms", "cross_error", "thu_rms",
-                  "thu_error", "tvu_rms", "tvu_error"},
-      .rows = {}};
+  DataTable table{.name = "response_theory",
+                  .title =
+                      "Theory over tracing on each sea: departures from 1 in %, rms and standard error of the "
+                      "tracing, at a depth of 20 m",
+                  .columns = {"sea", "beams", "along_rms", "along_error", "cross_rms", "cross_error", "thu_rms",
+                              "thu_error", "tvu_rms", "tvu_error"},
+                  .rows = {}};
   for (std::size_t first = 0; first < beams.size();) {
     std::size_t last = first;
     while (last < beams.size() && beams[last].sea == beams[first].sea) ++last;
     const std::vector<ComparedBeam> of_sea(beams.begin() + first, beams.begin() + last);
     std::vector<Cell> row = {of_sea.front().sea, static_cast<double>(of_sea.size())};
-    for (const ComparedQuantity quantity : {ComparedQuantity::kAlong, ComparedQuantity::kCross,
-                                            ComparedQuantity::kThu, ComparedQuantity::kTvu}) {
+    for (const ComparedQuantity quantity :
+         {ComparedQuantity::kAlong, ComparedQuantity::kCross, ComparedQuantity::kThu, ComparedQuantity::kTvu}) {
       const Agreement found = AgreementOf(of_sea, quantity, 0);
       row.push_back(found.beams > 0 ? 100 * found.rms : kNoNumber);
       row.push_back(found.beams > 0 ? 100 * found.standard_error : kNoNumber);
@@ -251,16 +243,13 @@ absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options) {
       "square slope of 0.15. At the depth 0 it is of leading order in slope, where some millimetres are at "
       "stake. It takes the sea as Gaussian, as the Monte Carlo does."};
   study.comparisons = VerdictsOnManySeas(many);
-  for (Comparison& verdict : VerdictsOnResolvedSeas(resolved))
-    study.comparisons.push_back(std::move(verdict));
-  study.tables = {EachSea(many),
-                  EachBeam(many, "response_theory_many_seas", "Each beam on many seas, theory over tracing"),
-                  EachBeam(resolved, "response_theory_resolved_seas",
-                           "Each beam on seas that a grid holds, theory over tracing")};
+  for (Comparison& verdict : VerdictsOnResolvedSeas(resolved)) study.comparisons.push_back(std::move(verdict));
+  study.tables = {
+      EachSea(many), EachBeam(many, "response_theory_many_seas", "Each beam on many seas, theory over tracing"),
+      EachBeam(resolved, "response_theory_resolved_seas", "Each beam on seas that a grid holds, theory over tracing")};
   study.figures = {{.name = "response_theory",
-                    .caption =
-                        "The theory over tracing for each beam, by the fraction of the mean square slope "
-                        "that its footprint passes. Bars are standard errors of the tracing."}};
+                    .caption = "The theory over tracing for each beam, by the fraction of the mean square slope "
+                               "that its footprint passes. Bars are standard errors of the tracing."}};
   return study;
 }
 

@@ -30,8 +30,7 @@ std::vector<Point> SurveyDomain() {
   for (const double wind : {2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0})
     for (const double fetch : {1e3, 1e4, 1e5, kFullyDeveloped})
       for (const double incidence : {0.0, 10.0, 20.0})
-        for (const double footprint : {0.25, 0.5, 1.0, 2.0})
-          points.push_back({wind, fetch, incidence, footprint});
+        for (const double footprint : {0.25, 0.5, 1.0, 2.0}) points.push_back({wind, fetch, incidence, footprint});
   return points;
 }
 
@@ -41,8 +40,7 @@ SeaOptions SeaOf(const Point& point, const SpectrumModel& model) {
 
 SmallSlopeUncertainty ClosedFormAt(const Point& point, const SpectrumModel& model) {
   return ClosedForm(SeaState(SeaOf(point, model)),
-                    {.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint},
-                    kRefractiveIndex);
+                    {.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint}, kRefractiveIndex);
 }
 
 Cell FetchCell(double fetch) {
@@ -85,21 +83,19 @@ RatioSummary CompareInClosedForm(Study& study) {
     thu.push_back(e.thu_per_depth / a.thu_per_depth);
     if (a.tvu_per_depth > 0) tvu.push_back(e.tvu_per_depth / a.tvu_per_depth);
     const auto degrees = DegreesOfRadians;
-    table.rows.push_back({points[i].wind_speed, FetchCell(points[i].fetch), points[i].incidence,
-                          points[i].footprint, degrees(a.refraction_along_wind),
-                          degrees(e.refraction_along_wind), degrees(a.refraction_cross_wind),
-                          degrees(e.refraction_cross_wind), a.thu_per_depth, e.thu_per_depth, a.tvu_per_depth,
-                          e.tvu_per_depth, thu.back()});
+    table.rows.push_back({points[i].wind_speed, FetchCell(points[i].fetch), points[i].incidence, points[i].footprint,
+                          degrees(a.refraction_along_wind), degrees(e.refraction_along_wind),
+                          degrees(a.refraction_cross_wind), degrees(e.refraction_cross_wind), a.thu_per_depth,
+                          e.thu_per_depth, a.tvu_per_depth, e.tvu_per_depth, thu.back()});
   }
   study.tables.push_back(std::move(table));
 
-  DataTable summary{
-      .name = "spectra_ratios",
-      .title = absl::StrFormat("The ratio of Elfouhaily's 2 sigma value to Apel's at %d points: winds of "
-                               "2-15 m/s, fetches from 1 km, 0-20 degrees, footprints of 0.25-2 m",
-                               static_cast<int>(points.size())),
-      .columns = {"quantity", "least", "percent_5", "median", "percent_95", "greatest"},
-      .rows = {}};
+  DataTable summary{.name = "spectra_ratios",
+                    .title = absl::StrFormat("The ratio of Elfouhaily's 2 sigma value to Apel's at %d points: winds of "
+                                             "2-15 m/s, fetches from 1 km, 0-20 degrees, footprints of 0.25-2 m",
+                                             static_cast<int>(points.size())),
+                    .columns = {"quantity", "least", "percent_5", "median", "percent_95", "greatest"},
+                    .rows = {}};
   for (const auto& [name, ratios] : {std::pair{"refraction along wind", &along},
                                      {"refraction cross wind", &cross},
                                      {"THU", &thu},
@@ -110,8 +106,7 @@ RatioSummary CompareInClosedForm(Study& study) {
         {.quantity = absl::StrFormat("%s, Elfouhaily over Apel, median", name),
          .unit = "1",
          .ours = r.median,
-         .basis = absl::StrFormat("the uncertainty of the model: %.2f to %.2f at nine of ten points", r.low,
-                                  r.high)});
+         .basis = absl::StrFormat("the uncertainty of the model: %.2f to %.2f at nine of ten points", r.low, r.high)});
   }
   study.tables.push_back(std::move(summary));
   return Summarize(thu);
@@ -119,18 +114,17 @@ RatioSummary CompareInClosedForm(Study& study) {
 
 void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
   constexpr double kDepth = 10;  // m
-  const Effort effort{.realizations = options.quick ? 400 : 3000,
-                      .most_realizations = options.quick ? 400 : 3000};
-  DataTable table{.name = "spectra_monte_carlo",
-                  .title =
-                      "THU and TVU at 10 m by Monte Carlo for both spectra, beam along the wind, with "
-                      "standard errors; the ratio of THU, and that in closed form",
-                  .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_thu_m",
-                              "apel_thu_standard_error_m", "elfouhaily_thu_m",
-                              "elfouhaily_thu_standard_error_m", "apel_tvu_m", "apel_tvu_standard_error_m",
-                              "elfouhaily_tvu_m", "elfouhaily_tvu_standard_error_m", "thu_ratio",
-                              "thu_ratio_standard_error", "thu_ratio_closed_form"},
-                  .rows = {}};
+  const Effort effort{.realizations = options.quick ? 400 : 3000, .most_realizations = options.quick ? 400 : 3000};
+  DataTable table{
+      .name = "spectra_monte_carlo",
+      .title =
+          "THU and TVU at 10 m by Monte Carlo for both spectra, beam along the wind, with "
+          "standard errors; the ratio of THU, and that in closed form",
+      .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_thu_m",
+                  "apel_thu_standard_error_m", "elfouhaily_thu_m", "elfouhaily_thu_standard_error_m", "apel_tvu_m",
+                  "apel_tvu_standard_error_m", "elfouhaily_tvu_m", "elfouhaily_tvu_standard_error_m", "thu_ratio",
+                  "thu_ratio_standard_error", "thu_ratio_closed_form"},
+      .rows = {}};
   std::uint32_t cell = 0;
   for (const Point& point : {Point{3, 1e4, 20, 0.5},
                              {6, kFullyDeveloped, 0, 0.5},
@@ -151,11 +145,10 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
                                                   apel.thu[0].standard_error / apel.thu[0].value);
     const double closed_form =
         ClosedFormAt(point, kElfouhailyModel).thu_per_depth / ClosedFormAt(point, kApelModel).thu_per_depth;
-    table.rows.push_back({point.wind_speed, FetchCell(point.fetch), point.incidence, point.footprint,
-                          apel.thu[0].value, apel.thu[0].standard_error, elfouhaily.thu[0].value,
-                          elfouhaily.thu[0].standard_error, apel.tvu[0].value, apel.tvu[0].standard_error,
-                          elfouhaily.tvu[0].value, elfouhaily.tvu[0].standard_error, ratio, ratio_error,
-                          closed_form});
+    table.rows.push_back({point.wind_speed, FetchCell(point.fetch), point.incidence, point.footprint, apel.thu[0].value,
+                          apel.thu[0].standard_error, elfouhaily.thu[0].value, elfouhaily.thu[0].standard_error,
+                          apel.tvu[0].value, apel.tvu[0].standard_error, elfouhaily.tvu[0].value,
+                          elfouhaily.tvu[0].standard_error, ratio, ratio_error, closed_form});
   }
   study.tables.push_back(std::move(table));
 }

@@ -72,8 +72,7 @@ void AddSpot(const std::vector<Eigen::Vector2d>& ends, const std::vector<Eigen::
   constexpr double kBin = 0.003;  // m
   const Eigen::Vector2d still = Centroid(still_ends), moved = Centroid(ends);
   const std::vector<Eigen::Vector2d> edge = EdgeOf(still_ends);
-  const double rays_per_bin =
-      static_cast<double>(ends.size()) * kBin * kBin / AreaWithin(edge);  // of an even spot
+  const double rays_per_bin = static_cast<double>(ends.size()) * kBin * kBin / AreaWithin(edge);  // of an even spot
   std::vector<int> count(kBins * kBins);
   for (const Eigen::Vector2d& end : ends) {
     const Eigen::Vector2d bin = (end - still) / kBin + Eigen::Vector2d::Constant(kBins / 2);
@@ -186,18 +185,14 @@ DataTable DirectionalSpectrum(const SeaState& sea) {
 }
 
 absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options, Study& study) {
-  const absl::StatusOr<PublishedTable> table =
-      PublishedTable::Read(options.published / "table2_wave_staff.csv");
+  const absl::StatusOr<PublishedTable> table = PublishedTable::Read(options.published / "table2_wave_staff.csv");
   if (!table.ok()) return table.status();
   const auto fetch = table->Numbers("distance_downwind_m"), wavelength = table->Numbers("peak_wavelength_m"),
-             frequency = table->Numbers("peak_frequency_hz"),
-             height = table->Numbers("significant_wave_height_m");
-  for (const auto* column : {&fetch, &wavelength, &frequency, &height}) {
+             frequency = table->Numbers("peak_frequency_hz"), height = table->Numbers("significant_wave_height_m");
+  for (const auto* column : {&fetch, &wavelength, &frequency, &height})
     if (!column->ok()) return column->status();
-  }
   const std::size_t row = std::find(fetch->begin(), fetch->end(), kFetch) - fetch->begin();
-  if (row == fetch->size())
-    return absl::InvalidArgumentError("table2_wave_staff.csv: no row for a fetch of 5.5 m");
+  if (row == fetch->size()) return absl::InvalidArgumentError("table2_wave_staff.csv: no row for a fetch of 5.5 m");
   const char* basis = "no verdict: Table 2 does not state its wind";
   study.comparisons.push_back({.quantity = "Peak wavelength, 5 m/s, fetch 5.5 m, Eq. 3",
                                .unit = "m",
@@ -266,18 +261,12 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
        .unit = "1",
        .published = 1,
        .ours = variance / omnidirectional,
-       .verdict =
-           std::abs(variance / omnidirectional - 1) < kQuadrature ? Verdict::kAgrees : Verdict::kDiffers,
+       .verdict = std::abs(variance / omnidirectional - 1) < kQuadrature ? Verdict::kAgrees : Verdict::kDiffers,
        .basis = "within 1e-4, the error of the quadratures, because the spreading integrates to one"});
   BeamPicture picture = PictureOf(sea, options.seed);
-  study.tables = {Spectrum(sea),
-                  Spreading(sea),
-                  DirectionalSpectrum(sea),
-                  std::move(picture.surface),
-                  std::move(picture.rays),
-                  std::move(picture.spot),
-                  std::move(picture.still_spot),
-                  std::move(picture.centroids)};
+  study.tables = {
+      Spectrum(sea),           Spreading(sea),          DirectionalSpectrum(sea),      std::move(picture.surface),
+      std::move(picture.rays), std::move(picture.spot), std::move(picture.still_spot), std::move(picture.centroids)};
   study.figures = {
       {.name = "figure_2",
        .caption = "Figure 2: (a) the omnidirectional spectrum S(k), (b) the spreading, (c) the directional "
@@ -286,9 +275,8 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
        .caption = "Figure 3: one realization of that sea at true scale, and rays of a 0.25 m beam refracted "
                   "through it down to the depth of the detectors, 0.25 m."},
       {.name = "figure_3_spot",
-       .caption =
-           "The same beam 0.25 m down: distribution of power over the detector plane, with caustics. The "
-           "closed curve is the edge of the spot in still water, the crosses are the two centroids."}};
+       .caption = "The same beam 0.25 m down: distribution of power over the detector plane, with caustics. The "
+                  "closed curve is the edge of the spot in still water, the crosses are the two centroids."}};
   return study;
 }
 

@@ -18,8 +18,8 @@ struct BeamPicture {
                     .on_the_page = false};
   DataTable rays{.name = "figure_3_rays",
                  .title = "Rays of the beam: points above the water, on the surface and 0.25 m below it",
-                 .columns = {"x_above_m", "y_above_m", "z_above_m", "x_surface_m", "y_surface_m",
-                             "z_surface_m", "x_bottom_m", "y_bottom_m", "z_bottom_m"},
+                 .columns = {"x_above_m", "y_above_m", "z_above_m", "x_surface_m", "y_surface_m", "z_surface_m",
+                             "x_bottom_m", "y_bottom_m", "z_bottom_m"},
                  .rows = {},
                  .on_the_page = false};
   DataTable spot{.name = "figure_3_spot",

@@ -69,8 +69,8 @@ std::vector<Found> FoundApart() {
           {kWide, 0.2, 10, 20.4, 11.5, 1.96, 0.05, 0.05},  {kWide, 0.2, 20, 53.3, 23, 3.36, 0.05, 0.5}};
 }
 
-Comparison Compared(std::string quantity, std::string unit, double published, const Estimate& ours,
-                    double allowed, std::string basis) {
+Comparison Compared(std::string quantity, std::string unit, double published, const Estimate& ours, double allowed,
+                    std::string basis) {
   return {.quantity = std::move(quantity),
           .unit = std::move(unit),
           .published = published,
@@ -84,8 +84,8 @@ void AddMoments(Study& study) {
   const std::string basis = "within 2e-5; integrated apart from this code, with the light below 1e-6 rad";
   study.comparisons.push_back(
       Compared("Fournier-Forand 0.0183: mean cosine", "", 0.930004, {Ocean().MeanCosine(), 0}, 2e-5, basis));
-  study.comparisons.push_back(Compared("Fournier-Forand 0.0183: mean of P2", "", 0.877219,
-                                       {Ocean().MeanSecondLegendre(), 0}, 2e-5, basis));
+  study.comparisons.push_back(
+      Compared("Fournier-Forand 0.0183: mean of P2", "", 0.877219, {Ocean().MeanSecondLegendre(), 0}, 2e-5, basis));
   study.comparisons.push_back(Compared("Fournier-Forand 0.0183: mean square angle", "rad2", 0.176922,
                                        {Ocean().MeanSquareAngle(), 0}, 2e-5, basis));
 }
@@ -93,8 +93,8 @@ void AddMoments(Study& study) {
 void AddSlab(const StudyOptions& options, Study& study) {
   const double depths[] = {1.8};
   const std::uint32_t photons = options.quick ? 200'000 : 2'000'000;
-  const auto slab = WalkPhotons(PhaseFunction::HenyeyGreenstein(0.75), {.refractive_index = 1}, depths,
-                                photons, options.seed, 0, 0);
+  const auto slab =
+      WalkPhotons(PhaseFunction::HenyeyGreenstein(0.75), {.refractive_index = 1}, depths, photons, options.seed, 0, 0);
   double sum = 0, squares = 0;
   for (const float excess : slab[0].excess) {
     const double weight = std::exp(-(double{excess} + depths[0]) / 9);
@@ -102,9 +102,9 @@ void AddSlab(const StudyOptions& options, Study& study) {
     squares += weight * weight;
   }
   const double mean = sum / photons, error = std::sqrt((squares / photons - mean * mean) / photons);
-  study.comparisons.push_back(
-      Compared("light through a slab: optical depth 2, albedo 0.9, Henyey-Greenstein 0.75", "", 0.66096,
-               {mean, error}, 4 * error, "within 4 standard errors of van de Hulst (1980)"));
+  study.comparisons.push_back(Compared("light through a slab: optical depth 2, albedo 0.9, Henyey-Greenstein 0.75", "",
+                                       0.66096, {mean, error}, 4 * error,
+                                       "within 4 standard errors of van de Hulst (1980)"));
 }
 
 // Energy after small angles with absorption: sech(1) at sqrt(a D) z = 1.
@@ -121,9 +121,9 @@ void AddSmallAngles(const StudyOptions& options, Study& study) {
     squares += weight * weight;
   }
   const double mean = sum / photons, error = std::sqrt((squares / photons - mean * mean) / photons);
-  study.comparisons.push_back(
-      Compared("energy after many small angles with absorption", "", 1 / std::cosh(1.0), {mean, error},
-               0.001 + 4 * error, "within 0.001 and 4 standard errors of sech(1): exact for small angles"));
+  study.comparisons.push_back(Compared("energy after many small angles with absorption", "", 1 / std::cosh(1.0),
+                                       {mean, error}, 0.001 + 4 * error,
+                                       "within 0.001 and 4 standard errors of sech(1): exact for small angles"));
 }
 
 void AddRoundTrips(const StudyOptions& options, Study& study) {
@@ -140,8 +140,8 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
                        .field_of_view = kWide.field_of_view,
                        .footprint = kWide.footprint};
   const WaterColumnBias trips = BiasOfEchoes(
-      TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 100'000 : 1'000'000, options.seed),
-      column, pulses);
+      TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 100'000 : 1'000'000, options.seed), column,
+      pulses);
   const WalkSetup beam{.refracted = RefractedAngle(column.incidence, kRefractiveIndex),
                        .longest_excess = 14 / column.absorption};
   WalkSetup receiver = beam;
@@ -166,23 +166,21 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
     const Estimate &whole = trips.by_pulse[0]->vertical[Index(detector)],
                    &ours = pairs.by_pulse[0]->vertical[Index(detector)];
     const double error = depth * std::hypot(whole.standard_error, ours.standard_error);
-    study.comparisons.push_back(
-        Compared(absl::StrCat("vertical bias by ", std::string(kDetectorNames[Index(detector)]),
-                              ", whole round trips beside pairs of photons"),
-                 "m", depth * whole.value, {depth * ours.value, depth * ours.standard_error},
-                 std::max(0.001, 3 * error),
-                 "within 1 mm or 3 standard errors of both: light finds its way back as it would have come"));
+    study.comparisons.push_back(Compared(
+        absl::StrCat("vertical bias by ", std::string(kDetectorNames[Index(detector)]),
+                     ", whole round trips beside pairs of photons"),
+        "m", depth * whole.value, {depth * ours.value, depth * ours.standard_error}, std::max(0.001, 3 * error),
+        "within 1 mm or 3 standard errors of both: light finds its way back as it would have come"));
   }
 }
 
 void AddSystems(const StudyOptions& options, Study& study) {
-  DataTable table{
-      .name = "water_column",
-      .title = "Bottom reported too deep at 12 degrees, by detector, and the shift along the beam",
-      .columns = {"system", "attenuation_per_m", "depth_m", "peak_cm", "peak_error_cm", "peak_found_apart_cm",
-                  "half_cm", "half_error_cm", "half_found_apart_cm", "centroid_cm", "peak_along_cm",
-                  "half_along_cm", "spot_m", "spot_found_apart_m", "energy"},
-      .rows = {}};
+  DataTable table{.name = "water_column",
+                  .title = "Bottom reported too deep at 12 degrees, by detector, and the shift along the beam",
+                  .columns = {"system", "attenuation_per_m", "depth_m", "peak_cm", "peak_error_cm",
+                              "peak_found_apart_cm", "half_cm", "half_error_cm", "half_found_apart_cm", "centroid_cm",
+                              "peak_along_cm", "half_along_cm", "spot_m", "spot_found_apart_m", "energy"},
+                  .rows = {}};
   const WaterEffort effort{.photons = options.quick ? 40'000u : 200'000u, .seed = options.seed, .cell = 4};
   for (const Found& found : FoundApart()) {
     const WaterColumn column = ColumnOf(found.lidar, OfAttenuation(found.attenuation), 12, found.depth);
@@ -196,19 +194,17 @@ void AddSystems(const StudyOptions& options, Study& study) {
       return Estimate{-cm * vertical.value, cm * vertical.standard_error};
     };
     const Estimate peak = deep(Detector::kPeak), half = deep(Detector::kHalf);
-    table.rows.push_back({found.lidar.name, found.attenuation, found.depth, peak.value, peak.standard_error,
-                          found.peak, half.value, half.standard_error, found.half,
-                          deep(Detector::kCentroid).value, cm * detected.along[Index(Detector::kPeak)].value,
-                          cm * detected.along[Index(Detector::kHalf)].value, found.depth * bias.spot.value,
-                          found.spot, bias.energy.value});
-    const std::string where =
-        absl::StrCat(found.lidar.name, ", ", found.attenuation, " 1/m, ", found.depth, " m");
-    const std::string basis =
-        "within 0.2 cm, its rounding and 3 standard errors of a program apart from this one";
-    study.comparisons.push_back(Compared(absl::StrCat("too deep by the peak: ", where), "cm", found.peak,
-                                         peak, 0.2 + found.peak_rounding + 3 * peak.standard_error, basis));
-    study.comparisons.push_back(Compared(absl::StrCat("too deep at half height: ", where), "cm", found.half,
-                                         half, 0.2 + found.half_rounding + 3 * half.standard_error, basis));
+    table.rows.push_back({found.lidar.name, found.attenuation, found.depth, peak.value, peak.standard_error, found.peak,
+                          half.value, half.standard_error, found.half, deep(Detector::kCentroid).value,
+                          cm * detected.along[Index(Detector::kPeak)].value,
+                          cm * detected.along[Index(Detector::kHalf)].value, found.depth * bias.spot.value, found.spot,
+                          bias.energy.value});
+    const std::string where = absl::StrCat(found.lidar.name, ", ", found.attenuation, " 1/m, ", found.depth, " m");
+    const std::string basis = "within 0.2 cm, its rounding and 3 standard errors of a program apart from this one";
+    study.comparisons.push_back(Compared(absl::StrCat("too deep by the peak: ", where), "cm", found.peak, peak,
+                                         0.2 + found.peak_rounding + 3 * peak.standard_error, basis));
+    study.comparisons.push_back(Compared(absl::StrCat("too deep at half height: ", where), "cm", found.half, half,
+                                         0.2 + found.half_rounding + 3 * half.standard_error, basis));
   }
   study.tables.push_back(std::move(table));
 }

@@ -7,8 +7,8 @@
 #include <random>
 
 namespace albtpu {
-std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step,
-                                  std::uint32_t pools, std::uint32_t photons, std::uint64_t seed) {
+std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step, std::uint32_t pools,
+                                  std::uint32_t photons, std::uint64_t seed) {
   const double sine = std::sin(trip.incidence) / trip.refractive_index;
   const Eigen::Vector3d down(sine, 0, std::sqrt(1 - sine * sine));
   const double unscattered = trip.depth / down.z(), x0 = unscattered * sine;

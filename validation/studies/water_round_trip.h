@@ -28,9 +28,7 @@ struct RoundTrip {
   double cone = 10 * M_PI / 180;  // half angle, in the water, in which the receiver accepts light [radian]
 };
 
-inline double Uniform(std::mt19937_64& random) {
-  return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
-}
+inline double Uniform(std::mt19937_64& random) { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; }
 
 // `about` turned by the angle whose half has the sine `sin_half`, to a random side.
 inline Eigen::Vector3d Turned(const Eigen::Vector3d& about, double sin_half, std::mt19937_64& random) {
@@ -99,7 +97,7 @@ class Traveller {
 
 // Echoes as PairPhotons gives them, one for each pool of `photons` photons; their energy is relative to the light that
 // an unscattered beam sends into the cone.
-std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step,
-                                  std::uint32_t pools, std::uint32_t photons, std::uint64_t seed);
+std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step, std::uint32_t pools,
+                                  std::uint32_t photons, std::uint64_t seed);
 
 }  // namespace albtpu

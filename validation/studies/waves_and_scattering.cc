@@ -32,8 +32,8 @@ struct Arrival {
 
 // The photons of a beam of `footprint` that reach the bottom, through `surface` into water that scatters as `phase`, or
 // not at all.
-std::vector<Arrival> Arrivals(const std::vector<Ray>& rays, const HeightField& surface,
-                              const PhaseFunction* phase, const RoundTrip& trip, std::uint64_t seed) {
+std::vector<Arrival> Arrivals(const std::vector<Ray>& rays, const HeightField& surface, const PhaseFunction* phase,
+                              const RoundTrip& trip, std::uint64_t seed) {
   const double sine = std::sin(trip.incidence), cosine = std::cos(trip.incidence);
   const double refracted = std::asin(sine / trip.refractive_index);
   const double unscattered = trip.depth / std::cos(refracted);
@@ -57,17 +57,15 @@ std::vector<Arrival> Arrivals(const std::vector<Ray>& rays, const HeightField& s
       path = photon.path;
     }
     const double excess = path - unscattered;
-    arrivals.push_back(
-        {end.x(), end.y(), before + excess, phase == nullptr ? 1 : std::exp(-trip.absorption * excess)});
+    arrivals.push_back({end.x(), end.y(), before + excess, phase == nullptr ? 1 : std::exp(-trip.absorption * excess)});
   }
   return arrivals;
 }
 
-Echo Meet(const std::vector<Arrival>& lit, std::vector<Arrival> seen, const WavesAndScattering& at,
-          double step, std::uint64_t seed) {
+Echo Meet(const std::vector<Arrival>& lit, std::vector<Arrival> seen, const WavesAndScattering& at, double step,
+          std::uint64_t seed) {
   const double cell = at.trip.field_of_view / kCellsAcrossView;
-  const double straight =
-      at.trip.depth * std::tan(std::asin(std::sin(at.trip.incidence) / at.trip.refractive_index));
+  const double straight = at.trip.depth * std::tan(std::asin(std::sin(at.trip.incidence) / at.trip.refractive_index));
   const auto place = [&](const Arrival& a) {
     return std::pair(std::floor((a.x - straight) / cell), std::floor(a.y / cell));
   };
@@ -78,8 +76,7 @@ Echo Meet(const std::vector<Arrival>& lit, std::vector<Arrival> seen, const Wave
   for (const Arrival& source : lit) {
     const auto [begin, end] = std::equal_range(seen.begin(), seen.end(), source, before);
     for (int k = 0; k < kPairs && begin != end; ++k) {
-      const Arrival& receiver =
-          begin[static_cast<std::ptrdiff_t>(Uniform(random) * static_cast<double>(end - begin))];
+      const Arrival& receiver = begin[static_cast<std::ptrdiff_t>(Uniform(random) * static_cast<double>(end - begin))];
       echo.Add((source.time + receiver.time) / 2 / at.trip.depth,
                ((source.x + receiver.x) / 2 - straight) / at.trip.depth,
                source.weight * receiver.weight * static_cast<double>(end - begin));
@@ -98,31 +95,26 @@ class Simulation {
         at_(at),
         options_{.incidence = at.trip.incidence, .footprint = at.trip.field_of_view},
         model_(SeaState(at.wind, kInfinity), options_, {2, 200, 1}),
-        beam_({.incidence = at.trip.incidence,
-               .footprint = at.trip.footprint,
-               .profile = BeamProfile::kGaussian},
+        beam_({.incidence = at.trip.incidence, .footprint = at.trip.footprint, .profile = BeamProfile::kGaussian},
               photons),
         view_(options_, kReceiversPerSource * photons),
         pulse_(PulseLengthOverDepth(at.nanoseconds, at.trip.depth, at.trip.group_index)) {}
 
   HeightField Still() const { return model_.StillSurface(); }
-  HeightField Waves(const NormalStream& stream) const {
-    return SeaSurface(model_, stream).SurfaceUnder(view_).heights;
-  }
+  HeightField Waves(const NormalStream& stream) const { return SeaSurface(model_, stream).SurfaceUnder(view_).heights; }
 
   // The sequence of photons is of `seed`, and the same for every surface.
   Errors Report(const HeightField& surface, bool scatters, std::uint64_t seed) const {
     const PhaseFunction* phase = scatters ? &phase_ : nullptr;
-    const Echo echo = Meet(Arrivals(beam_.Rays(0), surface, phase, at_.trip, seed << 32),
-                           Arrivals(view_.Rays(0), surface, phase, at_.trip, (seed << 32) + (1 << 30)), at_,
-                           pulse_ / 30, seed);
+    const Echo echo =
+        Meet(Arrivals(beam_.Rays(0), surface, phase, at_.trip, seed << 32),
+             Arrivals(view_.Rays(0), surface, phase, at_.trip, (seed << 32) + (1 << 30)), at_, pulse_ / 30, seed);
     const DetectedBottom bottom = DetectBottom(echo, pulse_).value();
     const double refracted = std::asin(std::sin(at_.trip.incidence) / at_.trip.refractive_index);
     Errors errors;
     for (std::size_t d = 0; d < errors.size(); ++d) {
       const double late = bottom.by[d].time * at_.trip.depth;
-      errors[d] = {late * std::sin(refracted) - bottom.by[d].ahead * at_.trip.depth,
-                   -late * std::cos(refracted)};
+      errors[d] = {late * std::sin(refracted) - bottom.by[d].ahead * at_.trip.depth, -late * std::cos(refracted)};
     }
     return errors;
   }
@@ -136,8 +128,7 @@ class Simulation {
   double pulse_;
 };
 
-ReportedBottom Moments(const std::vector<std::array<Errors, 2>>& sample, std::size_t detector,
-                       const Errors& clear) {
+ReportedBottom Moments(const std::vector<std::array<Errors, 2>>& sample, std::size_t detector, const Errors& clear) {
   const auto count = static_cast<double>(sample.size());
   Eigen::Vector2d first = Eigen::Vector2d::Zero(), second = first, products = first;
   for (const auto& [one, other] : sample) {

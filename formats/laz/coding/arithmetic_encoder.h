@@ -78,8 +78,7 @@ class ArithmeticEncoder {
   [[gnu::always_inline]] void Raise(std::uint32_t by) {
     base_ += by;
     if (base_ < by) Carry(room_.next);
-    const std::uint32_t bytes =
-        std::uint32_t{length_ < 1u << 24} + (length_ < 1u << 16) + (length_ < 1u << 8);
+    const std::uint32_t bytes = std::uint32_t{length_ < 1u << 24} + (length_ < 1u << 16) + (length_ < 1u << 8);
     const std::uint32_t first = __builtin_bswap32(base_);
     std::memcpy(room_.next, &first, sizeof first);  // The next ones overwrite those behind `bytes`.
     room_.next += bytes;

@@ -63,17 +63,15 @@ class IntegerCoder {
 
   [[gnu::always_inline]] void Encode(ArithmeticEncoder& encoder, std::int32_t predicted, std::int32_t actual,
                                      std::uint32_t context = 0) {
-    const auto difference =
-        Signed(static_cast<std::uint32_t>(actual) - static_cast<std::uint32_t>(predicted));
-    const std::uint32_t magnitude = difference <= 0 ? 0u - static_cast<std::uint32_t>(difference)
-                                                    : static_cast<std::uint32_t>(difference) - 1;
+    const auto difference = Signed(static_cast<std::uint32_t>(actual) - static_cast<std::uint32_t>(predicted));
+    const std::uint32_t magnitude =
+        difference <= 0 ? 0u - static_cast<std::uint32_t>(difference) : static_cast<std::uint32_t>(difference) - 1;
     size_ = static_cast<std::uint32_t>(std::bit_width(magnitude));
     encoder.Symbol(sizes_[context], size_);
     if (size_ == 0) {
       encoder.Bit(zero_or_one_, difference != 0);
     } else if (size_ < 32) {
-      const std::uint32_t bits =
-          static_cast<std::uint32_t>(difference) + (difference < 0 ? (1u << size_) - 1 : 0u - 1);
+      const std::uint32_t bits = static_cast<std::uint32_t>(difference) + (difference < 0 ? (1u << size_) - 1 : 0u - 1);
       const int lower = size_ > kModelledBits ? static_cast<int>(size_) - kModelledBits : 0;
       encoder.Symbol(upper_[size_ - 1], bits >> lower);
       if (lower > 0) encoder.Bits(lower, bits & ((1u << lower) - 1));

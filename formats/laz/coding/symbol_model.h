@@ -84,9 +84,8 @@ class SymbolModel {
   [[gnu::noinline]] void Update() {
     if ((total_ += cycle_) > kMaxCounted) {
       total_ = 0;
-      for (std::uint32_t i = 0; i < symbols_; ++i) {
+      for (std::uint32_t i = 0; i < symbols_; ++i)
         total_ += shares_[i].count = static_cast<std::uint16_t>((shares_[i].count + 1) >> 1);
-      }
     }
     const std::uint32_t scale = 0x80000000u / total_;
     std::uint32_t sum = 0;

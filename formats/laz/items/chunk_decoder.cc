@@ -14,9 +14,8 @@ absl::Status PointwiseDecoder::Begin(const ByteSource& source, std::uint64_t beg
   assert(points > 0 && begin <= end && end <= source.size());
   begin_ = begin;
   end_ = end;
-  if (end - begin < record_length_) {
+  if (end - begin < record_length_)
     return Damaged("it has ", end - begin, " bytes (expected ", record_length_, " and more for its points)");
-  }
   first_.resize(record_length_);
   if (absl::Status status = source.ReadAt(begin, first_); !status.ok()) return status;
   items_.Begin(first_.data());
@@ -70,29 +69,22 @@ LayeredDecoder::LayeredDecoder(const LaszipRecord& record, WantedFields wanted)
 absl::Status LayeredDecoder::Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
                                    std::uint64_t points) {
   assert(begin <= end && end <= source.size() && points > 0);
-  if (end - begin < head_.size()) {
+  if (end - begin < head_.size())
     return Damaged("it has ", end - begin, " bytes (at least ", head_.size(), " begin a chunk)");
-  }
   if (absl::Status status = source.ReadAt(begin, head_); !status.ok()) return status;
   const std::string_view head(head_.data(), head_.size());
   const auto stated = Load<std::uint32_t>(head, record_length_);
-  if (stated != points) {
-    return Damaged("it states ", stated, " points (expected ", points, ")");
-  }
+  if (stated != points) return Damaged("it states ", stated, " points (expected ", points, ")");
   std::uint64_t layer = begin + head_.size();
   const auto streams = point_.streams();
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const auto size = Load<std::uint32_t>(head, record_length_ + kNumberSize * (1 + i));
-    if (size > end - layer) {
-      return Damaged("its layer ", i + 1, " ends ", size - (end - layer), " bytes behind it");
-    }
+    if (size > end - layer) return Damaged("its layer ", i + 1, " ends ", size - (end - layer), " bytes behind it");
     streams[i].present = size > 0 && (wanted_ == WantedFields::kAll || point_.TellsReturns(i));
     if (streams[i].present) streams[i].coder.Begin(windows_[i], source, layer, layer + size, piece_size_);
     stream_ends_[i] = layer += size;
   }
-  if (points > 1 && !streams[0].present) {
-    return Damaged("it has no layer of coordinates");
-  }
+  if (points > 1 && !streams[0].present) return Damaged("it has no layer of coordinates");
   layers_end_ = layer;
   end_ = end;
   point_.Begin(head_.data());
@@ -124,9 +116,7 @@ absl::Status LayeredDecoder::CheckStreams() {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (!streams[i].present) continue;
     if (!streams[i].coder.status().ok()) return streams[i].coder.status();
-    if (streams[i].coder.missing() > 0) {
-      return Damaged("its layer ", i + 1, " ends before its points");
-    }
+    if (streams[i].coder.missing() > 0) return Damaged("its layer ", i + 1, " ends before its points");
   }
   return absl::OkStatus();
 }
@@ -140,9 +130,7 @@ absl::Status LayeredDecoder::End(bool exact) {
                      " bytes after its last point");
     }
   }
-  if (exact && layers_end_ != end_) {
-    return Damaged("it has ", end_ - layers_end_, " bytes after its last layer");
-  }
+  if (exact && layers_end_ != end_) return Damaged("it has ", end_ - layers_end_, " bytes after its last layer");
   return absl::OkStatus();
 }
 

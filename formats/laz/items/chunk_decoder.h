@@ -33,8 +33,7 @@ enum class WantedFields {
 class ChunkDecoder {
  public:
   // For any record that ParseLaszipRecord() returns.
-  static std::unique_ptr<ChunkDecoder> For(const LaszipRecord& record,
-                                           WantedFields wanted = WantedFields::kAll);
+  static std::unique_ptr<ChunkDecoder> For(const LaszipRecord& record, WantedFields wanted = WantedFields::kAll);
   virtual ~ChunkDecoder() = default;
 
   // Begins a chunk of `points` > 0 points in the bytes from `begin`, at most to `end`, of `source`, which must outlive
@@ -56,11 +55,9 @@ class ChunkDecoder {
 
 class PointwiseDecoder : public ChunkDecoder {
  public:
-  explicit PointwiseDecoder(const LaszipRecord& record)
-      : record_length_(record.record_length()), items_(record) {}
+  explicit PointwiseDecoder(const LaszipRecord& record) : record_length_(record.record_length()), items_(record) {}
 
-  absl::Status Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
-                     std::uint64_t points) override;
+  absl::Status Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end, std::uint64_t points) override;
   absl::Status Decode(std::span<char> records) override;
   absl::Status End(bool exact) override;
   std::uint64_t position() const override { return decoder_.position(); }
@@ -87,8 +84,7 @@ class LayeredDecoder : public ChunkDecoder {
  public:
   explicit LayeredDecoder(const LaszipRecord& record, WantedFields wanted = WantedFields::kAll);
 
-  absl::Status Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
-                     std::uint64_t points) override;
+  absl::Status Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end, std::uint64_t points) override;
   absl::Status Decode(std::span<char> records) override;
   absl::Status End(bool exact) override;
   std::uint64_t position() const override { return layers_end_; }

@@ -96,9 +96,8 @@ class InfraredLayer final : public Layers<Coder> {
   }
 
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
-    streams[0].present |= points.Any([&](const char* point) {
-      return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0;
-    });
+    streams[0].present |= points.Any(
+        [&](const char* point) { return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0; });
   }
 
  private:
@@ -108,8 +107,7 @@ class InfraredLayer final : public Layers<Coder> {
     std::array<typename Coder::template Model<256>, 2> differences;
   };
 
-  [[gnu::always_inline]] static Bytes CodeBytes(Coder& coder, Models& models, const Bytes& last,
-                                                const Bytes& known) {
+  [[gnu::always_inline]] static Bytes CodeBytes(Coder& coder, Models& models, const Bytes& last, const Bytes& known) {
     const std::uint32_t changes =
         coder.Symbol(models.changes, (known[0] != last[0] ? 1u : 0u) | (known[1] != last[1] ? 2u : 0u));
     Bytes bytes = last;

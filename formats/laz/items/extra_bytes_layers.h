@@ -57,8 +57,7 @@ class ExtraBytesLayers final : public Layers<Coder> {
 
   // Codes bytes point after point: a processor works on some streams at a time, which do not depend on each other.
   template <std::size_t kCount>
-  void CodeBytes(Streams streams, std::size_t first, const RecordRun<Coder>& points,
-                 const ChannelRuns& runs) {
+  void CodeBytes(Streams streams, std::size_t first, const RecordRun<Coder>& points, const ChannelRuns& runs) {
     LayerStream<Coder>* const stream = &streams[first];
     Byte* const bytes = &bytes_[first];
     auto coders = [stream]<std::size_t... b>(std::index_sequence<b...>) {

@@ -82,10 +82,8 @@ class FieldLayers final : public Layers<Coder> {
     const std::array<bool, kCount> present = {streams[f].present...};
     for (const ChannelRun& run : contexts.runs) {
       std::tuple passes(typename Fields::Pass(std::get<f>(fields_), run)...);
-      for (std::size_t i = run.begin; i < run.end; ++i) {
-        (CodeField<f>(std::get<f>(coders), std::get<f>(passes), present[f], points, contexts, i, run.models),
-         ...);
-      }
+      for (std::size_t i = run.begin; i < run.end; ++i)
+        (CodeField<f>(std::get<f>(coders), std::get<f>(passes), present[f], points, contexts, i, run.models), ...);
       (std::get<f>(passes).End(std::get<f>(fields_), run), ...);
     }
     ((streams[f].coder = std::move(std::get<f>(coders))), ...);
@@ -93,8 +91,8 @@ class FieldLayers final : public Layers<Coder> {
 
   template <std::size_t f>
   [[gnu::always_inline]] void CodeField(Coder& coder, typename Field<f>::Pass& pass, bool present,
-                                        const RecordRun<Coder>& points, const PointContexts& contexts,
-                                        std::size_t i, std::size_t channel) const {
+                                        const RecordRun<Coder>& points, const PointContexts& contexts, std::size_t i,
+                                        std::size_t channel) const {
     typename Field<f>::Number number = std::get<f>(first_);
     if constexpr (Coder::kEncodes) number = Field<f>::Load(points[i]);
     if (present) number = pass.Code(coder, contexts, i, number);

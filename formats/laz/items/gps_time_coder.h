@@ -114,8 +114,7 @@ class GpsTimeCoder {
   std::uint32_t Multiple(std::uint64_t difference, std::int32_t step) const {
     if (kRepeats && difference == 0) return kMultiples;
     if (!Fits(difference)) return kMultiples + kRepeats + Other(difference);
-    const float quotient =
-        static_cast<float>(static_cast<std::int32_t>(difference)) / static_cast<float>(step);
+    const float quotient = static_cast<float>(static_cast<std::int32_t>(difference)) / static_cast<float>(step);
     const float limited = std::clamp(quotient, static_cast<float>(kSmallest), static_cast<float>(kLargest));
     const auto multiple = static_cast<std::int32_t>(limited + (limited >= 0 ? 0.5F : -0.5F));
     return static_cast<std::uint32_t>(multiple >= 0 ? multiple : kLargest - multiple);
@@ -124,9 +123,8 @@ class GpsTimeCoder {
   // How many sequences further the time is near, or 0.
   std::uint32_t Other(std::uint64_t difference) const {
     const std::uint64_t time = sequences_[current_].time + difference;
-    for (std::uint32_t i = 1; i < kSequences; ++i) {
+    for (std::uint32_t i = 1; i < kSequences; ++i)
       if (Fits(time - sequences_[(current_ + i) % kSequences].time)) return i;
-    }
     return 0;
   }
 

@@ -126,8 +126,7 @@ class IntensityField : public PlainField<std::uint16_t, kIntensityOffset> {
                                               std::uint16_t known) {
       const std::uint32_t place = contexts.place[i];
       std::uint16_t& last = history_->last[place << 1 | (contexts.Changes(i, kTimeChanges) ? 1 : 0)];
-      return previous_ = last =
-                 static_cast<std::uint16_t>(history_->intensities.Code(coder, last, known, place));
+      return previous_ = last = static_cast<std::uint16_t>(history_->intensities.Code(coder, last, known, place));
     }
     void End(IntensityField& field, const ChannelRun& /*run*/) const { field.previous_ = previous_; }
 
@@ -196,8 +195,7 @@ class TimeField : public PlainField<std::int64_t, kTimeOffset> {
 
   class Pass {
    public:
-    Pass(TimeField& field, const ChannelRun& run)
-        : times_(&field.channels_[run.models]), time_(field.last_[run.from]) {
+    Pass(TimeField& field, const ChannelRun& run) : times_(&field.channels_[run.models]), time_(field.last_[run.from]) {
       if (run.Begins()) times_->Begin(time_);
     }
     [[gnu::always_inline]] std::int64_t Code(Coder& coder, const PointContexts& contexts, std::size_t i,

@@ -47,18 +47,15 @@ std::vector<Item> ItemsOf(int point_format, std::size_t record_length) {
   if (record_length < length || record_length > 0xFFFF) return {};
   if (record_length > length) {
     const auto size = static_cast<std::uint16_t>(record_length - length);
-    items.push_back(IsLayered(point_format) ? Item{ItemType::kByte14, size, 3}
-                                            : Item{ItemType::kByte, size, 2});
+    items.push_back(IsLayered(point_format) ? Item{ItemType::kByte14, size, 3} : Item{ItemType::kByte, size, 2});
   }
   return items;
 }
 
 std::string Text(const std::vector<Item>& items) {
   std::string text;
-  for (const Item& item : items) {
-    absl::StrAppend(&text, text.empty() ? "" : ", ", static_cast<int>(item.type), " of ", item.size,
-                    " bytes");
-  }
+  for (const Item& item : items)
+    absl::StrAppend(&text, text.empty() ? "" : ", ", static_cast<int>(item.type), " of ", item.size, " bytes");
   return text;
 }
 
@@ -68,9 +65,7 @@ absl::Status CheckVersion(const Item& item, const Item& expected) {
   // 2; they had no wave packets.
   const bool layered = expected.version == 3, was_in_prototypes = item.type != ItemType::kWavePacket14;
   if (layered && (item.version == 4 || (item.version == 2 && was_in_prototypes))) return absl::OkStatus();
-  const std::string wanted = !layered            ? absl::StrCat(expected.version)
-                             : was_in_prototypes ? "2, 3 or 4"
-                                                 : "3 or 4";
+  const std::string wanted = !layered ? absl::StrCat(expected.version) : was_in_prototypes ? "2, 3 or 4" : "3 or 4";
   return absl::UnimplementedError(absl::StrCat("its LASzip record states version ", item.version, " of item ",
                                                static_cast<int>(item.type), " (expected ", wanted,
                                                "); write the file again with a present version of LASzip"));
@@ -79,8 +74,8 @@ absl::Status CheckVersion(const Item& item, const Item& expected) {
 absl::Status CheckCompressor(std::uint16_t compressor, std::uint16_t coder, std::uint32_t chunk_size,
                              int point_format) {
   if (compressor < 1 || compressor > 3) {
-    return absl::UnimplementedError(absl::StrCat("its LASzip record states compressor ", compressor,
-                                                 " (expected 1, 2 or 3)", kGetAnotherCopy));
+    return absl::UnimplementedError(
+        absl::StrCat("its LASzip record states compressor ", compressor, " (expected 1, 2 or 3)", kGetAnotherCopy));
   }
   if (coder != 0) {
     return absl::UnimplementedError(
@@ -90,8 +85,7 @@ absl::Status CheckCompressor(std::uint16_t compressor, std::uint16_t coder, std:
     const std::string problem =
         absl::StrCat("its LASzip record states compressor ", compressor, " for point format ", point_format,
                      " (expected ", IsLayered(point_format) ? "3" : "1 or 2", ")");
-    return absl::UnimplementedError(
-        absl::StrCat(problem, "; write the file again with a present version of LASzip"));
+    return absl::UnimplementedError(absl::StrCat(problem, "; write the file again with a present version of LASzip"));
   }
   if ((chunk_size == 0) != (compressor == static_cast<std::uint16_t>(Compressor::kPointwise))) {
     return absl::InvalidArgumentError(
@@ -118,43 +112,37 @@ LaszipRecord RecordFor(int point_format, std::size_t record_length, std::uint32_
   return record;
 }
 
-absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_format,
-                                               std::size_t record_length) {
+absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_format, std::size_t record_length) {
   if (data.size() < kHeadSize) {
     return absl::InvalidArgumentError(absl::StrCat("its LASzip record has ", data.size(), " bytes (expected ",
                                                    kHeadSize, " or more)", kGetAnotherCopy));
   }
   const auto chunk_size = Load<std::uint32_t>(data, 12);
   const auto compressor = Load<std::uint16_t>(data, 0);
-  if (absl::Status status =
-          CheckCompressor(compressor, Load<std::uint16_t>(data, 2), chunk_size, point_format);
-      !status.ok()) {
+  if (absl::Status status = CheckCompressor(compressor, Load<std::uint16_t>(data, 2), chunk_size, point_format);
+      !status.ok())
     return status;
-  }
   const std::size_t count = Load<std::uint16_t>(data, 32);
   if (data.size() != kHeadSize + count * kItemSize) {
     return absl::InvalidArgumentError(absl::StrCat("its LASzip record has ", data.size(), " bytes (expected ",
-                                                   kHeadSize + count * kItemSize, " for its ", count,
-                                                   " items)", kGetAnotherCopy));
+                                                   kHeadSize + count * kItemSize, " for its ", count, " items)",
+                                                   kGetAnotherCopy));
   }
   const std::vector<Item> expected = ItemsOf(point_format, record_length);
   LaszipRecord record{static_cast<Compressor>(compressor), chunk_size, {}};
   for (std::size_t i = kHeadSize; i < data.size(); i += kItemSize) {
-    record.items.push_back({static_cast<ItemType>(Load<std::uint16_t>(data, i)),
-                            Load<std::uint16_t>(data, i + 2), Load<std::uint16_t>(data, i + 4)});
+    record.items.push_back({static_cast<ItemType>(Load<std::uint16_t>(data, i)), Load<std::uint16_t>(data, i + 2),
+                            Load<std::uint16_t>(data, i + 4)});
   }
-  const auto is_same_field = [](const Item& a, const Item& b) {
-    return a.type == b.type && a.size == b.size;
-  };
+  const auto is_same_field = [](const Item& a, const Item& b) { return a.type == b.type && a.size == b.size; };
   if (expected.empty() || !std::ranges::equal(record.items, expected, is_same_field)) {
     const std::string wanted = expected.empty() ? "more bytes" : Text(expected);
-    return absl::InvalidArgumentError(absl::StrCat(
-        "its LASzip record states items ", Text(record.items), " (expected ", wanted, " for point format ",
-        point_format, " and records of ", record_length, " bytes)", kGetAnotherCopy));
+    return absl::InvalidArgumentError(absl::StrCat("its LASzip record states items ", Text(record.items), " (expected ",
+                                                   wanted, " for point format ", point_format, " and records of ",
+                                                   record_length, " bytes)", kGetAnotherCopy));
   }
-  for (std::size_t i = 0; i < expected.size(); ++i) {
+  for (std::size_t i = 0; i < expected.size(); ++i)
     if (absl::Status status = CheckVersion(record.items[i], expected[i]); !status.ok()) return status;
-  }
   return record;
 }
 

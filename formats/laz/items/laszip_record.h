@@ -68,8 +68,7 @@ LaszipRecord RecordFor(int point_format, std::size_t record_length, std::uint32_
 // Reads the data of the VLR, and checks that the decoder can read points of this format and length. InvalidArgument: a
 // contradiction, which the message names ("its LASzip record states ..."). Unimplemented: a compressor, a coder or a
 // version of an item that is not supported (before LASzip 2.0, items are of version 1); the message names a remedy.
-absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_format,
-                                               std::size_t record_length);
+absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_format, std::size_t record_length);
 
 // The data of the VLR.
 std::string LaszipRecordData(const LaszipRecord& record);

@@ -48,9 +48,8 @@ class ChannelHistories {
   // Calls forget(history) on all.
   template <typename Forget>
   void ForgetAll(const Forget& forget) {
-    for (const auto& history : histories_) {
+    for (const auto& history : histories_)
       if (history != nullptr) forget(*history);
-    }
   }
 
   History& operator[](std::size_t channel) {

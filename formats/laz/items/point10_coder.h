@@ -15,10 +15,9 @@ namespace albtpu::laz {
 // predicts intensities and coordinates, for all numbers of three bits, plausible or not.
 
 struct Point10Context {
-  std::uint8_t
-      returns;  // Of 16: the possible pairs (r, n) up to n = 5 in their order, further ones among them.
-  std::uint8_t level;  // |n - r|: how many returns lie below.
-  bool single;         // n = 1.
+  std::uint8_t returns;  // Of 16: the possible pairs (r, n) up to n = 5 in their order, further ones among them.
+  std::uint8_t level;    // |n - r|: how many returns lie below.
+  bool single;           // n = 1.
 };
 
 inline constexpr std::size_t kReturnContexts = 16, kLevels = 8;
@@ -34,11 +33,9 @@ inline constexpr std::array<Point10Context, 64> kPoint10Contexts = [] {
                                                                     {9, 10, 11, 12, 13, 14, 15, 14},
                                                                     {8, 9, 10, 11, 12, 13, 14, 15}}};
   std::array<Point10Context, 64> contexts{};
-  for (std::size_t n = 0; n < 8; ++n) {
-    for (std::size_t r = 0; r < 8; ++r) {
+  for (std::size_t n = 0; n < 8; ++n)
+    for (std::size_t r = 0; r < 8; ++r)
       contexts[n << 3 | r] = {kReturns[n][r], static_cast<std::uint8_t>(n > r ? n - r : r - n), n == 1};
-    }
-  }
   return contexts;
 }();
 
@@ -65,9 +62,8 @@ class Point10Coder {
     x_steps_.fill({});
     y_steps_.fill({});
     changes_.Forget();
-    for (auto* const models : {&returns_, &classifications_, &user_data_}) {
+    for (auto* const models : {&returns_, &classifications_, &user_data_})
       for (auto& model : *models) model.Forget();
-    }
     for (auto& model : scan_angles_) model.Forget();
     intensities_.Forget();
     sources_.Forget();
@@ -79,11 +75,10 @@ class Point10Coder {
   // Decodes the next point, or encodes `point`; returns it.
   [[gnu::always_inline]] Point10 Code(Coder& coder, Point10 point) {
     const std::uint32_t changes = coder.Symbol(changes_, Coder::kEncodes ? Changes(point) : 0);
-    if (changes != 0) {
+    if (changes != 0)
       CodeChanges(coder, changes, point);
-    } else if (!Coder::kEncodes) {
+    else if (!Coder::kEncodes)
       point = last_;
-    }
     const Point10Context context = ContextOf(point.returns);
 
     StreamingMedian& x_steps = x_steps_[context.returns];
@@ -96,8 +91,7 @@ class Point10Coder {
     y_steps.Add(y_step);
 
     std::int32_t& z = z_[context.level];
-    const std::uint32_t z_context =
-        context.single + Even(std::min((dx_.size() + dy_.size()) / 2, kMaxSizeForZ));
+    const std::uint32_t z_context = context.single + Even(std::min((dx_.size() + dy_.size()) / 2, kMaxSizeForZ));
     z = dz_.Code(coder, z, point.z, z_context);
 
     point.x = Plus(last_.x, x_step);
@@ -144,8 +138,7 @@ class Point10Coder {
     const auto code_byte = [&](auto& models, std::uint8_t last, std::uint8_t now) {
       return static_cast<std::uint8_t>(coder.Symbol(models[last], now));
     };
-    point.returns =
-        changes & kReturnsChanged ? code_byte(returns_, last_.returns, point.returns) : last_.returns;
+    point.returns = changes & kReturnsChanged ? code_byte(returns_, last_.returns, point.returns) : last_.returns;
     const std::uint32_t context = ContextOf(point.returns).returns;
     std::uint16_t& intensity = intensity_[context];
     if (changes & kIntensityChanged) {
@@ -158,13 +151,13 @@ class Point10Coder {
                                : last_.classification;
     if (changes & kScanAngleChanged) {
       const auto step = static_cast<std::uint8_t>(point.scan_angle - last_.scan_angle);
-      point.scan_angle = static_cast<std::uint8_t>(last_.scan_angle +
-                                                   coder.Symbol(scan_angles_[point.returns >> 6 & 1], step));
+      point.scan_angle =
+          static_cast<std::uint8_t>(last_.scan_angle + coder.Symbol(scan_angles_[point.returns >> 6 & 1], step));
     } else {
       point.scan_angle = last_.scan_angle;
     }
-    point.user_data = changes & kUserDataChanged ? code_byte(user_data_, last_.user_data, point.user_data)
-                                                 : last_.user_data;
+    point.user_data =
+        changes & kUserDataChanged ? code_byte(user_data_, last_.user_data, point.user_data) : last_.user_data;
     point.source = changes & kSourceChanged
                        ? static_cast<std::uint16_t>(sources_.Code(coder, last_.source, point.source))
                        : last_.source;

@@ -15,7 +15,7 @@ inline constexpr std::size_t kFlagsOffset = 15;                         // Point
 inline constexpr std::size_t kClassOffset = 16, kUserDataOffset = 17;   // u8.
 inline constexpr std::size_t kAngleOffset = 18;                         // i16.
 inline constexpr std::size_t kSourceOffset = 20;                        // u16.
-inline constexpr std::size_t kTimeOffset = 22;  // f64, of which only the bits are coded.
+inline constexpr std::size_t kTimeOffset = 22;                          // f64, of which only the bits are coded.
 
 // Bits 0 to 3 are the classification flags, 4 and 5 the scanner channel, 6 the direction of the scan, 7 the edge of the
 // flight line.

@@ -9,8 +9,7 @@
 namespace albtpu::laz {
 
 inline constexpr int kChannels = 4;
-inline constexpr std::size_t kBatchPoints =
-    512;  // Their records and the models of a layer stay in the L1 cache.
+inline constexpr std::size_t kBatchPoints = 512;  // Their records and the models of a layer stay in the L1 cache.
 
 template <typename Number>
 using BatchColumn = std::array<Number, kBatchPoints>;

@@ -19,9 +19,8 @@ void PointwiseEncoder::Encode(std::string_view records, std::string& chunk) {
   items_.Begin(records.data());
   encoder_.Begin();
   ArithmeticEncoder encoder = std::move(encoder_);  // Its state stays in registers here.
-  for (std::size_t i = record_length_; i < records.size(); i += record_length_) {
+  for (std::size_t i = record_length_; i < records.size(); i += record_length_)
     items_.Code(encoder, records.data() + i);
-  }
   chunk += encoder.Finish();
   encoder_ = std::move(encoder);
 }
@@ -37,8 +36,7 @@ void StoreCount(std::size_t count, char* destination) {
 
 }  // namespace
 
-LayeredEncoder::LayeredEncoder(const LaszipRecord& record)
-    : point_(record), record_length_(record.record_length()) {}
+LayeredEncoder::LayeredEncoder(const LaszipRecord& record) : point_(record), record_length_(record.record_length()) {}
 
 void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
   assert(!records.empty() && records.size() % record_length_ == 0);
@@ -47,9 +45,8 @@ void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
   point_.Begin(records.data());
   point_.FindChanges(further);
   for (auto& stream : point_.streams()) stream.coder.Begin();
-  for (std::size_t i = 0; i < further.count(); i += kBatchPoints) {
+  for (std::size_t i = 0; i < further.count(); i += kBatchPoints)
     point_.Code({further[i], record_length_, std::min(kBatchPoints, further.count() - i)});
-  }
 
   chunk.assign(records.substr(0, record_length_));
   chunk.resize(record_length_ + (1 + point_.streams().size()) * sizeof(std::uint32_t));
@@ -66,8 +63,7 @@ void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
 }
 
 std::unique_ptr<ChunkDecoder> ChunkDecoder::For(const LaszipRecord& record, WantedFields wanted) {
-  if (record.compressor == Compressor::kLayeredChunked)
-    return std::make_unique<LayeredDecoder>(record, wanted);
+  if (record.compressor == Compressor::kLayeredChunked) return std::make_unique<LayeredDecoder>(record, wanted);
   return std::make_unique<PointwiseDecoder>(record);
 }
 

@@ -15,8 +15,7 @@ namespace albtpu::laz {
 
 class PointwiseEncoder : public ChunkEncoder {
  public:
-  explicit PointwiseEncoder(const LaszipRecord& record)
-      : record_length_(record.record_length()), items_(record) {}
+  explicit PointwiseEncoder(const LaszipRecord& record) : record_length_(record.record_length()), items_(record) {}
 
   void Encode(std::string_view records, std::string& chunk) override;
 

@@ -35,8 +35,8 @@ class RgbCoder {
     const auto code = [&](std::size_t byte, int predicted) __attribute__((always_inline)) {
       if (changes >> byte & 1) {
         const auto difference = static_cast<std::uint8_t>(rgb[byte] - predicted);
-        rgb[byte] = static_cast<std::uint8_t>(predicted +
-                                              static_cast<int>(coder.Symbol(differences_[byte], difference)));
+        rgb[byte] =
+            static_cast<std::uint8_t>(predicted + static_cast<int>(coder.Symbol(differences_[byte], difference)));
       } else {
         rgb[byte] = last[byte];
       }

@@ -21,9 +21,8 @@ class RecordRun {
   // Whether the condition holds for one of the records, up to which they are looked at.
   template <typename Condition>
   bool Any(const Condition& holds) const {
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count_; ++i)
       if (holds((*this)[i])) return true;
-    }
     return false;
   }
 

@@ -109,12 +109,11 @@ class ReturnsLayer {
 
     LastPoint& last = channel.last;
     const bool time_changes = (changes & kTimeChanges) != 0;
-    const Returns returns = CodeReturns(
-        coder, channel, changes, Returns::From(points.template Known<std::uint8_t>(i, kReturnsOffset)));
+    const Returns returns =
+        CodeReturns(coder, channel, changes, Returns::From(points.template Known<std::uint8_t>(i, kReturnsOffset)));
     const std::uint32_t alone = returns.is_alone();
     auto& steps = channel.steps[ReturnKind(returns) << 1 | (time_changes ? 1 : 0)];
-    last.x =
-        CodeStep(coder, channel.x, steps.x, last.x, points.template Known<std::int32_t>(i, kXOffset), alone);
+    last.x = CodeStep(coder, channel.x, steps.x, last.x, points.template Known<std::int32_t>(i, kXOffset), alone);
     const std::uint32_t x_size = channel.x.size();
     last.y = CodeStep(coder, channel.y, steps.y, last.y, points.template Known<std::int32_t>(i, kYOffset),
                       alone | std::min(x_size & ~1u, 20u));
@@ -173,20 +172,18 @@ class ReturnsLayer {
         number += 15;
         break;
       case kOtherNumber:
-        if ((changes & kTimeChanges) != 0) {
+        if ((changes & kTimeChanges) != 0)
           number = coder.Symbol(channel.numbers[number], known.number);
-        } else {
+        else
           number += 2 + coder.Symbol(channel.number_steps, (known.number - number - 2) & 15);
-        }
     }
     return {static_cast<std::uint8_t>(number & 15), static_cast<std::uint8_t>(count)};
   }
 
   // Codes a coordinate as its step from the last one, which is near the median of recent steps. Returns the coordinate.
   template <typename Integers>
-  [[gnu::always_inline]] static std::int32_t CodeStep(Coder& coder, Integers& integers,
-                                                      StreamingMedian& steps, std::int32_t last,
-                                                      std::int32_t known, std::uint32_t context) {
+  [[gnu::always_inline]] static std::int32_t CodeStep(Coder& coder, Integers& integers, StreamingMedian& steps,
+                                                      std::int32_t last, std::int32_t known, std::uint32_t context) {
     const auto difference = [](std::int32_t a, std::int32_t b) {
       return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
     };

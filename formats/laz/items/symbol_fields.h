@@ -29,10 +29,8 @@ class SymbolField : public Place {
    public:
     Pass(SymbolField& field, const ChannelRun& run)
         : models_(field.channels_[run.models].data()), number_(field.last_[run.from]) {}
-    [[gnu::always_inline]] Number Code(Coder& coder, const PointContexts& contexts, std::size_t i,
-                                       Number known) {
-      return number_ = static_cast<Number>(
-                 coder.Symbol(models_[Circumstance()(number_, contexts.place[i])], known));
+    [[gnu::always_inline]] Number Code(Coder& coder, const PointContexts& contexts, std::size_t i, Number known) {
+      return number_ = static_cast<Number>(coder.Symbol(models_[Circumstance()(number_, contexts.place[i])], known));
     }
     void End(SymbolField& field, const ChannelRun& run) const { field.last_[run.to] = number_; }
 
@@ -60,9 +58,7 @@ struct FlagsPlace {
 
 // By the last class, and whether the return is the only one of its pulse.
 struct ClassCircumstance {
-  std::size_t operator()(std::uint8_t last, std::uint8_t place) const {
-    return (last & 31u) << 1 | (place == 3);
-  }
+  std::size_t operator()(std::uint8_t last, std::uint8_t place) const { return (last & 31u) << 1 | (place == 3); }
 };
 struct FlagsCircumstance {
   std::size_t operator()(std::uint8_t last, std::uint8_t /*place*/) const { return last; }
@@ -76,7 +72,6 @@ using ClassField = SymbolField<Coder, PlainField<std::uint8_t, kClassOffset>, 25
 template <typename Coder>
 using FlagsField = SymbolField<Coder, FlagsPlace, 64, FlagsCircumstance>;
 template <typename Coder>
-using UserDataField =
-    SymbolField<Coder, PlainField<std::uint8_t, kUserDataOffset>, 256, UserDataCircumstance>;
+using UserDataField = SymbolField<Coder, PlainField<std::uint8_t, kUserDataOffset>, 256, UserDataCircumstance>;
 
 }  // namespace albtpu::laz

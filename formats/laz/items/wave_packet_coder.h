@@ -62,9 +62,8 @@ class WavePacketCoder {
     packet.size = static_cast<std::uint32_t>(
         sizes_.Code(coder, static_cast<std::int32_t>(last.size), static_cast<std::int32_t>(packet.size)));
     packet.return_point = return_points_.Code(coder, last.return_point, packet.return_point);
-    for (std::uint32_t i = 0; i < 3; ++i) {
+    for (std::uint32_t i = 0; i < 3; ++i)
       packet.direction[i] = directions_.Code(coder, last.direction[i], packet.direction[i], i);
-    }
     return packet;
   }
 
@@ -72,8 +71,7 @@ class WavePacketCoder {
   // How the offset advances.
   static constexpr std::uint32_t kSame = 0, kBehindLast = 1, kByStep = 2, kAnywhere = 3;
 
-  [[gnu::always_inline]] std::uint64_t CodeOffset(Coder& coder, const WavePacket& last,
-                                                  std::uint64_t offset) {
+  [[gnu::always_inline]] std::uint64_t CodeOffset(Coder& coder, const WavePacket& last, std::uint64_t offset) {
     const std::uint64_t step = offset - last.offset;
     last_advance_ = coder.Symbol(advances_[last_advance_], Coder::kEncodes ? Advance(step, last.size) : 0);
     if (last_advance_ == kSame) return last.offset;

@@ -40,9 +40,8 @@ class WavePacketLayer final : public Layers<Coder> {
   }
 
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
-    streams[0].present |= points.Any([&](const char* point) {
-      return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0;
-    });
+    streams[0].present |= points.Any(
+        [&](const char* point) { return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0; });
   }
 
  private:

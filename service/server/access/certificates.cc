@@ -59,8 +59,8 @@ absl::Status CheckTimes(const std::string& where, const X509& certificate) {
   const ASN1_TIME* from = X509_get0_notBefore(&certificate);
   const ASN1_TIME* until = X509_get0_notAfter(&certificate);
   if (X509_cmp_current_time(until) < 0) {
-    return absl::InvalidArgumentError(absl::StrCat(where, ": the certificate expired on ", Text(until),
-                                                   " (no client would trust it); renew it"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ": the certificate expired on ", Text(until), " (no client would trust it); renew it"));
   }
   if (X509_cmp_current_time(from) > 0) {
     return absl::InvalidArgumentError(absl::StrCat(where, ": the certificate is valid only from ", Text(from),
@@ -71,10 +71,9 @@ absl::Status CheckTimes(const std::string& where, const X509& certificate) {
 
 // The reason why TLS rejects the pair, such as a key that is too short. Empty if TLS accepts it.
 std::string Refusal(X509& certificate, EVP_PKEY& key) {
-  const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_server_method()),
-                                                                  &SSL_CTX_free);
-  const bool accepted = SSL_CTX_use_certificate(context.get(), &certificate) == 1 &&
-                        SSL_CTX_use_PrivateKey(context.get(), &key) == 1;
+  const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_server_method()), &SSL_CTX_free);
+  const bool accepted =
+      SSL_CTX_use_certificate(context.get(), &certificate) == 1 && SSL_CTX_use_PrivateKey(context.get(), &key) == 1;
   const char* reason = accepted ? "" : ERR_reason_error_string(ERR_peek_last_error());
   ERR_clear_error();
   return reason == nullptr ? "unknown" : reason;
@@ -122,9 +121,8 @@ absl::StatusOr<Certificates> ReadCertificates(const CertificateFiles& files) {
   absl::StatusOr<std::string> client_ca = ReadTextFile("--tls-client-ca", files.client_ca);
   if (!client_ca.ok()) return client_ca.status();
   if (FirstCertificate(*client_ca) == nullptr) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("--tls-client-ca: ", files.client_ca.string(),
-                     ": holds no certificate: expected the PEM file of an authority"));
+    return absl::InvalidArgumentError(absl::StrCat("--tls-client-ca: ", files.client_ca.string(),
+                                                   ": holds no certificate: expected the PEM file of an authority"));
   }
   read.client_ca = *std::move(client_ca);
   return read;

@@ -38,14 +38,16 @@ absl::StatusOr<std::unique_ptr<CertificateFile>> OpenCertificates(const Certific
 }
 
 absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> OpenTokens(const std::filesystem::path& path) {
-  return FileValue<Tokens>::Open({path}, [path]() -> absl::StatusOr<Tokens> {
-    const absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
-    if (!text.ok()) return text.status();
-    absl::StatusOr<Tokens> tokens = Tokens::Parse(*text);
-    if (tokens.ok()) return tokens;
-    return absl::Status(tokens.status().code(),
-                        absl::StrCat("--token-file: ", path.string(), ": ", tokens.status().message()));
-  });
+  return FileValue<Tokens>::Open(
+      {path},
+      [path]() -> absl::StatusOr<Tokens> {
+        const absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
+        if (!text.ok()) return text.status();
+        absl::StatusOr<Tokens> tokens = Tokens::Parse(*text);
+        if (tokens.ok()) return tokens;
+        return absl::Status(tokens.status().code(),
+                            absl::StrCat("--token-file: ", path.string(), ": ", tokens.status().message()));
+      });
 }
 
 // gRPC fetches the certificates before each handshake. Its own file watcher (FileWatcherCertificateProvider in 1.51)
@@ -73,8 +75,7 @@ class Tls final : public grpc::ServerCredentials {
   }
 
   // Called by one thread at a time.
-  static grpc_ssl_certificate_config_reload_status Fetch(void* self,
-                                                         grpc_ssl_server_certificate_config** config) {
+  static grpc_ssl_certificate_config_reload_status Fetch(void* self, grpc_ssl_server_certificate_config** config) {
     return static_cast<Tls*>(self)->Fetch(*config);
   }
 
@@ -141,15 +142,13 @@ absl::StatusOr<Tokens> Tokens::Parse(std::string_view text) {
           absl::StrCat("line ", number, " is not a token: expected letters, digits and -._~+/="));
     }
     if (line.size() < kMinLength) {
-      return absl::InvalidArgumentError(absl::StrCat("line ", number, " has ", line.size(),
-                                                     " characters: expected ", kMinLength,
-                                                     " or more, at random"));
+      return absl::InvalidArgumentError(absl::StrCat("line ", number, " has ", line.size(), " characters: expected ",
+                                                     kMinLength, " or more, at random"));
     }
     tokens.emplace_back(line);
   }
   if (!tokens.empty()) return Tokens(std::move(tokens));
-  return absl::InvalidArgumentError(
-      "holds no token: expected one per line, such as from `openssl rand -hex 32`");
+  return absl::InvalidArgumentError("holds no token: expected one per line, such as from `openssl rand -hex 32`");
 }
 
 bool Tokens::Accept(std::string_view authorization) const {
@@ -222,16 +221,14 @@ void Process(void* guard, grpc_auth_context* /*context*/, const grpc_metadata* m
   const Guard& ours = *static_cast<Guard*>(guard);
   const char* refusal = Refusal(ours, metadata, count);
   if (refusal != nullptr) WriteLine(ours.recorders.log, refusal, metadata, count);
-  done(call, nullptr, 0, nullptr, 0, refusal == nullptr ? GRPC_STATUS_OK : GRPC_STATUS_UNAUTHENTICATED,
-       refusal);
+  done(call, nullptr, 0, nullptr, 0, refusal == nullptr ? GRPC_STATUS_OK : GRPC_STATUS_UNAUTHENTICATED, refusal);
 }
 
 void Destroy(void* guard) { delete static_cast<Guard*>(guard); }
 
 }  // namespace
 
-void RequireToken(std::unique_ptr<TokenFile> tokens, const Recorders& recorders,
-                  grpc_server_credentials* credentials) {
+void RequireToken(std::unique_ptr<TokenFile> tokens, const Recorders& recorders, grpc_server_credentials* credentials) {
   auto guard = std::make_unique<Guard>(Guard{std::move(tokens), recorders});
   grpc_server_credentials_set_auth_metadata_processor(credentials, {Process, Destroy, guard.release()});
 }

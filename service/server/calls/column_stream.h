@@ -24,8 +24,8 @@ namespace albtpu::server {
 class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
   // Uses `catalog` for all answers without a sea. `seas` must outlive the call.
-  ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
-               const CallRecord& record, grpc::CallbackServerContext& context, std::chrono::seconds max_idle);
+  ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers, const CallRecord& record,
+               grpc::CallbackServerContext& context, std::chrono::seconds max_idle);
 
  private:
   void OnReadDone(bool ok) override;
@@ -58,7 +58,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
 
   grpc::ByteBuffer next_, current_, answer_;
   CallRecord::Clock::time_point current_begin_;  // When the server turned to `current_`.
-  IdleWatch idle_watch_;  // Last, so that it is destroyed first and calls nothing afterwards.
+  IdleWatch idle_watch_;                         // Last, so that it is destroyed first and calls nothing afterwards.
 };
 
 }  // namespace albtpu::server

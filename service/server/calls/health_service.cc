@@ -25,11 +25,10 @@ class HealthService::Watcher final : public grpc::ServerWriteReactor<HealthCheck
   Watcher(HealthService& service, bool known) : service_(service), known_(known) {
     const std::lock_guard lock(service_.mutex_);
     service_.watchers_.insert(this);
-    if (service_.serving_) {
+    if (service_.serving_)
       Begin();
-    } else {
+    else
       End();
-    }
   }
 
   // Call this, Begin() and End() with the mutex held.
@@ -85,8 +84,7 @@ void HealthService::StopServing() {
   for (Watcher* watcher : watchers_) watcher->Stop();
 }
 
-grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* context,
-                                               const HealthCheckRequest* request,
+grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* context, const HealthCheckRequest* request,
                                                HealthCheckResponse* response) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   if (!Knows(request->service())) {
@@ -124,8 +122,7 @@ absl::Status WithoutFolder(const absl::Status& reason, const std::filesystem::pa
   const std::string inside = absl::StrReplaceAll(
       reason.message(),
       {{(folder / "").string(), ""}, {absl::StrCat("'", folder.string(), "'"), "the folder of tables"}});
-  return absl::FailedPreconditionError(
-      absl::StrCat("tables not reloaded, the previous tables stay in use: ", inside));
+  return absl::FailedPreconditionError(absl::StrCat("tables not reloaded, the previous tables stay in use: ", inside));
 }
 
 }  // namespace
@@ -152,9 +149,7 @@ grpc::ServerUnaryReactor* AdminService::ReloadTables(grpc::CallbackServerContext
     return reactor;
   }
   tables_.Reload([this, response, finish](const LiveTables::ReloadResult& result) {
-    if (!result.ok()) {
-      return finish(ToGrpcStatus(WithoutFolder(result.status(), tables_.current()->folder())));
-    }
+    if (!result.ok()) return finish(ToGrpcStatus(WithoutFolder(result.status(), tables_.current()->folder())));
     for (const TableCatalog::Change& change : *result) {
       v1::ReloadedTable& table = *response->add_tables();
       table.set_name(change.name);

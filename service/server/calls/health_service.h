@@ -54,8 +54,7 @@ class AdminService final : public v1::AdminService::CallbackService {
   AdminService(LiveTables& tables, const Recorders& recorders, AdminCallers callers)
       : tables_(tables), recorders_(recorders), callers_(callers) {}
 
-  grpc::ServerUnaryReactor* ReloadTables(grpc::CallbackServerContext* context,
-                                         const v1::ReloadTablesRequest* request,
+  grpc::ServerUnaryReactor* ReloadTables(grpc::CallbackServerContext* context, const v1::ReloadTablesRequest* request,
                                          v1::ReloadTablesResponse* response) override;
 
  private:

@@ -34,12 +34,11 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
                      .coverage = *coverage};
   if (options.has_refractive_index()) read.index = options.refractive_index();
   FieldViolations violations;
-  for (const OptionError& error : FindErrors(read)) {
+  for (const OptionError& error : FindErrors(read))
     violations.Add(absl::StrCat("options.", error.field), absl::StrCat("options.", error.problem));
-  }
   if (!(std::abs(options.sea_axis()) <= kGreatestBudgetNumber)) {
-    violations.Add("options.sea_axis", absl::StrCat("options.sea_axis is ", options.sea_axis(),
-                                                    ": expected degrees, or leave it out"));
+    violations.Add("options.sea_axis",
+                   absl::StrCat("options.sea_axis is ", options.sea_axis(), ": expected degrees, or leave it out"));
   }
   if (absl::Status status = violations.ToStatus(); !status.ok()) return status;
   return read;
@@ -87,8 +86,7 @@ absl::StatusOr<BudgetPulses> ReadPulses(const v1::QueryBudgetRequest& request, c
   if (!count.ok()) return count.status();
   BudgetPulses pulses{.pulses = PulsesOf(axes, *count)};
   pulses.aircraft.size = *count;
-  for (std::size_t i = 0; i < aircraft.size(); ++i)
-    pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
+  for (std::size_t i = 0; i < aircraft.size(); ++i) pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
   return pulses;
 }
 
@@ -105,17 +103,15 @@ std::size_t AnswerBytes(const QuantitySelection& selection) {
 absl::Status CheckAnswerSize(const QuantitySelection& selection, std::size_t count) {
   const std::size_t most = kMaxAnswerColumnBytes / AnswerBytes(selection);
   if (count <= most) return absl::OkStatus();
-  return FieldViolation(
-      "pulses", absl::StrCat("there are ", count, " pulses: with these quantities, a message takes ", most,
-                             " pulses at most; send several messages, or ask for fewer quantities"));
+  return FieldViolation("pulses",
+                        absl::StrCat("there are ", count, " pulses: with these quantities, a message takes ", most,
+                                     " pulses at most; send several messages, or ask for fewer quantities"));
 }
 
 // Adds the columns that were requested. The number of a field is that of its quantity.
 BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, ColumnMessage& message) {
   using Fields = v1::QueryBudgetResponse;
-  const auto add_bytes = [&](int field) {
-    return reinterpret_cast<std::uint8_t*>(message.AddColumn(field, count));
-  };
+  const auto add_bytes = [&](int field) { return reinterpret_cast<std::uint8_t*>(message.AddColumn(field, count)); };
   BudgetAnswers answers;
   answers.outcomes = add_bytes(Fields::kOutcomesFieldNumber);
   answers.outcome_axes = add_bytes(Fields::kOutcomeAxesFieldNumber);
@@ -130,8 +126,7 @@ BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, 
     }
     const std::size_t columns = ColumnCount(quantity);
     auto* const numbers = reinterpret_cast<float*>(message.AddColumn(field, columns * count * sizeof(float)));
-    for (std::size_t k = 0; k < columns; ++k)
-      answers.columns[FirstColumn(quantity) + k] = numbers + k * count;
+    for (std::size_t k = 0; k < columns; ++k) answers.columns[FirstColumn(quantity) + k] = numbers + k * count;
   }
   message.Nest(Fields::kBudgetFieldNumber, mark);
   return answers;
@@ -139,12 +134,11 @@ BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, 
 
 }  // namespace
 
-absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request,
-                         ColumnMessage& response, OutcomeTally& tally) {
+absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request, ColumnMessage& response,
+                         OutcomeTally& tally) {
   v1::QueryOptions query;
   query.set_table(request.options().table());
-  const absl::StatusOr<QueryPlan> plan =
-      PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources);
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources);
   if (!plan.ok()) return plan.status();
   const absl::StatusOr<BudgetOptions> options = ReadBudgetOptions(request.options());
   if (!options.ok()) return options.status();
@@ -163,11 +157,10 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
   if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
   response.Add(head);
   if (source.sea) pulses->pulses = OnOneSea(pulses->pulses);
-  if (source.sea) {
+  if (source.sea)
     pulses->sea_axis = source.sea->x_azimuth;
-  } else if (request.options().has_sea_axis()) {
+  else if (request.options().has_sea_axis())
     pulses->sea_axis = request.options().sea_axis();
-  }
   const BudgetAnswers answers = AddColumns(*selection, count, response);
   QueryBudgetOnAllCores(source.interpolator, *pulses, *options, answers);
   tally.Add({answers.outcomes, count}, {answers.outcome_axes, count});

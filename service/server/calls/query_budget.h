@@ -25,7 +25,7 @@ std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftCo
 
 // Adds the fields of a QueryBudgetResponse to `response`, writes the answers directly into it, and counts them in
 // `tally`. Fails as documented for `QueryBudget`.
-absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request,
-                         ColumnMessage& response, OutcomeTally& tally);
+absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request, ColumnMessage& response,
+                         OutcomeTally& tally);
 
 }  // namespace albtpu::server

@@ -19,16 +19,15 @@ absl::StatusOr<const ServedTable*> FindSource(const v1::QueryOptions& options, c
                                               AnswerSources& sources) {
   if (sea == nullptr) return sources.Find(options.table());
   if (options.table().empty()) return sources.Find(*sea);
-  return FieldViolation(
-      "options.table", absl::StrCat("options.table is '", options.table(),
-                                    "' (the request has a sea, whose table is another one); leave out one of "
-                                    "the two"));
+  return FieldViolation("options.table",
+                        absl::StrCat("options.table is '", options.table(),
+                                     "' (the request has a sea, whose table is another one); leave out one of "
+                                     "the two"));
 }
 
 }  // namespace
 
-absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea,
-                                    AnswerSources& sources) {
+absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea, AnswerSources& sources) {
   const absl::StatusOr<const ServedTable*> source = FindSource(options, sea, sources);
   if (!source.ok()) return source.status();
   const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
@@ -43,9 +42,7 @@ absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::S
 
 namespace {
 
-std::string Quoted(const RequestColumn& column) {
-  return absl::StrCat("column '", std::string(column.name), "'");
-}
+std::string Quoted(const RequestColumn& column) { return absl::StrCat("column '", std::string(column.name), "'"); }
 
 std::string Path(const RequestColumn& column) {
   return absl::StrCat(std::string(column.message), ".", std::string(column.name));
@@ -69,9 +66,8 @@ std::string ColumnError(const RequestColumn& column, const RequestColumn& longes
     return absl::StrCat(Quoted(column), " has ", length, " numbers: a message takes ", kMaxPulses,
                         " pulses at most; send several messages");
   }
-  if (length == 0 && column.required) {
+  if (length == 0 && column.required)
     return absl::StrCat(Quoted(column), " is empty: send one number for each pulse, or one number for all");
-  }
   if (length > 1 && length != count) {
     return absl::StrCat(Quoted(column), " has ", length, " numbers, ", Quoted(longest), " has ", count,
                         ": send one number for each pulse, or one number for all");
@@ -146,8 +142,8 @@ float* AddFloats(int field, std::size_t count, ColumnMessage& message) {
   return reinterpret_cast<float*>(message.AddColumn(field, count * sizeof(float)));
 }
 
-std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelection& selection,
-                                                 std::size_t count, ColumnMessage& message) {
+std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelection& selection, std::size_t count,
+                                                 ColumnMessage& message) {
   using Fields = v1::SeaSurfaceColumns;
   constexpr std::array<int, kQuantityCount> kFields = {Fields::kRefractionAlongWindFieldNumber,
                                                        Fields::kRefractionCrossWindFieldNumber,
@@ -157,9 +153,8 @@ std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelect
                                                        Fields::kBiasVerticalFieldNumber};
   const std::size_t mark = message.Mark();
   std::array<float*, kQuantityCount> columns{};
-  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+  for (std::size_t i = 0; i < kQuantityCount; ++i)
     if (selection[i]) columns[i] = AddFloats(kFields[i], count, message);
-  }
   message.Nest(field, mark);
   return columns;
 }
@@ -172,15 +167,11 @@ AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selecti
   columns.outcomes = AddBytes(Fields::kOutcomesFieldNumber, count, message);
   columns.outcome_axes = AddBytes(Fields::kOutcomeAxesFieldNumber, count, message);
   columns.values = AddSeaSurface(Fields::kSeaSurfaceFieldNumber, selection, count, message);
-  if (plan.standard_errors) {
-    columns.standard_errors =
-        AddSeaSurface(Fields::kSeaSurfaceStandardErrorFieldNumber, selection, count, message);
-  }
+  if (plan.standard_errors)
+    columns.standard_errors = AddSeaSurface(Fields::kSeaSurfaceStandardErrorFieldNumber, selection, count, message);
   if (!plan.asks_s44()) return columns;
   const std::size_t mark = message.Mark();
-  if (plan.best_s44_order) {
-    columns.best_s44_orders = AddBytes(v1::S44Columns::kBestOrdersFieldNumber, count, message);
-  }
+  if (plan.best_s44_order) columns.best_s44_orders = AddBytes(v1::S44Columns::kBestOrdersFieldNumber, count, message);
   if (plan.query.s44_order.has_value()) {
     columns.remaining_thu = AddFloats(v1::S44Columns::kRemainingThuFieldNumber, count, message);
     columns.remaining_tvu = AddFloats(v1::S44Columns::kRemainingTvuFieldNumber, count, message);
@@ -191,14 +182,13 @@ AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selecti
 
 }  // namespace
 
-absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request,
-                          ColumnMessage& response, OutcomeTally& tally) {
+absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request, ColumnMessage& response,
+                          OutcomeTally& tally) {
   const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
   if (!plan.ok()) return plan.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
   if (!selection.ok()) return selection.status();
-  const absl::StatusOr<PulseColumns> pulses =
-      ReadPulseColumns(request.pulses(), plan->source->table.schema());
+  const absl::StatusOr<PulseColumns> pulses = ReadPulseColumns(request.pulses(), plan->source->table.schema());
   if (!pulses.ok()) return pulses.status();
   v1::QueryColumnsResponse head;
   *head.mutable_table() = WriteReference(*plan->source);
@@ -208,8 +198,8 @@ absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest&
   if (plan->source->sea) *head.mutable_sea() = WriteSea(*plan->source->sea);
   response.Add(head);
   const AnswerColumns answers = AddColumns(*plan, *selection, pulses->size, response);
-  InterpolateOnAllCores(plan->source->interpolator, plan->query,
-                        plan->source->sea ? OnOneSea(*pulses) : *pulses, answers);
+  InterpolateOnAllCores(plan->source->interpolator, plan->query, plan->source->sea ? OnOneSea(*pulses) : *pulses,
+                        answers);
   tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
   return absl::OkStatus();
 }

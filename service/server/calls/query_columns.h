@@ -32,8 +32,7 @@ struct QueryPlan {
 
 // Fails as documented for `QueryOptions` and `SeaState`. `sea` is null if the request has none. The result refers to
 // `sources`.
-absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea,
-                                    AnswerSources& sources);
+absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea, AnswerSources& sources);
 
 // The same for a QueryPulsesRequest or a QueryColumnsRequest.
 template <typename Request>
@@ -71,7 +70,7 @@ absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns, c
 
 // Adds the fields of a QueryColumnsResponse to `response`, writes the answers directly into it, and counts them in
 // `tally`. Fails as documented for `QueryColumns`.
-absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request,
-                          ColumnMessage& response, OutcomeTally& tally);
+absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request, ColumnMessage& response,
+                          OutcomeTally& tally);
 
 }  // namespace albtpu::server

@@ -37,10 +37,9 @@ absl::Status CheckCount(const QueryPlan& plan, const Rows& rows) {
   const std::size_t limit = plan.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
   if (count <= limit) return absl::OkStatus();
   return FieldViolation(
-      "pulses",
-      absl::StrCat("there are ", count, " pulses: a message takes ", limit,
-                   plan.standard_errors ? " with standard errors at most; send several or use QueryColumns"
-                                        : " at most; send several messages"));
+      "pulses", absl::StrCat("there are ", count, " pulses: a message takes ", limit,
+                             plan.standard_errors ? " with standard errors at most; send several or use QueryColumns"
+                                                  : " at most; send several messages"));
 }
 
 v1::SeaSurface WriteSeaSurface(const Values& values) {
@@ -52,9 +51,8 @@ v1::SeaSurface WriteSeaSurface(const Values& values) {
                                                            &v1::SeaSurface::set_bias_along_beam,
                                                            &v1::SeaSurface::set_bias_vertical};
   v1::SeaSurface sea_surface;
-  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+  for (std::size_t i = 0; i < kQuantityCount; ++i)
     if (!std::isnan(values[i])) (sea_surface.*kSetters[i])(values[i]);
-  }
   return sea_surface;
 }
 
@@ -62,9 +60,8 @@ v1::SeaSurface WriteSeaSurface(const Values& values) {
 class RowColumns {
  public:
   RowColumns(const QueryPlan& plan, const Rows& rows, bool with_azimuth) : plan_(plan) {
-    for (int i = 0; i < rows.size(); ++i) {
+    for (int i = 0; i < rows.size(); ++i)
       if (rows[i].has_azimuth() == with_azimuth) Add(i, rows[i]);
-    }
   }
 
   // Queries the pulses and writes each answer to the place of its row.
@@ -75,9 +72,7 @@ class RowColumns {
     if (plan_.source->sea) pulses = OnOneSea(pulses);
     InterpolateOnAllCores(plan_.source->interpolator, plan_.query, pulses, AllocateAnswers());
     tally.Add(outcomes_, outcome_axes_);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      Write(i, *response.mutable_uncertainties(places_[i]));
-    }
+    for (std::size_t i = 0; i < places_.size(); ++i) Write(i, *response.mutable_uncertainties(places_[i]));
   }
 
  private:
@@ -119,9 +114,7 @@ class RowColumns {
     row.set_azimuth_absent(axes_[Index(AxisId::kAzimuth)].empty());
     if (row.outcome() != v1::OUTCOME_INTERPOLATED) return;
     *row.mutable_sea_surface() = WriteSeaSurface(At(values_, i));
-    if (plan_.standard_errors) {
-      *row.mutable_sea_surface_standard_error() = WriteSeaSurface(At(standard_errors_, i));
-    }
+    if (plan_.standard_errors) *row.mutable_sea_surface_standard_error() = WriteSeaSurface(At(standard_errors_, i));
     if (plan_.asks_s44()) WriteS44(i, *row.mutable_s44());
   }
 
@@ -150,8 +143,8 @@ class RowColumns {
 
 }  // namespace
 
-absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request,
-                       v1::QueryPulsesResponse& response, OutcomeTally& tally) {
+absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
+                       OutcomeTally& tally) {
   const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
   if (!plan.ok()) return plan.status();
   const absl::Status status = CheckCount(*plan, request.pulses());
@@ -161,9 +154,7 @@ absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& req
   if (plan->source->sea) *response.mutable_sea() = WriteSea(*plan->source->sea);
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
-  for (bool with_azimuth : {true, false}) {
-    RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
-  }
+  for (bool with_azimuth : {true, false}) RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
   return absl::OkStatus();
 }
 
@@ -195,55 +186,65 @@ grpc::ByteBuffer Serialize(const google::protobuf::Message& message) {
 
 }  // namespace
 
-grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response, OutcomeTally& tally) {
-  return HandleParsed<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
-    v1::QueryPulsesResponse answers;
-    const absl::Status status = QueryRows(sources, rows, answers, tally);
-    if (status.ok()) response = Serialize(answers);
-    return status;
-  });
+grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                               OutcomeTally& tally) {
+  return HandleParsed<v1::QueryPulsesRequest>(
+      request,
+      [&](const v1::QueryPulsesRequest& rows) {
+        v1::QueryPulsesResponse answers;
+        const absl::Status status = QueryRows(sources, rows, answers, tally);
+        if (status.ok()) response = Serialize(answers);
+        return status;
+      });
 }
 
-grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
-                                grpc::ByteBuffer& response, OutcomeTally& tally) {
-  return HandleParsed<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
-    ColumnMessage answers;
-    const absl::Status status = QueryColumns(sources, columns, answers, tally);
-    if (status.ok()) response = answers.Finish();
-    return status;
-  });
+grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                                OutcomeTally& tally) {
+  return HandleParsed<v1::QueryColumnsRequest>(
+      request,
+      [&](const v1::QueryColumnsRequest& columns) {
+        ColumnMessage answers;
+        const absl::Status status = QueryColumns(sources, columns, answers, tally);
+        if (status.ok()) response = answers.Finish();
+        return status;
+      });
 }
 
-grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response, OutcomeTally& tally) {
-  return HandleParsed<v1::QueryBudgetRequest>(request, [&](const v1::QueryBudgetRequest& pulses) {
-    ColumnMessage answers;
-    const absl::Status status = QueryBudget(sources, pulses, answers, tally);
-    if (status.ok()) response = answers.Finish();
-    return status;
-  });
+grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                               OutcomeTally& tally) {
+  return HandleParsed<v1::QueryBudgetRequest>(
+      request,
+      [&](const v1::QueryBudgetRequest& pulses) {
+        ColumnMessage answers;
+        const absl::Status status = QueryBudget(sources, pulses, answers, tally);
+        if (status.ok()) response = answers.Finish();
+        return status;
+      });
 }
 
-grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request,
-                              grpc::ByteBuffer& response, OutcomeTally& /*tally*/) {
-  return HandleParsed<v1::CompileSeaRequest>(request, [&](const v1::CompileSeaRequest& wanted) {
-    v1::CompileSeaResponse compiled;
-    const absl::Status status = DescribeSea(sources, wanted, compiled);
-    if (status.ok()) response = Serialize(compiled);
-    return status;
-  });
+grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                              OutcomeTally& /*tally*/) {
+  return HandleParsed<v1::CompileSeaRequest>(
+      request,
+      [&](const v1::CompileSeaRequest& wanted) {
+        v1::CompileSeaResponse compiled;
+        const absl::Status status = DescribeSea(sources, wanted, compiled);
+        if (status.ok()) response = Serialize(compiled);
+        return status;
+      });
 }
 
-grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
-                                 grpc::ByteBuffer& response, OutcomeTally& tally) {
-  return HandleParsed<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
-    ColumnMessage answers;
-    const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
-    answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
-    if (status.ok()) response = answers.Finish();
-    return status;
-  });
+grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                                 OutcomeTally& tally) {
+  return HandleParsed<v1::StreamColumnsRequest>(
+      request,
+      [&](const v1::StreamColumnsRequest& exchange) {
+        ColumnMessage answers;
+        const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
+        answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
+        if (status.ok()) response = answers.Finish();
+        return status;
+      });
 }
 
 absl::Status DescribeSea(AnswerSources& sources, const v1::CompileSeaRequest& request,

@@ -13,8 +13,8 @@ namespace albtpu::server {
 
 // Counts the answers in `tally`. Rows are copied into columns and queried as those, so both give the same bits. Fails
 // as documented for `QueryPulses`.
-absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request,
-                       v1::QueryPulsesResponse& response, OutcomeTally& tally);
+absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
+                       OutcomeTally& tally);
 
 // Handlers of the methods that take many pulses, from serialized request to serialized response. Parsing and
 // serializing a long message take as long as the query itself, so a worker does all three.
@@ -25,19 +25,19 @@ absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& req
 using MessageHandler = grpc::Status (*)(AnswerSources& sources, const grpc::ByteBuffer& request,
                                         grpc::ByteBuffer& response, OutcomeTally& tally);
 
-grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response, OutcomeTally& tally);
-grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
-                                grpc::ByteBuffer& response, OutcomeTally& tally);
-grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response, OutcomeTally& tally);
+grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                               OutcomeTally& tally);
+grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                                OutcomeTally& tally);
+grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                               OutcomeTally& tally);
 
-grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request,
-                              grpc::ByteBuffer& response, OutcomeTally& tally);
+grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                              OutcomeTally& tally);
 
 // Handles one request of a stream.
-grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
-                                 grpc::ByteBuffer& response, OutcomeTally& tally);
+grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                                 OutcomeTally& tally);
 
 // The table of a sea, for `CompileSea`.
 

@@ -52,8 +52,8 @@ class Reader {
       case v1::SeaState::kFrequencySpectrum:
         sea.waves = Bins(state.frequency_spectrum());
         if (state.frequency_spectrum().has_record_length())
-          sea.record_length = Checked("frequency_spectrum.record_length",
-                                      state.frequency_spectrum().record_length(), kRecordLength);
+          sea.record_length =
+              Checked("frequency_spectrum.record_length", state.frequency_spectrum().record_length(), kRecordLength);
         break;
       case v1::SeaState::kWavenumberSpectrum:
         sea.waves = Whole(state.wavenumber_spectrum());
@@ -69,8 +69,8 @@ class Reader {
   // The same number, noted if it is wrong.
   double Checked(std::string_view path, double number, const Range& range) {
     if (!(number >= range.lowest && number <= range.highest)) {
-      Add(path, absl::StrCat(std::string(path), " is ", number, std::string(range.unit), " (expected ",
-                             range.lowest, " to ", range.highest, "); correct it"));
+      Add(path, absl::StrCat(std::string(path), " is ", number, std::string(range.unit), " (expected ", range.lowest,
+                             " to ", range.highest, "); correct it"));
     }
     return number;
   }
@@ -101,13 +101,11 @@ class Reader {
   WaveComponents Components(const v1::WaveComponents& message) {
     const std::string path = "components.components";
     std::vector<JonswapWaves> waves;
-    if (!CheckCount(path, static_cast<std::size_t>(message.components_size()), 1, kMaxSeaComponents))
-      return nullptr;
+    if (!CheckCount(path, static_cast<std::size_t>(message.components_size()), 1, kMaxSeaComponents)) return nullptr;
     for (const v1::WaveComponent& each : message.components()) {
       const std::string at = absl::StrCat(path, "[", waves.size(), "].");
       JonswapWaves& wave = waves.emplace_back();
-      wave.significant_wave_height =
-          Checked(at + "significant_wave_height", each.significant_wave_height(), kHeight);
+      wave.significant_wave_height = Checked(at + "significant_wave_height", each.significant_wave_height(), kHeight);
       wave.peak_period = Checked(at + "peak_period", each.peak_period(), kPeriod);
       if (each.has_gamma()) wave.gamma = Checked(at + "gamma", each.gamma(), kGamma);
       wave.travels_towards = Checked(at + "travels_towards", each.travels_towards(), kDirection);
@@ -143,8 +141,8 @@ class Reader {
   WholeSea Whole(const v1::WavenumberSpectrum& message) {
     const std::string path = "wavenumber_spectrum.";
     const std::size_t harmonics =
-        CheckSpectrum(path, "wavenumbers", message.wavenumbers(), kWavenumber, message.densities(),
-                      message.cosines(), message.sines(), [](int) { return 1.0; });
+        CheckSpectrum(path, "wavenumbers", message.wavenumbers(), kWavenumber, message.densities(), message.cosines(),
+                      message.sines(), [](int) { return 1.0; });
     if (harmonics == 0 && !failed_)
       Add(path + "cosines", path + "cosines are missing (expected at least harmonic 2); send zeros for none");
     if (failed_) return nullptr;
@@ -211,8 +209,8 @@ class Reader {
     for (int i = 1; i < numbers.size(); ++i) {
       if (!(numbers[i] <= numbers[i - 1])) continue;
       const std::string at = absl::StrCat(path, "[", i, "]");
-      Add(at, absl::StrCat(at, " is ", numbers[i], std::string(range.unit), " (expected more than ",
-                           numbers[i - 1], ", the one before); sort them"));
+      Add(at, absl::StrCat(at, " is ", numbers[i], std::string(range.unit), " (expected more than ", numbers[i - 1],
+                           ", the one before); sort them"));
       return;
     }
   }
@@ -239,9 +237,7 @@ Sha256Digest KeyOf(const v1::SeaState& state) {
   return sha.Finish();
 }
 
-absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table) const {
-  return catalog_.Find(table);
-}
+absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table) const { return catalog_.Find(table); }
 
 absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea) {
   if (sea_table_ != nullptr) return sea_table_.get();

@@ -34,8 +34,7 @@ class AnswerSources {
  public:
   // `catalog` and `seas` must outlive it. `compiled` is the table of the sea of the request, if it had to be compiled:
   // when the request is handled, it may no longer be kept.
-  AnswerSources(const TableCatalog& catalog, SeaTables& seas,
-                std::shared_ptr<const ServedTable> compiled = nullptr)
+  AnswerSources(const TableCatalog& catalog, SeaTables& seas, std::shared_ptr<const ServedTable> compiled = nullptr)
       : catalog_(catalog), seas_(seas), sea_table_(std::move(compiled)) {}
 
   // The table of this name, as TableCatalog::Find. Lives as long as the catalog.

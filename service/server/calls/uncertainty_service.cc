@@ -14,9 +14,7 @@
 
 namespace albtpu::server {
 UnreadAnswers::UnreadAnswers(CallMetrics& metrics, Clock::duration limit)
-    : metrics_(metrics),
-      limit_(limit),
-      dropping_(std::chrono::seconds(1), [this] { DropUnread(Clock::now()); }) {}
+    : metrics_(metrics), limit_(limit), dropping_(std::chrono::seconds(1), [this] { DropUnread(Clock::now()); }) {}
 
 UnreadAnswers::Entry::Entry(UnreadAnswers& all, grpc::CallbackServerContext& context, std::size_t bytes)
     : all_(all), context_(context), bytes_(bytes) {
@@ -37,8 +35,7 @@ void UnreadAnswers::DropUnread(Clock::time_point now) {
   std::vector<grpc_call*> calls;
   {
     const std::lock_guard lock(mutex_);
-    const Clock::duration limit =
-        bytes_ > kMaxUnreadBytes / 2 ? Clock::duration(kMaxUnreadTimeWhenCrowded) : limit_;
+    const Clock::duration limit = bytes_ > kMaxUnreadBytes / 2 ? Clock::duration(kMaxUnreadTimeWhenCrowded) : limit_;
     for (Entry* entry : entries_) {
       if (now - entry->made_ < limit) break;
       if (entry->dropped_) continue;
@@ -92,8 +89,7 @@ class Delivery final : public grpc::ServerUnaryReactor {
   const UnreadAnswers::Entry unread_;
 };
 
-grpc::ServerUnaryReactor* Fail(grpc::CallbackServerContext& context, CallRecord& record,
-                               const grpc::Status& status) {
+grpc::ServerUnaryReactor* Fail(grpc::CallbackServerContext& context, CallRecord& record, const grpc::Status& status) {
   grpc::ServerUnaryReactor* reactor = context.DefaultReactor();
   record.End(status);
   reactor->Finish(status);
@@ -101,8 +97,8 @@ grpc::ServerUnaryReactor* Fail(grpc::CallbackServerContext& context, CallRecord&
 }
 
 // Sends the answer unless too much is unread. `bytes` is the size of request and answer together.
-grpc::ServerUnaryReactor* Deliver(UnreadAnswers& unread, grpc::CallbackServerContext& context,
-                                  CallRecord& record, std::size_t bytes) {
+grpc::ServerUnaryReactor* Deliver(UnreadAnswers& unread, grpc::CallbackServerContext& context, CallRecord& record,
+                                  std::size_t bytes) {
   if (!unread.HasRoomFor(bytes)) return Fail(context, record, TooManyUnread());
   record.End(grpc::Status::OK);
   return new Delivery(unread, context, bytes);
@@ -132,9 +128,8 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
  public:
   // `wanted` is the sea to be compiled first, if any.
   LongCall(UncertaintyService& service, const CallRecord& record, grpc::CallbackServerContext& context,
-           MessageHandler handler, std::shared_ptr<const TableCatalog> catalog,
-           const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
-           const std::optional<WantedSea>& wanted)
+           MessageHandler handler, std::shared_ptr<const TableCatalog> catalog, const grpc::ByteBuffer& request,
+           grpc::ByteBuffer& response, const std::optional<WantedSea>& wanted)
       : service_(service),
         record_(record),
         context_(context),
@@ -142,19 +137,20 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
         catalog_(std::move(catalog)),
         request_(request),
         response_(response) {
-    if (wanted) {
+    if (wanted)
       AwaitSea(*wanted);
-    } else {
+    else
       service_.workers_.Run([this] { HandleRequest(nullptr); });
-    }
   }
 
  private:
   void AwaitSea(const WantedSea& wanted) {
-    service_.seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
-      if (!table.ok()) return End(ToGrpcStatus(table.status()));
-      service_.workers_.Run([this, table = *table] { HandleRequest(table); });
-    });
+    service_.seas_.Compile(
+        wanted.key, wanted.sea,
+        [this](const SeaTables::Result& table) {
+          if (!table.ok()) return End(ToGrpcStatus(table.status()));
+          service_.workers_.Run([this, table = *table] { HandleRequest(table); });
+        });
   }
 
   void HandleRequest(std::shared_ptr<const ServedTable> compiled) {
@@ -187,11 +183,9 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
   std::optional<UnreadAnswers::Entry> unread_;
 };
 
-grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandler handler,
-                                                     std::size_t inline_bytes,
+grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandler handler, std::size_t inline_bytes,
                                                      grpc::CallbackServerContext& context,
-                                                     const grpc::ByteBuffer& request,
-                                                     grpc::ByteBuffer& response) {
+                                                     const grpc::ByteBuffer& request, grpc::ByteBuffer& response) {
   CallRecord record(recorders_, method, context);
   if (!request.Valid()) return Fail(context, record, NotReceived(context));
   const std::shared_ptr<const TableCatalog> catalog = tables_.current();
@@ -210,8 +204,7 @@ grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandl
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::QueryPulses(grpc::CallbackServerContext* context,
-                                                          const grpc::ByteBuffer* request,
-                                                          grpc::ByteBuffer* response) {
+                                                          const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
   return Handle(Method::kQueryPulses, HandleQueryPulses, kMaxInlineBytes, *context, *request, *response);
 }
 
@@ -222,23 +215,19 @@ grpc::ServerUnaryReactor* UncertaintyService::QueryColumns(grpc::CallbackServerC
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::QueryBudget(grpc::CallbackServerContext* context,
-                                                          const grpc::ByteBuffer* request,
-                                                          grpc::ByteBuffer* response) {
-  return Handle(Method::kQueryBudget, HandleQueryBudget, kMaxInlineBudgetBytes, *context, *request,
-                *response);
+                                                          const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
+  return Handle(Method::kQueryBudget, HandleQueryBudget, kMaxInlineBudgetBytes, *context, *request, *response);
 }
 
 // Never at once: the file of a table takes milliseconds.
 grpc::ServerUnaryReactor* UncertaintyService::CompileSea(grpc::CallbackServerContext* context,
-                                                         const grpc::ByteBuffer* request,
-                                                         grpc::ByteBuffer* response) {
+                                                         const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
   return Handle(Method::kCompileSea, HandleCompileSea, 0, *context, *request, *response);
 }
 
 ByteStream* UncertaintyService::StreamColumns(grpc::CallbackServerContext* context) {
   CallRecord record(recorders_, Method::kStreamColumns, *context);
-  if (workers_.Admit())
-    return new ColumnStream(tables_.current(), seas_, workers_, record, *context, max_stream_idle_);
+  if (workers_.Admit()) return new ColumnStream(tables_.current(), seas_, workers_, record, *context, max_stream_idle_);
   const grpc::Status refusal = TooManyCalls();
   record.End(refusal);
   return new RefusedStream(refusal);

@@ -76,15 +76,13 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
             v1::UncertaintyService::WithRawCallbackMethod_QueryBudget<
                 v1::UncertaintyService::WithCallbackMethod_ListTables<
                     v1::UncertaintyService::WithCallbackMethod_GetTable<
-                        v1::UncertaintyService::WithRawCallbackMethod_CompileSea<
-                            v1::UncertaintyService::Service>>>>>>>;
+                        v1::UncertaintyService::WithRawCallbackMethod_CompileSea<v1::UncertaintyService::Service>>>>>>>;
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
   // `tables` and `recorders` must outlive the service. Streams without activity and unread answers end after
   // `max_stream_idle`.
-  UncertaintyService(const LiveTables& tables, const Recorders& recorders,
-                     std::chrono::seconds max_stream_idle)
+  UncertaintyService(const LiveTables& tables, const Recorders& recorders, std::chrono::seconds max_stream_idle)
       : tables_(tables),
         recorders_(recorders),
         max_stream_idle_(max_stream_idle),
@@ -93,15 +91,13 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
-  grpc::ServerUnaryReactor* QueryColumns(grpc::CallbackServerContext* context,
-                                         const grpc::ByteBuffer* request,
+  grpc::ServerUnaryReactor* QueryColumns(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                          grpc::ByteBuffer* response) override;
   grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* StreamColumns(
       grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* QueryBudget(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
-  grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context,
-                                       const v1::ListTablesRequest* request,
+  grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context, const v1::ListTablesRequest* request,
                                        v1::ListTablesResponse* response) override;
   grpc::ServerUnaryReactor* GetTable(grpc::CallbackServerContext* context, const v1::GetTableRequest* request,
                                      v1::GetTableResponse* response) override;

@@ -71,8 +71,7 @@ ConnectionCalls ReadConnection(const json& socket) {
   const std::string address = remote.value("ip_address", "");
   if (std::string bytes; absl::Base64Unescape(address, &bytes)) connection.caller.address = bytes;
   connection.caller.port = remote.value("port", 0);
-  connection.calls =
-      Number(data, "streamsStarted") - Number(data, "streamsSucceeded") - Number(data, "streamsFailed");
+  connection.calls = Number(data, "streamsStarted") - Number(data, "streamsSucceeded") - Number(data, "streamsFailed");
   return connection;
 }
 
@@ -96,16 +95,13 @@ std::string ToText(const Caller& caller) {
   const bool ipv4 = caller.address.size() == sizeof(in_addr);
   char text[INET6_ADDRSTRLEN] = "";
   inet_ntop(ipv4 ? AF_INET : AF_INET6, caller.address.data(), text, sizeof text);
-  return ipv4 ? absl::StrCat("ipv4:", text, ":", caller.port)
-              : absl::StrCat("ipv6:%5B", text, "%5D:", caller.port);
+  return ipv4 ? absl::StrCat("ipv4:", text, ":", caller.port) : absl::StrCat("ipv6:%5B", text, "%5D:", caller.port);
 }
 
 std::vector<ConnectionCalls> CountConnectionCalls() {
   std::vector<ConnectionCalls> connections;
   ForEach(grpc_channelz_get_servers, "server", "ref", "serverId", [&](std::int64_t server) {
-    const auto sockets = [server](std::int64_t first) {
-      return grpc_channelz_get_server_sockets(server, first, 0);
-    };
+    const auto sockets = [server](std::int64_t first) { return grpc_channelz_get_server_sockets(server, first, 0); };
     ForEach(sockets, "socketRef", "", "socketId", [&](std::int64_t socket) {
       const json found = TakeJson(grpc_channelz_get_socket(socket));
       if (found.is_object()) connections.push_back(ReadConnection(found.value("socket", json::object())));
@@ -227,9 +223,8 @@ void ConnectionGate::Run() {
   while (true) {
     if (poll(events.data(), events.size(), -1) < 0) continue;  // Interrupted by a signal.
     if (events[0].revents != 0) return;
-    for (std::size_t i = 0; i < sockets_.size(); ++i) {
+    for (std::size_t i = 0; i < sockets_.size(); ++i)
       if (events[i + 1].revents != 0) AcceptSome(sockets_[i]);
-    }
   }
 }
 

@@ -78,8 +78,7 @@ class ConnectionGate {
   using Acceptor = grpc::experimental::ExternalConnectionAcceptor;
 
   // Raises the limit of the process on open files as far as allowed. Counts refused connections in `metrics`.
-  ConnectionGate(std::vector<ListeningSocket> sockets, std::unique_ptr<Acceptor> acceptor,
-                 AccessMetrics& metrics);
+  ConnectionGate(std::vector<ListeningSocket> sockets, std::unique_ptr<Acceptor> acceptor, AccessMetrics& metrics);
 
   // Stops listening.
   ~ConnectionGate();

@@ -66,9 +66,8 @@ absl::Status Within(std::string_view outer, const absl::Status& status) {
   const absl::optional<absl::Cord> payload = status.GetPayload(kBadRequestUrl);
   google::rpc::BadRequest request;
   if (!payload.has_value() || !request.ParseFromString(std::string(*payload))) return status;
-  for (google::rpc::BadRequest::FieldViolation& violation : *request.mutable_field_violations()) {
+  for (google::rpc::BadRequest::FieldViolation& violation : *request.mutable_field_violations())
     violation.set_field(absl::StrCat(std::string(outer), ".", violation.field()));
-  }
   absl::Status same = status;
   same.SetPayload(kBadRequestUrl, absl::Cord(request.SerializeAsString()));
   return same;
@@ -89,8 +88,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
       return WithDetails(status);
     default:
       spdlog::error("call failed: {}", status.ToString());
-      return grpc::Status(grpc::StatusCode::INTERNAL,
-                          "internal error (details are in the log of the server)");
+      return grpc::Status(grpc::StatusCode::INTERNAL, "internal error (details are in the log of the server)");
   }
 }
 

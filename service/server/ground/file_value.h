@@ -45,8 +45,7 @@ class FileValue {
   using Read = std::function<absl::StatusOr<Value>()>;
 
   // `read` reads `files`, now and whenever one of them has changed. Fails if the first read fails.
-  static absl::StatusOr<std::unique_ptr<FileValue>> Open(std::vector<std::filesystem::path> files,
-                                                         Read read) {
+  static absl::StatusOr<std::unique_ptr<FileValue>> Open(std::vector<std::filesystem::path> files, Read read) {
     Identities identities = IdentitiesOf(files);
     absl::StatusOr<Value> value = read();
     if (!value.ok()) return value.status();

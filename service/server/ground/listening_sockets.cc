@@ -18,9 +18,9 @@ namespace albtpu::server {
 namespace {
 
 absl::Status InvalidAddress(std::string_view text) {
-  return absl::InvalidArgumentError(absl::StrCat(
-      "'", std::string(text),
-      "' is not an address to listen on: expected HOST:PORT, such as 127.0.0.1:50051 or [::1]:0"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("'", std::string(text),
+                   "' is not an address to listen on: expected HOST:PORT, such as 127.0.0.1:50051 or [::1]:0"));
 }
 
 }  // namespace
@@ -35,11 +35,9 @@ absl::StatusOr<ListenAddress> ListenAddress::Parse(std::string_view text) {
   // An IPv6 address, and no other host, is written in brackets.
   const bool has_colon = host.find(':') != std::string_view::npos;
   int port = 0;
-  if (host.empty() || has_colon != bracketed ||
-      port_text.find_first_not_of("0123456789") != std::string::npos || !absl::SimpleAtoi(port_text, &port) ||
-      port > 65535) {
+  if (host.empty() || has_colon != bracketed || port_text.find_first_not_of("0123456789") != std::string::npos ||
+      !absl::SimpleAtoi(port_text, &port) || port > 65535)
     return InvalidAddress(text);
-  }
   return ListenAddress(host, port);
 }
 
@@ -65,8 +63,7 @@ absl::StatusOr<Addresses> Resolve(const ListenAddress& address) {
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const int error =
-      getaddrinfo(address.host().c_str(), std::to_string(address.port()).c_str(), &hints, &found);
+  const int error = getaddrinfo(address.host().c_str(), std::to_string(address.port()).c_str(), &hints, &found);
   if (error == 0) return Addresses(found, freeaddrinfo);
   return absl::UnavailableError(absl::StrCat(address.ToString(), ": ", gai_strerror(error)));
 }
@@ -111,8 +108,7 @@ absl::StatusOr<std::vector<ListeningSocket>> Listen(const ListenAddress& address
       continue;
     }
     const int error = errno;
-    const absl::Status reason =
-        absl::UnavailableError(absl::StrCat(address.ToString(), ": ", std::strerror(error)));
+    const absl::Status reason = absl::UnavailableError(absl::StrCat(address.ToString(), ": ", std::strerror(error)));
     if (error == EADDRINUSE) return reason;
     failure.Update(reason);
   }

@@ -36,9 +36,7 @@ LogFields Fields() {
   return fields;
 }
 
-std::string Text(const LogFields& json) {
-  return json.dump(-1, ' ', false, LogFields::error_handler_t::replace);
-}
+std::string Text(const LogFields& json) { return json.dump(-1, ' ', false, LogFields::error_handler_t::replace); }
 
 std::string JsonLine(const spdlog::details::log_msg& line, const std::string& message) {
   const spdlog::string_view_t level = spdlog::level::to_string_view(line.level);
@@ -77,9 +75,7 @@ class LineFormatter final : public spdlog::formatter {
     buffer.append(text.data(), text.data() + text.size());
   }
 
-  std::unique_ptr<spdlog::formatter> clone() const override {
-    return std::make_unique<LineFormatter>(style_);
-  }
+  std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<LineFormatter>(style_); }
 
  private:
   std::string Line(const spdlog::details::log_msg& line, const std::string& message) const {
@@ -96,8 +92,7 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
  private:
   void sink_it_(const spdlog::details::log_msg& line) override {
     if (left_out_ > 0 && HasRoom()) {
-      const std::string text =
-          absl::StrCat(left_out_, " lines were left out (the reader of the log did not keep up)");
+      const std::string text = absl::StrCat(left_out_, " lines were left out (the reader of the log did not keep up)");
       const LogFields* fields = std::exchange(line_fields, nullptr);
       const RequestId* request = std::exchange(current_request, nullptr);
       Write(spdlog::details::log_msg(line.logger_name, spdlog::level::warn, text));
@@ -135,13 +130,9 @@ std::string MakeId() {
 
 }  // namespace
 
-std::shared_ptr<spdlog::sinks::sink> MakeLogSink(int descriptor) {
-  return std::make_shared<Sink>(descriptor);
-}
+std::shared_ptr<spdlog::sinks::sink> MakeLogSink(int descriptor) { return std::make_shared<Sink>(descriptor); }
 
-std::unique_ptr<spdlog::formatter> MakeLogFormatter(LogStyle style) {
-  return std::make_unique<LineFormatter>(style);
-}
+std::unique_ptr<spdlog::formatter> MakeLogFormatter(LogStyle style) { return std::make_unique<LineFormatter>(style); }
 
 void Log(spdlog::level::level_enum level, const std::string& message, const LogFields& fields) {
   line_fields = &fields;
@@ -161,12 +152,12 @@ const std::string& RequestId::text() const {
 
 bool RequestId::IsValid(std::string_view text) {
   return !text.empty() && text.size() <= kMaxRequestIdBytes &&
-         std::all_of(text.begin(), text.end(),
-                     [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
+         std::all_of(
+             text.begin(), text.end(),
+             [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
 }
 
-RequestScope::RequestScope(const RequestId& request_id)
-    : before_(std::exchange(current_request, &request_id)) {}
+RequestScope::RequestScope(const RequestId& request_id) : before_(std::exchange(current_request, &request_id)) {}
 
 RequestScope::~RequestScope() { current_request = before_; }
 
@@ -224,9 +215,7 @@ void CallRecord::CountAnswer(const OutcomeTally& tally, Clock::time_point reques
 void CallRecord::End(const grpc::Status& status) const {
   recorders_.metrics.CountEnd(method_, status.error_code());
   if (!status.ok()) context_.AddTrailingMetadata(RequestId::kMetadata, request_id_.text());
-  if (!status.ok() || method_ == Method::kStreamColumns || method_ == Method::kReloadTables) {
-    WriteLine(status);
-  }
+  if (!status.ok() || method_ == Method::kStreamColumns || method_ == Method::kReloadTables) WriteLine(status);
 }
 
 void CallRecord::WriteLine(const grpc::Status& status) const {
@@ -241,23 +230,20 @@ void CallRecord::WriteLine(const grpc::Status& status) const {
   }
   const RequestScope scope(request_id_);
   const bool has_message = !status.error_message().empty();
-  recorders_.log.Write(LevelOf(status.error_code()),
-                       status.ok()
-                           ? "call ended"
-                           : absl::StrCat("call failed", has_message ? ": " : "", status.error_message()),
-                       std::move(fields));
+  recorders_.log.Write(
+      LevelOf(status.error_code()),
+      status.ok() ? "call ended" : absl::StrCat("call failed", has_message ? ": " : "", status.error_message()),
+      std::move(fields));
 }
 
 void LogReload(const LiveTables::ReloadResult& result) {
   if (!result.ok()) {
-    spdlog::error("tables not reloaded, the previous tables stay in use: {}",
-                  std::string(result.status().message()));
+    spdlog::error("tables not reloaded, the previous tables stay in use: {}", std::string(result.status().message()));
     return;
   }
   using Kind = TableCatalog::Change::Kind;
   const auto count = [&](Kind kind) {
-    return std::count_if(result->begin(), result->end(),
-                         [&](const auto& change) { return change.kind == kind; });
+    return std::count_if(result->begin(), result->end(), [&](const auto& change) { return change.kind == kind; });
   };
   Log(spdlog::level::info, "tables reloaded",
       {{"loaded", count(Kind::kLoaded)}, {"kept", count(Kind::kKept)}, {"removed", count(Kind::kRemoved)}});

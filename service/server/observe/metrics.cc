@@ -18,8 +18,7 @@
 namespace albtpu::server {
 namespace {
 
-prometheus::MetricFamily Single(const char* name, const char* help, prometheus::MetricType type,
-                                double value) {
+prometheus::MetricFamily Single(const char* name, const char* help, prometheus::MetricType type, double value) {
   prometheus::ClientMetric metric;
   (type == prometheus::MetricType::Counter ? metric.counter.value : metric.gauge.value) = value;
   prometheus::MetricFamily family;
@@ -65,44 +64,39 @@ std::vector<prometheus::MetricFamily> ProcessMetrics::Collect() const {
   if (const std::optional<ProcessMemory> memory = ReadProcessMemory(); memory.has_value()) {
     families.push_back(
         Gauge("process_resident_memory_bytes", "Resident memory size in bytes.", memory->resident_bytes));
-    families.push_back(
-        Gauge("process_virtual_memory_bytes", "Virtual memory size in bytes.", memory->virtual_bytes));
+    families.push_back(Gauge("process_virtual_memory_bytes", "Virtual memory size in bytes.", memory->virtual_bytes));
   }
   if (rusage usage; getrusage(RUSAGE_SELF, &usage) == 0) {
     families.push_back(Single("process_cpu_seconds_total", "Total user and system CPU time spent in seconds.",
-                              prometheus::MetricType::Counter,
-                              Seconds(usage.ru_utime) + Seconds(usage.ru_stime)));
+                              prometheus::MetricType::Counter, Seconds(usage.ru_utime) + Seconds(usage.ru_stime)));
   }
-  if (const std::optional<double> files = CountOpenFiles(); files.has_value()) {
+  if (const std::optional<double> files = CountOpenFiles(); files.has_value())
     families.push_back(Gauge("process_open_fds", "Number of open file descriptors.", *files));
-  }
   if (rlimit limit; getrlimit(RLIMIT_NOFILE, &limit) == 0) {
-    families.push_back(Gauge("process_max_fds", "Maximum number of open file descriptors.",
-                             static_cast<double>(limit.rlim_cur)));
+    families.push_back(
+        Gauge("process_max_fds", "Maximum number of open file descriptors.", static_cast<double>(limit.rlim_cur)));
   }
-  families.push_back(Gauge("process_start_time_seconds",
-                           "Start time of the process since unix epoch in seconds.", start_time_));
+  families.push_back(
+      Gauge("process_start_time_seconds", "Start time of the process since unix epoch in seconds.", start_time_));
   return families;
 }
 
 namespace {
 
 // From a single pulse, tens of microseconds, to a full message that waits for many others.
-const prometheus::Histogram::BucketBoundaries kSeconds = {25e-6,  50e-6, 100e-6, 250e-6, 500e-6, 1e-3,
-                                                          2.5e-3, 5e-3,  10e-3,  25e-3,  50e-3,  0.1,
-                                                          0.25,   0.5,   1,      2.5,    5,      10};
+const prometheus::Histogram::BucketBoundaries kSeconds = {
+    25e-6, 50e-6, 100e-6, 250e-6, 500e-6, 1e-3, 2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3, 0.1, 0.25, 0.5, 1, 2.5, 5, 10};
 const prometheus::Histogram::BucketBoundaries kPulses = {1, 10, 100, 1000, 4096, 16384, 32768, 65536};
 
 // Codes whose counters exist from the start, so that their first call is noticed: Prometheus sees no increase in a
 // counter that appears at 1.
-constexpr std::array kCodesFromStart = {grpc::StatusCode::OK, grpc::StatusCode::INTERNAL,
-                                        grpc::StatusCode::UNKNOWN, grpc::StatusCode::DATA_LOSS,
-                                        grpc::StatusCode::RESOURCE_EXHAUSTED};
+constexpr std::array kCodesFromStart = {grpc::StatusCode::OK, grpc::StatusCode::INTERNAL, grpc::StatusCode::UNKNOWN,
+                                        grpc::StatusCode::DATA_LOSS, grpc::StatusCode::RESOURCE_EXHAUSTED};
 
 bool HasChanges(const std::vector<TableCatalog::Change>& changes) {
-  return std::any_of(changes.begin(), changes.end(), [](const TableCatalog::Change& change) {
-    return change.kind != TableCatalog::Change::Kind::kKept;
-  });
+  return std::any_of(
+      changes.begin(), changes.end(),
+      [](const TableCatalog::Change& change) { return change.kind != TableCatalog::Change::Kind::kKept; });
 }
 
 }  // namespace
@@ -127,10 +121,8 @@ CallMetrics::CallMetrics(prometheus::Registry& registry)
                           "Time from a request to its answer, without the network; in a stream, from the "
                           "moment that it is the turn of the request.")
                       .Register(registry);
-  auto& batch = prometheus::BuildHistogram()
-                    .Name("albtpu_answer_pulses")
-                    .Help("Pulses of an answer.")
-                    .Register(registry);
+  auto& batch =
+      prometheus::BuildHistogram().Name("albtpu_answer_pulses").Help("Pulses of an answer.").Register(registry);
   auto& pulses = prometheus::BuildCounter()
                      .Name("albtpu_pulses_total")
                      .Help("Pulses that were answered, by outcome and the axis that made it.")
@@ -179,8 +171,7 @@ prometheus::Counter& CallMetrics::Ended(Method method, std::size_t code) {
   std::atomic<prometheus::Counter*>& place = ended_[Index(method)][code];
   prometheus::Counter* counter = place.load(std::memory_order_acquire);
   if (counter == nullptr) {  // Threads that add the same counter at the same time get the same object.
-    counter =
-        &calls_.Add({{"method", Name(method)}, {"code", CodeName(static_cast<grpc::StatusCode>(code))}});
+    counter = &calls_.Add({{"method", Name(method)}, {"code", CodeName(static_cast<grpc::StatusCode>(code))}});
     place.store(counter, std::memory_order_release);
   }
   return *counter;

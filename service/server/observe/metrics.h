@@ -115,9 +115,7 @@ class AccessMetrics {
   void CountWrongToken() { wrong_token_->Increment(); }
 
   // Expiry of the certificate for new connections. A server without a certificate does not have this metric.
-  void SetCertificateExpiry(std::time_t expiry) {
-    certificate_expiry_.Add({}).Set(static_cast<double>(expiry));
-  }
+  void SetCertificateExpiry(std::time_t expiry) { certificate_expiry_.Add({}).Set(static_cast<double>(expiry)); }
 
  private:
   prometheus::Counter* refused_connections_;

@@ -14,9 +14,9 @@ absl::StatusOr<std::unique_ptr<MetricsEndpoint>> MetricsEndpoint::Start(
   const absl::Status probe = Listen(address).status();
   if (!probe.ok()) return absl::UnavailableError(absl::StrCat("cannot listen on ", probe.message()));
   try {
-    auto exposer = std::make_unique<prometheus::Exposer>(std::vector<std::string>{
-        "listening_ports", address.ToString(), "num_threads", std::to_string(kMetricsThreads),
-        "request_timeout_ms", std::to_string(kMetricsTimeout.count())});
+    auto exposer = std::make_unique<prometheus::Exposer>(
+        std::vector<std::string>{"listening_ports", address.ToString(), "num_threads", std::to_string(kMetricsThreads),
+                                 "request_timeout_ms", std::to_string(kMetricsTimeout.count())});
     for (const auto& source : sources) exposer->RegisterCollectable(source);
     std::string bound = address.WithPort(exposer->GetListeningPorts().front());
     return std::unique_ptr<MetricsEndpoint>(new MetricsEndpoint(std::move(exposer), std::move(bound)));

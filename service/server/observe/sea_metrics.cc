@@ -12,8 +12,7 @@ namespace albtpu::server {
 namespace {
 
 // From a sea on an idle machine, some milliseconds, to one on a busy machine.
-const prometheus::Histogram::BucketBoundaries kSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3,
-                                                          0.1,    0.25, 0.5,   1,     2.5};
+const prometheus::Histogram::BucketBoundaries kSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3, 0.1, 0.25, 0.5, 1, 2.5};
 
 }  // namespace
 

@@ -50,8 +50,7 @@ absl::Status CheckNames(const std::vector<TableFile>& files, const std::filesyst
 
 }  // namespace
 
-absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& folder,
-                                                std::string_view default_table) {
+absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& folder, std::string_view default_table) {
   absl::StatusOr<Reloaded> first = TableCatalog(folder, default_table).Reload();
   if (!first.ok()) return first.status();
   return std::move(first->catalog);
@@ -82,9 +81,8 @@ absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
     catalog.entries_.push_back(std::move(entry));
   }
   if (!failures.all().ok()) return failures.all();
-  for (const std::shared_ptr<const Entry>& entry : entries_) {
+  for (const std::shared_ptr<const Entry>& entry : entries_)
     if (catalog.EntryOf(entry->name) == nullptr) reloaded.changes.push_back({entry->name, Kind::kRemoved});
-  }
   return reloaded;
 }
 

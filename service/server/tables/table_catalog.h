@@ -29,8 +29,7 @@ class TableCatalog {
   // Reads all tables of `folder` (table_folder.h says which files are tables). `default_table`, unless empty, is the
   // table for requests that name none. Fails if there is no table, if a table cannot be read (the message gives the
   // reason for each), if two tables have the same name, or if `default_table` does not exist.
-  static absl::StatusOr<TableCatalog> Load(const std::filesystem::path& folder,
-                                           std::string_view default_table);
+  static absl::StatusOr<TableCatalog> Load(const std::filesystem::path& folder, std::string_view default_table);
 
   // The change of a table when its folder was read again.
   struct Change {

@@ -89,9 +89,8 @@ v1::Table WriteTableMessage(const ServedTable& served) {
   }
   message.set_campaign(table.provenance().campaign);
   if (served.sea) *message.mutable_sea() = WriteSea(*served.sea);
-  for (const auto& [name, value] : table.provenance().attributes) {
+  for (const auto& [name, value] : table.provenance().attributes)
     std::visit(AttributeWriter{(*message.mutable_attributes())[name]}, value);
-  }
   return message;
 }
 
@@ -110,10 +109,8 @@ static_assert(AfterUnspecified<v1::Axis>(AxisId::kAzimuth) == v1::AXIS_AZIMUTH);
 static_assert(AfterUnspecified<v1::Axis>(AxisId::kFootprint) == v1::AXIS_FOOTPRINT);
 static_assert(AfterUnspecified<v1::Axis>(AxisId::kDepth) == v1::AXIS_DEPTH);
 
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionAlongWind) ==
-              v1::QUANTITY_REFRACTION_ALONG_WIND);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionCrossWind) ==
-              v1::QUANTITY_REFRACTION_CROSS_WIND);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionAlongWind) == v1::QUANTITY_REFRACTION_ALONG_WIND);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionCrossWind) == v1::QUANTITY_REFRACTION_CROSS_WIND);
 static_assert(AfterUnspecified<v1::Quantity>(Quantity::kThu) == v1::QUANTITY_THU);
 static_assert(AfterUnspecified<v1::Quantity>(Quantity::kTvu) == v1::QUANTITY_TVU);
 static_assert(AfterUnspecified<v1::Quantity>(Quantity::kBiasAlongBeam) == v1::QUANTITY_BIAS_ALONG_BEAM);
@@ -133,32 +130,27 @@ static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kPulse) == 
 static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLocal) == v1::SURFACE_LOCATION_LOCAL);
 static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLevel) == v1::SURFACE_LOCATION_LEVEL);
 
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) ==
-              v1::BUDGET_QUANTITY_TOTAL_THU);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) == v1::BUDGET_QUANTITY_TOTAL_THU);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuSea) == v1::BUDGET_QUANTITY_TVU_SEA);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBiasVertical) ==
-              v1::BUDGET_QUANTITY_BIAS_VERTICAL);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBiasVertical) == v1::BUDGET_QUANTITY_BIAS_VERTICAL);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceTotal) ==
               v1::BUDGET_QUANTITY_COVARIANCE_TOTAL);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceSurvey) ==
               v1::BUDGET_QUANTITY_COVARIANCE_SURVEY);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBestS44Order) ==
               v1::BUDGET_QUANTITY_BEST_S44_ORDER);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuWater) ==
-              v1::BUDGET_QUANTITY_TVU_WATER);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuWater) == v1::BUDGET_QUANTITY_TVU_WATER);
 
 absl::Status NotAValue(std::string_view field, int number, std::string_view enum_name) {
-  return FieldViolation(
-      field, absl::StrCat(std::string(field), " is ", number, ": not a value of ", std::string(enum_name)));
+  return FieldViolation(field,
+                        absl::StrCat(std::string(field), " is ", number, ": not a value of ", std::string(enum_name)));
 }
 
 }  // namespace
 
 v1::Axis ToWire(AxisId axis) { return AfterUnspecified<v1::Axis>(axis); }
 
-v1::Axis ToWire(std::optional<AxisId> axis) {
-  return axis.has_value() ? ToWire(*axis) : v1::AXIS_UNSPECIFIED;
-}
+v1::Axis ToWire(std::optional<AxisId> axis) { return axis.has_value() ? ToWire(*axis) : v1::AXIS_UNSPECIFIED; }
 
 v1::Quantity ToWire(Quantity quantity) { return AfterUnspecified<v1::Quantity>(quantity); }
 
@@ -198,30 +190,25 @@ absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order) {
 
 absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
   if (!v1::Quantity_IsValid(quantity)) return NotAValue("quantities", quantity, "Quantity");
-  if (quantity == v1::QUANTITY_UNSPECIFIED) {
-    return FieldViolation("quantities",
-                          "quantities contains QUANTITY_UNSPECIFIED: leave it empty to ask for all");
-  }
+  if (quantity == v1::QUANTITY_UNSPECIFIED)
+    return FieldViolation("quantities", "quantities contains QUANTITY_UNSPECIFIED: leave it empty to ask for all");
   return static_cast<Quantity>(quantity - 1);
 }
 
 absl::StatusOr<BudgetQuantity> FromWire(v1::BudgetQuantity quantity) {
   if (!v1::BudgetQuantity_IsValid(quantity)) return NotAValue("quantities", quantity, "BudgetQuantity");
   if (quantity == v1::BUDGET_QUANTITY_UNSPECIFIED) {
-    return FieldViolation(
-        "quantities",
-        "quantities contains BUDGET_QUANTITY_UNSPECIFIED: leave it empty to ask for THU and TVU");
+    return FieldViolation("quantities",
+                          "quantities contains BUDGET_QUANTITY_UNSPECIFIED: leave it empty to ask for THU and TVU");
   }
   return static_cast<BudgetQuantity>(quantity - 1);
 }
 
 absl::StatusOr<SurfaceLocation> FromWire(v1::SurfaceLocation location) {
-  if (!v1::SurfaceLocation_IsValid(location))
-    return NotAValue("options.located", location, "SurfaceLocation");
+  if (!v1::SurfaceLocation_IsValid(location)) return NotAValue("options.located", location, "SurfaceLocation");
   if (location == v1::SURFACE_LOCATION_UNSPECIFIED) {
-    return FieldViolation(
-        "options.located",
-        "options.located is missing: say how the surface was located (pulse, local or level)");
+    return FieldViolation("options.located",
+                          "options.located is missing: say how the surface was located (pulse, local or level)");
   }
   return static_cast<SurfaceLocation>(location - 1);
 }

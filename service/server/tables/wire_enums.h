@@ -26,10 +26,7 @@ namespace albtpu::server {
 
 struct ServedTable {
   ServedTable(std::string table_name, UncertaintyTable contents)
-      : name(std::move(table_name)),
-        table(std::move(contents)),
-        interpolator(table),
-        sea(SummaryOfSea(table)) {}
+      : name(std::move(table_name)), table(std::move(contents)), interpolator(table), sea(SummaryOfSea(table)) {}
 
   std::string name;  // NAME or NAME/VERSION; empty for the table of a request's sea.
   UncertaintyTable table;

@@ -24,8 +24,7 @@ TEST(CoordinateSpread, IsExactWhereAllNumbersAreTheSame) {
 TEST(CoordinateSpread, FindsTheMedianWithinASixteenth) {
   std::mt19937 random(1);
   for (const double centre : {-30.0, -1.0, 0.002, 5.0, 700.0}) {
-    std::normal_distribution<float> normal(static_cast<float>(centre),
-                                           static_cast<float>(std::abs(centre) / 4));
+    std::normal_distribution<float> normal(static_cast<float>(centre), static_cast<float>(std::abs(centre) / 4));
     CoordinateSpread spread;
     std::vector<float> numbers(1001);
     for (float& number : numbers) spread.Add(number = normal(random));

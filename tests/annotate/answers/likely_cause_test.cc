@@ -51,11 +51,10 @@ class LikelyCauseTest : public ::testing::Test {
     pulses_[AxisId::kDepth].clear();
     for (const float height : heights) {
       const auto depth = static_cast<float>(water_level - height);
-      if (depth < 0) {
+      if (depth < 0)
         summary_.AddAboveWater(depth);
-      } else {
+      else
         pulses_[AxisId::kDepth].push_back(depth);
-      }
     }
     pulses_.size = pulses_[AxisId::kDepth].size();
     pulses_[AxisId::kIncidence] = {18};
@@ -150,9 +149,8 @@ TEST_F(LikelyCauseTest, CallsWaterTooDeepUnlessTheDepthIsFarOutside) {
 TEST_F(LikelyCauseTest, NamesAWaterLevelOfTheWrongSign) {
   // Water at 23.09 m, the bottom 2 to 8 m below it.
   SetHeights({15, 18, 21}, -23.09);
-  EXPECT_THAT(Cause(),
-              AllOf(HasSubstr("they lie 38.09 to 44.09 m above the water surface"),
-                    HasSubstr("sign of --water-level wrong?"), HasSubstr("the median depth would be")));
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("they lie 38.09 to 44.09 m above the water surface"),
+                             HasSubstr("sign of --water-level wrong?"), HasSubstr("the median depth would be")));
 }
 
 TEST_F(LikelyCauseTest, NamesTheWrongSignWherePointsSeemTooDeep) {

@@ -80,9 +80,8 @@ TEST(OutcomeCounts, CountsPointsWithAndWithoutAPulse) {
   counts.Merge(more);
   EXPECT_EQ(counts.total(), 8u);
   EXPECT_EQ(counts.interpolated(), 1u);
-  EXPECT_EQ(counts.Json().dump(),
-            R"({"INTERPOLATED":1,"OUT_OF_DOMAIN:depth:above":1,"INVALID":1,"NO_TRAJECTORY":1,)"
-            R"("UNCERTAIN_TRAJECTORY":1,"NO_SURFACE":1,"ABOVE_WATER":2})");
+  EXPECT_EQ(counts.Json().dump(), R"({"INTERPOLATED":1,"OUT_OF_DOMAIN:depth:above":1,"INVALID":1,"NO_TRAJECTORY":1,)"
+                                  R"("UNCERTAIN_TRAJECTORY":1,"NO_SURFACE":1,"ABOVE_WATER":2})");
   EXPECT_EQ(counts.Text(),
             "8 pulses: 1 interpolated, 1 OUT_OF_DOMAIN:depth:above, 1 INVALID, 1 NO_TRAJECTORY, "
             "1 UNCERTAIN_TRAJECTORY, 1 NO_SURFACE, 2 ABOVE_WATER; all without azimuth: each value is the "

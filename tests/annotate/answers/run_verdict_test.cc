@@ -59,8 +59,8 @@ TEST(RunVerdict, IsOverAllFilesTogetherAndNamesEachBadOne) {
   EXPECT_THAT(verdict.Add("b.csv", Answers(1, 8)), HasSubstr("b.csv: only 1 of 9 pulses"));
   EXPECT_TRUE(verdict.status().ok());
   EXPECT_THAT(verdict.Add("c.csv", Answers(0, 9, 0, 70)), HasSubstr("c.csv: no pulse"));
-  EXPECT_THAT(Message(verdict), AllOf(HasSubstr("in all 3 files: only 11 of 28 pulses"),
-                                      HasSubstr("footprint 60 to 70 m is above 5 m")));
+  EXPECT_THAT(Message(verdict),
+              AllOf(HasSubstr("in all 3 files: only 11 of 28 pulses"), HasSubstr("footprint 60 to 70 m is above 5 m")));
 }
 
 TEST(RunVerdict, IsGoodWithoutFilesOrPulses) {
@@ -74,11 +74,10 @@ TEST(RunVerdict, TakesAnyJsonForASummary) {
   RunVerdict verdict(Context(), "pulse");
   for (const char* text : {"null", "3", "[]", R"({"outcomes": 3})", R"({"outcomes": {"INTERPOLATED": "x"}})",
                            R"({"outcomes": {"INTERPOLATED": -1}, "depth": []})",
-                           R"({"outcomes": {"INVALID": 0}, "outside": {"INVALID": 1}})"}) {
+                           R"({"outcomes": {"INVALID": 0}, "outside": {"INVALID": 1}})"})
     EXPECT_EQ(verdict.Add("a.csv", AnswerTally::FromJson(Json::parse(text))), "") << text;
-  }
-  EXPECT_THAT(verdict.Add("a.csv", AnswerTally::FromJson(Json::parse(
-                                       R"({"outcomes": {"NEW": 3}, "outside": {"NEW": {"least": "x"}}})"))),
+  EXPECT_THAT(verdict.Add("a.csv", AnswerTally::FromJson(
+                                       Json::parse(R"({"outcomes": {"NEW": 3}, "outside": {"NEW": {"least": "x"}}})"))),
               HasSubstr("3 NEW"));
 }
 
@@ -87,10 +86,9 @@ TEST(RunVerdict, FailsWhereTheOtherSignOfTheWaterLevelExplainsThatNoPulseIsShall
   context.water_level = 23;
   RunVerdict verdict(context, "pulse");
   verdict.Add("a.csv", Answers(10, 0, 46.5));
-  EXPECT_THAT(Message(verdict),
-              AllOf(HasSubstr("a.csv: no pulse is shallower than 20 m"),
-                    HasSubstr("sign of --water-level wrong? corrected, the least depth would "
-                              "be 0.5 m")));
+  EXPECT_THAT(Message(verdict), AllOf(HasSubstr("a.csv: no pulse is shallower than 20 m"),
+                                      HasSubstr("sign of --water-level wrong? corrected, the least depth would "
+                                                "be 0.5 m")));
   EXPECT_EQ(verdict.DeepNote(), "");
   // The other sign would put the sea 16 m below the shallowest bottom, or change nothing.
   for (const double level : {31.0, 5.0, -23.0}) {

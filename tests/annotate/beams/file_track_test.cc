@@ -37,14 +37,12 @@ class TrackFromFilesTest : public ::testing::Test {
                    .origin_y = origin.y,
                    .metres_per_x = metric.metres_per_x,
                    .metres_per_y = metric.metres_per_y};
-    file_.extent = {.x_min = origin.x - 2000,
-                    .x_max = origin.x + 2000,
-                    .y_min = origin.y - 2000,
-                    .y_max = origin.y + 2000};
+    file_.extent = {
+        .x_min = origin.x - 2000, .x_max = origin.x + 2000, .y_min = origin.y - 2000, .y_max = origin.y + 2000};
     file_.times = {{flight_.start + 20, flight_.start + 80}, formats::PointTimeForm::kWeekSeconds};
     plan_.source = TrajectoryFromFiles();
-    const auto files = formats::LoadTrajectories(
-        std::vector<std::string>{folder_.Write("flight.sbet", SbetBytes(Fly(flight_)))});
+    const auto files =
+        formats::LoadTrajectories(std::vector<std::string>{folder_.Write("flight.sbet", SbetBytes(Fly(flight_)))});
     plan_.trajectories = std::make_shared<const formats::TrajectoryFiles>(*files);
     AddRays(3000, 0);
   }
@@ -60,8 +58,8 @@ class TrackFromFilesTest : public ::testing::Test {
       const Eigen::Vector3d sensor(file_.frame.X(at.x), file_.frame.Y(at.y), row[kHeight]);
       const double azimuth = 2.4 * i;  // Directions are spread evenly.
       const double incidence = 20 * kDegree;
-      const Eigen::Vector3d direction(std::sin(incidence) * std::sin(azimuth),
-                                      std::sin(incidence) * std::cos(azimuth), -std::cos(incidence));
+      const Eigen::Vector3d direction(std::sin(incidence) * std::sin(azimuth), std::sin(incidence) * std::cos(azimuth),
+                                      -std::cos(incidence));
       file_.rays.push_back({.time = flight_.start + time + delay,
                             .water_point = sensor + direction * (sensor.z() - kWater) / std::cos(incidence),
                             .direction = direction,
@@ -83,8 +81,7 @@ TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
   EXPECT_EQ(found->json["check"]["rays"], 3000);
   // Linear steps of 0.02 s and single precision of the rays' own geometry: 1 mm of 400 m is 1.4e-4 degrees.
   EXPECT_NEAR(found->json["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
-  EXPECT_THAT(found->notes,
-              ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
+  EXPECT_THAT(found->notes, ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
   const std::vector<double> times = {flight_.start + 50};
   SensorPosition position;
   TrackOutcome outcome;
@@ -133,8 +130,8 @@ TEST_F(TrackFromFilesTest, RefusesATrajectoryOfAnotherTime) {
 }
 
 TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
-  const auto errors = LoadTrajectoryErrors(
-      std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(flight_.start, 121))});
+  const auto errors =
+      LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(flight_.start, 121))});
   plan_.trajectory_errors = *errors;
   const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
   // 50 s after its start, 0.04 m (1 + 5) down; 200 samples of a minute place the median within 0.3 s.
@@ -143,20 +140,16 @@ TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
 }
 
 TEST_F(TrackFromFilesTest, RefusesErrorFilesOfAnotherTrajectory) {
-  const auto errors =
-      LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(0, 60))});
+  const auto errors = LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(0, 60))});
   plan_.trajectory_errors = *errors;
   EXPECT_THAT(Refusal(), HasSubstr("in.las: no error file of --trajectory-errors covers the times"));
 }
 
-absl::StatusOr<FileTrack> FromReturns(const TrackedFile& file) {
-  return TrackFromReturns(file, kSeaWaterIndex);
-}
+absl::StatusOr<FileTrack> FromReturns(const TrackedFile& file) { return TrackFromReturns(file, kSeaWaterIndex); }
 
 // Rays of a straight flight without errors, 400 m above the water at 60 m/s.
 TrackedFile FlownFile(double pairs_per_second) {
-  const SimulatedFlight flight(
-      {.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .wander = 0});
+  const SimulatedFlight flight({.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .wander = 0});
   TrackedFile file;
   file.name = "in.las";
   file.rays = RaysOf(flight.Rays());
@@ -179,8 +172,7 @@ TEST(TrackFromReturns, StatesWhatItFound) {
 TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
   TrackedFile file = FlownFile(100);
   absl::StatusOr<FileTrack> found = FromReturns(file);
-  EXPECT_THAT(found->notes,
-              ElementsAre(HasSubstr("trajectory from "), HasSubstr("directions are from grid north")));
+  EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from "), HasSubstr("directions are from grid north")));
   const auto map = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
   file.map = *map;
   file.frame.origin_x = 400000;
@@ -201,8 +193,7 @@ TEST(TrackFromReturns, RefusesAFileWithoutRays) {
   file.name = "in.las";
   file.pairs = 7;
   const std::string refusal(FromReturns(file).status().message());
-  EXPECT_THAT(refusal,
-              HasSubstr("in.las: the position of the sensor cannot be derived from its returns (7 pairs"));
+  EXPECT_THAT(refusal, HasSubstr("in.las: the position of the sensor cannot be derived from its returns (7 pairs"));
   EXPECT_THAT(refusal, HasSubstr("or give a trajectory by --trajectory"));
 }
 

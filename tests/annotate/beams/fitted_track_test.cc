@@ -56,8 +56,8 @@ void ExpectPositionsInUnitsOf(const LocalFrame& frame, const formats::MapFrame* 
     ASSERT_EQ(answer.outcomes[i], TrackOutcome::kKnown);
     const SensorPosition& position = answer.positions[i];
     // Two roundings of a coordinate of the size of the origin, in metres.
-    const double rounding = 1e-15 * std::max(std::abs(frame.origin_x) * frame.metres_per_x,
-                                             std::abs(frame.origin_y) * frame.metres_per_y);
+    const double rounding =
+        1e-15 * std::max(std::abs(frame.origin_x) * frame.metres_per_x, std::abs(frame.origin_y) * frame.metres_per_y);
     EXPECT_NEAR(frame.X(position.x), local.positions[i].x, rounding);
     EXPECT_NEAR(frame.Y(position.y), local.positions[i].y, rounding);
     EXPECT_EQ(position.z, local.positions[i].z);  // Metres.
@@ -98,16 +98,14 @@ TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
       const double mixed = std::abs(east * north) / std::pow(kEarthRadius * std::cos(26.2 * kDegree), 2);
       // The other second derivatives, of w tan(latitude) sec^2(latitude) and less, over both axes; the differences
       // over 1 km leave 1 km x 15 km of the same, and MetricAt is right to 1e-9.
-      const double rest = 1.5e4 * (1.5e4 + 1e3) / std::pow(kEarthRadius, 2) * (1.5 * kDegree) +
-                          1e3 * 1.5e4 / std::pow(kEarthRadius, 2);
-      EXPECT_NEAR(position.convergence, map->MetricAt(*at).convergence,
-                  1.05 * mixed + (distance > 0 ? rest : 1e-7))
+      const double rest =
+          1.5e4 * (1.5e4 + 1e3) / std::pow(kEarthRadius, 2) * (1.5 * kDegree) + 1e3 * 1.5e4 / std::pow(kEarthRadius, 2);
+      EXPECT_NEAR(position.convergence, map->MetricAt(*at).convergence, 1.05 * mixed + (distance > 0 ? rest : 1e-7))
           << crs;
       if (distance > 0) {
-        EXPECT_GT(
-            std::abs(position.convergence -
-                     Ask(FittedTrack(TrackAt(0, 0), frame, map.get()), {1005}).positions[0].convergence),
-            5e-4);  // 10.6 km tan(26 degrees) / R = 8e-4: much more than the tolerance.
+        EXPECT_GT(std::abs(position.convergence -
+                           Ask(FittedTrack(TrackAt(0, 0), frame, map.get()), {1005}).positions[0].convergence),
+                  5e-4);  // 10.6 km tan(26 degrees) / R = 8e-4: much more than the tolerance.
       }
     }
   }
@@ -122,9 +120,8 @@ TEST(FittedTrack, HasNoConvergenceInGeographicCoordinates) {
 TEST(FittedTrack, IsNotExtrapolated) {
   const auto map = Map("EPSG:32617");
   const FittedTrack track(TrackAt(0, 0), FrameAt(*map, 26, -80.4), map.get());
-  EXPECT_EQ(
-      Ask(track, {990, 1005, 1020}).outcomes,
-      (std::vector<TrackOutcome>{TrackOutcome::kOutside, TrackOutcome::kKnown, TrackOutcome::kOutside}));
+  EXPECT_EQ(Ask(track, {990, 1005, 1020}).outcomes,
+            (std::vector<TrackOutcome>{TrackOutcome::kOutside, TrackOutcome::kKnown, TrackOutcome::kOutside}));
 }
 
 }  // namespace

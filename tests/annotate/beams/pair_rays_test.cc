@@ -15,8 +15,7 @@ ReturnPair PairAt(double time, double x, double drop) {
   return {.time = time, .upper = {x, 0, -5}, .lower = {x + 1, 0, -5 - drop}};
 }
 
-std::vector<AirRay> RaysOver(double level, const std::vector<ReturnPair>& pairs,
-                             const LocalFrame& frame = {}) {
+std::vector<AirRay> RaysOver(double level, const std::vector<ReturnPair>& pairs, const LocalFrame& frame = {}) {
   return RaysOfPairs(pairs, {.surface = nullptr, .levels = nullptr, .level = level}, frame, kIndex);
 }
 
@@ -60,8 +59,7 @@ TEST(PairRays, MeetTheWaterAtItsPlaceAndTime) {
     returns.Add(1000 + 0.5 * i, 0, 0, -2);
   }
   const LocalWaterSurface surface = returns.Finish();
-  const std::vector<ReturnPair> pairs = {PairAt(1, 0, 4), PairAt(2, 1000, 4), PairAt(3, 5000, 4),
-                                         PairAt(3600, 0, 4)};
+  const std::vector<ReturnPair> pairs = {PairAt(1, 0, 4), PairAt(2, 1000, 4), PairAt(3, 5000, 4), PairAt(3600, 0, 4)};
   const std::vector<AirRay> rays =
       RaysOfPairs(pairs, {.surface = &surface, .levels = nullptr, .level = {}}, {}, kIndex);
   ASSERT_EQ(rays.size(), 2u);  // The water is not known at the third pair, nor an hour later.

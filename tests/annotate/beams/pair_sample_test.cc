@@ -40,8 +40,7 @@ TEST(PairSample, IsSpreadOverTheTimeAndBounded) {
   // 4 in each of 256 bins are too many; 2 are not.
   const PairSampleSize size{.bin = 0.25, .pairs_per_bin = 4, .pairs = 1000};
   std::map<double, int> by_bin;
-  for (const double time : TimesOfSample(PairsAt(0, 1.0 / 1024, 64 * 1024), size))
-    ++by_bin[std::floor(time / 0.25)];
+  for (const double time : TimesOfSample(PairsAt(0, 1.0 / 1024, 64 * 1024), size)) ++by_bin[std::floor(time / 0.25)];
   EXPECT_EQ(by_bin.size(), 256u);
   for (const auto& [bin, count] : by_bin) EXPECT_EQ(count, 2) << bin;
 }

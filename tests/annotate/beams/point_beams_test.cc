@@ -164,7 +164,7 @@ TEST(PointBeams, OfATrackFollowTheRefractedPath) {
   const PointBeams beams = BeamsOf(plan, points, &track);
   // At the surface, 200 m to the west of a sensor 400 m high: tan(incidence) = 1 / 2.
   EXPECT_NEAR(beams.incidence[0], std::atan(0.5) / kDegree, 1e-5);
-  EXPECT_NEAR(beams.beam_azimuth[0], 271, 1e-4);  // Grid west, by the convergence of 1 degree.
+  EXPECT_NEAR(beams.beam_azimuth[0], 271, 1e-4);                      // Grid west, by the convergence of 1 degree.
   EXPECT_NEAR(std::remainder(beams.azimuth[0] - 180, 360), 0, 1e-4);  // Against the wind.
   EXPECT_NEAR(beams.slant_range[0], std::hypot(200, 400), 1e-4);
   EXPECT_NEAR(beams.footprint[0], 2e-3 * std::hypot(200, 400), 1e-6);

@@ -52,8 +52,7 @@ class ProjectedTrackTest : public ::testing::Test {
     const Answer answer = Ask(track, times);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const std::optional<formats::TrajectoryRecord> record = track.timeline().RecordAt(times[i]);
-      ASSERT_EQ(answer.outcomes[i], record.has_value() ? TrackOutcome::kKnown : TrackOutcome::kOutside)
-          << times[i];
+      ASSERT_EQ(answer.outcomes[i], record.has_value() ? TrackOutcome::kKnown : TrackOutcome::kOutside) << times[i];
       if (!record.has_value()) continue;
       const SensorPosition slow = track.PositionOf(*record);
       const SensorPosition& fast = answer.positions[i];
@@ -111,30 +110,27 @@ TEST_F(ProjectedTrackTest, KnowsEveryRecord) {
 
 TEST_F(ProjectedTrackTest, KnowsNothingInAGapOrOutside) {
   std::vector<SbetRow> rows = Fly(Flight());
-  std::erase_if(rows,
-                [](const SbetRow& row) { return row[kTime] > 300020.0001 && row[kTime] < 300022.9999; });
+  std::erase_if(rows, [](const SbetRow& row) { return row[kTime] > 300020.0001 && row[kTime] < 300022.9999; });
   const auto track = Track({Open("a", rows)}, "EPSG:32617", {299990, 300070});
-  const Answer answer = Ask(*track, {299999.9, 300000, 300020, 300020.01, 300022.99, 300023, 300060,
-                                     300060.01, std::nan(""), -INFINITY, INFINITY, 300010});
+  const Answer answer = Ask(*track, {299999.9, 300000, 300020, 300020.01, 300022.99, 300023, 300060, 300060.01,
+                                     std::nan(""), -INFINITY, INFINITY, 300010});
   using enum TrackOutcome;
-  EXPECT_THAT(answer.outcomes,
-              ::testing::ElementsAre(kOutside, kKnown, kKnown, kOutside, kOutside, kKnown, kKnown, kOutside,
-                                     kOutside, kOutside, kOutside, kKnown));
+  EXPECT_THAT(answer.outcomes, ::testing::ElementsAre(kOutside, kKnown, kKnown, kOutside, kOutside, kKnown, kKnown,
+                                                      kOutside, kOutside, kOutside, kOutside, kKnown));
 }
 
 TEST_F(ProjectedTrackTest, JoinsFiles) {
   const std::vector<SbetRow> rows = Fly(Flight());
   const auto part = [&](double first, double last, std::size_t every) {
     std::vector<SbetRow> result;
-    for (std::size_t i = 0; i < rows.size(); i += every) {
+    for (std::size_t i = 0; i < rows.size(); i += every)
       if (rows[i][kTime] >= first && rows[i][kTime] <= last) result.push_back(rows[i]);
-    }
     return result;
   };
   // Of different rates, so that records of one lie between records of the other.
-  const auto track = Track({Open("a", part(300000, 300021.505, 1)), Open("b", part(300019, 300045, 37)),
-                            Open("c", part(300044, 300060, 1))},
-                           "EPSG:32617", {299990, 300070});
+  const auto track = Track(
+      {Open("a", part(300000, 300021.505, 1)), Open("b", part(300019, 300045, 37)), Open("c", part(300044, 300060, 1))},
+      "EPSG:32617", {299990, 300070});
   const std::vector<double> times = RandomTimes(300000, 300060, 5000);
   const Answer answer = Ask(*track, times);
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -229,9 +225,8 @@ TEST_F(ProjectedTrackTest, NeedsAttitudeForALeverArm) {
       formats::TrajectoryTimeline::Create({std::make_shared<Positions>()}, formats::TrajectoryClock::kGps,
                                           {{300000, 300009}, formats::PointTimeForm::kWeekSeconds});
   const auto frame = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
-  EXPECT_THAT(
-      std::string(ProjectedTrack::Create(*timeline, *frame, {.lever_arm = {0, 0, 1}}).status().message()),
-      HasSubstr("--lever-arm: needs roll, pitch and heading"));
+  EXPECT_THAT(std::string(ProjectedTrack::Create(*timeline, *frame, {.lever_arm = {0, 0, 1}}).status().message()),
+              HasSubstr("--lever-arm: needs roll, pitch and heading"));
   EXPECT_TRUE(ProjectedTrack::Create(*timeline, *frame, {}).ok());
 }
 

@@ -62,8 +62,8 @@ TEST_F(TrajectoryMotionsTest, SinksWhereTheHeightFalls) {
 // The file states (field + 1) cm of each field, a tenth more each second; angles are in arc minutes.
 TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
   const Flight flight;
-  const auto errors = LoadTrajectoryErrors(std::vector<std::string>{
-      folder_.Write("smrmsg.out", albtpu::testing::SmrmsgBytes(flight.start, 61)).string()});
+  const auto errors = LoadTrajectoryErrors(
+      std::vector<std::string>{folder_.Write("smrmsg.out", albtpu::testing::SmrmsgBytes(flight.start, 61)).string()});
   const std::optional<SensorMotion> motion = Motions(flight, *errors).At(flight.start + 20);
   ASSERT_TRUE(motion.has_value());
   for (int i = 0; i < 3; ++i) {

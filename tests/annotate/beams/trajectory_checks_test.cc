@@ -47,9 +47,8 @@ class CheckNearPointsTest : public ::testing::Test {
 
 TEST_F(CheckNearPointsTest, AcceptsTheRightTrajectory) {
   const Flight flight;
-  for (const char* crs : {"EPSG:26917", "EPSG:2236", "EPSG:4269", "EPSG:3857"}) {
+  for (const char* crs : {"EPSG:26917", "EPSG:2236", "EPSG:4269", "EPSG:3857"})
     EXPECT_EQ(Check(Fly(flight), crs, Below(flight, crs)), "") << crs;
-  }
   // Of the flight from which a file has points at one moment only, the rest may be far away.
   PointExtent extent = Below(flight, "EPSG:26917");
   extent.x_max = extent.x_min;
@@ -58,9 +57,8 @@ TEST_F(CheckNearPointsTest, AcceptsTheRightTrajectory) {
 
 TEST_F(CheckNearPointsTest, NamesAnotherZone) {
   const Flight flight;
-  EXPECT_THAT(
-      Check(Fly(flight), "EPSG:26917", Below(flight, "EPSG:26918")),
-      HasSubstr("another zone: the points fit a central meridian 6 degrees further east, UTM zone 18"));
+  EXPECT_THAT(Check(Fly(flight), "EPSG:26917", Below(flight, "EPSG:26918")),
+              HasSubstr("another zone: the points fit a central meridian 6 degrees further east, UTM zone 18"));
   EXPECT_THAT(Check(Fly(flight), "EPSG:26917", Below(flight, "EPSG:26916")),
               HasSubstr("6 degrees further west, UTM zone 16"));
   const Flight fiji = {.latitude = -17, .longitude = 178};
@@ -96,10 +94,8 @@ TEST_F(CheckNearPointsTest, NamesWrongSigns) {
 
 TEST_F(CheckNearPointsTest, NamesFeet) {
   const Flight flight = {.longitude = -80.4};
-  EXPECT_THAT(Check(Fly(flight), "EPSG:26958", Below(flight, "EPSG:2236")),
-              HasSubstr("the points are in feet"));
-  EXPECT_THAT(Check(Fly(flight), "EPSG:2236", Below(flight, "EPSG:26958")),
-              HasSubstr("the points are in metres"));
+  EXPECT_THAT(Check(Fly(flight), "EPSG:26958", Below(flight, "EPSG:2236")), HasSubstr("the points are in feet"));
+  EXPECT_THAT(Check(Fly(flight), "EPSG:2236", Below(flight, "EPSG:26958")), HasSubstr("the points are in metres"));
 }
 
 TEST_F(CheckNearPointsTest, SaysHowFarAnotherFlightIs) {

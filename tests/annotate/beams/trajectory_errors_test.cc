@@ -24,16 +24,14 @@ class TrajectoryErrorsTest : public ::testing::Test {
     for (const std::filesystem::path& path : paths) names.push_back(path.string());
     return LoadTrajectoryErrors(names);
   }
-  std::string Refusal(const std::filesystem::path& path) {
-    return std::string(Load({path}).status().message());
-  }
+  std::string Refusal(const std::filesystem::path& path) { return std::string(Load({path}).status().message()); }
   // A flight from 300 000 to 300 060 s, of which points have the times from `first` to `last`.
   formats::TrajectoryTimeline Timeline(double first, double last,
                                        formats::TrajectoryClock clock = formats::TrajectoryClock::kGps) {
-    const absl::StatusOr<formats::TrajectoryFiles> files = formats::LoadTrajectories(
-        std::vector<std::string>{folder_.Write("flight.sbet", Sbet(300000)).string()});
-    auto timeline = formats::TrajectoryTimeline::Create(
-        *files, clock, {{first, last}, formats::PointTimeForm::kWeekSeconds});
+    const absl::StatusOr<formats::TrajectoryFiles> files =
+        formats::LoadTrajectories(std::vector<std::string>{folder_.Write("flight.sbet", Sbet(300000)).string()});
+    auto timeline =
+        formats::TrajectoryTimeline::Create(*files, clock, {{first, last}, formats::PointTimeForm::kWeekSeconds});
     EXPECT_TRUE(timeline.ok()) << timeline.status();
     return *std::move(timeline);
   }
@@ -85,8 +83,8 @@ TEST_F(TrajectoryErrorsTest, FollowTheClockOfTheirTrajectory) {
 }
 
 TEST_F(TrajectoryErrorsTest, ComeFromTheFileThatCoversTheTime) {
-  const auto errors = Load(
-      {folder_.Write("first", SmrmsgBytes(100000, 61)), folder_.Write("second", SmrmsgBytes(300000, 61))});
+  const auto errors =
+      Load({folder_.Write("first", SmrmsgBytes(100000, 61)), folder_.Write("second", SmrmsgBytes(300000, 61))});
   ExpectFactor(PrecisionOf(*errors, Timeline(300010, 300020)), 2.5);
 }
 

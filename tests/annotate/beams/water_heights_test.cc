@@ -61,8 +61,7 @@ TEST(WaterHeights, TrustThePulseFirstThenReturnsNearbyThenTheLevel) {
 
 TEST(WaterHeights, AreNotKnownWhereNoSourceKnowsThem) {
   const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
-  const Answer answer =
-      Ask({.surface = &surface, .levels = nullptr, .level = {}}, PointsAt({0, 1000}, {0, 0}));
+  const Answer answer = Ask({.surface = &surface, .levels = nullptr, .level = {}}, PointsAt({0, 1000}, {0, 0}));
   EXPECT_EQ(answer.heights[0], 2);
   EXPECT_TRUE(std::isnan(answer.heights[1]));
   EXPECT_EQ(answer.counts[SurfaceFrom::kLevel], 0u);
@@ -82,8 +81,7 @@ TEST(WaterHeights, FollowTheLevelByTime) {
 
 TEST(WaterHeights, OfReturnsNearbyBelongToTheirTime) {
   const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
-  const Answer answer =
-      Ask({.surface = &surface, .levels = nullptr, .level = -1}, PointsAt({0, 0}, {0, 3600}));
+  const Answer answer = Ask({.surface = &surface, .levels = nullptr, .level = -1}, PointsAt({0, 0}, {0, 3600}));
   EXPECT_EQ(answer.heights, (std::vector<double>{2, -1}));
 }
 
@@ -115,8 +113,7 @@ TEST(SurfaceCounts, AddUpOverThePartsOfAFile) {
   part.Add(SurfaceFrom::kLevel);
   all.Merge(part);
   EXPECT_EQ(all.Json().dump(), R"({"pulse":1,"local":1,"level":2})");
-  EXPECT_EQ(all.Text(),
-            "from a return of the same pulse at 1 points, from returns nearby at 1, from the level at 2");
+  EXPECT_EQ(all.Text(), "from a return of the same pulse at 1 points, from returns nearby at 1, from the level at 2");
 }
 
 }  // namespace

@@ -44,10 +44,8 @@ class CsvAnnotation : public ::testing::Test {
   std::string Cells(const Pulse& pulse) {
     const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, pulse);
     std::string cells;
-    for (const float value : answer.values) {
-      absl::StrAppend(&cells, ",",
-                      answer.outcome == Outcome::kInterpolated ? formats::FormatFloat(value) : "");
-    }
+    for (const float value : answer.values)
+      absl::StrAppend(&cells, ",", answer.outcome == Outcome::kInterpolated ? formats::FormatFloat(value) : "");
     return absl::StrCat(cells, ",", OutcomeText(answer));
   }
 
@@ -62,8 +60,7 @@ class CsvAnnotation : public ::testing::Test {
   absl::Status status_;
 };
 
-const char kAppended[] =
-    ",refraction_along_wind,refraction_cross_wind,thu,tvu,bias_along_beam,bias_vertical,outcome";
+const char kAppended[] = ",refraction_along_wind,refraction_cross_wind,thu,tvu,bias_along_beam,bias_vertical,outcome";
 const char kHeader[] = "wind_speed,fetch,incidence,azimuth,footprint,depth";
 const Pulse kPulse = {
     .wind_speed = 5, .fetch = 3e4f, .incidence = 12.5f, .azimuth = 30.0f, .footprint = 0.6f, .depth = 7};
@@ -77,9 +74,8 @@ TEST_F(CsvAnnotation, AppendsTheAnswerToEachRecord) {
 TEST_F(CsvAnnotation, FindsColumnsInAnyOrderAmongOthers) {
   EXPECT_EQ(Annotate("\xEF\xBB\xBFname,depth, azimuth ,\"footprint\",incidence,fetch,wind_speed\r\n"
                      "\"a, \"\"b\"\"\", 7 ,30,\".6\",12.5,30000,5\r\n"),
-            "\xEF\xBB\xBFname,depth, azimuth ,\"footprint\",incidence,fetch,wind_speed" +
-                std::string(kAppended) + "\r\n\"a, \"\"b\"\"\", 7 ,30,\".6\",12.5,30000,5" + Cells(kPulse) +
-                "\r\n");
+            "\xEF\xBB\xBFname,depth, azimuth ,\"footprint\",incidence,fetch,wind_speed" + std::string(kAppended) +
+                "\r\n\"a, \"\"b\"\"\", 7 ,30,\".6\",12.5,30000,5" + Cells(kPulse) + "\r\n");
 }
 
 TEST_F(CsvAnnotation, TakesAMissingColumnFromAFlag) {
@@ -94,9 +90,9 @@ TEST_F(CsvAnnotation, TreatsEmptyFetchAndAzimuthAsAbsent) {
   Pulse pulse = kPulse;
   pulse.fetch = std::numeric_limits<float>::infinity();
   pulse.azimuth.reset();
-  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12.5, ,.6,7\n5,inf,12.5,,.6,7\n"),
-              ::testing::AllOf(HasSubstr("\n5,,12.5, ,.6,7" + Cells(pulse)),
-                               HasSubstr("\n5,inf,12.5,,.6,7" + Cells(pulse))));
+  EXPECT_THAT(
+      Annotate(std::string(kHeader) + "\n5,,12.5, ,.6,7\n5,inf,12.5,,.6,7\n"),
+      ::testing::AllOf(HasSubstr("\n5,,12.5, ,.6,7" + Cells(pulse)), HasSubstr("\n5,inf,12.5,,.6,7" + Cells(pulse))));
   EXPECT_THAT(Annotate("wind_speed,incidence,footprint,depth\n5,12.5,.6,7"), HasSubstr(Cells(pulse) + "\n"));
   EXPECT_THAT(counts_.Text(), HasSubstr("1 pulse: 1 interpolated; all without azimuth: "));
   Annotate(std::string(kHeader) + "\n5,,12.5,3,.6,7\n5,inf,12.5,,.6,7\n");
@@ -104,10 +100,9 @@ TEST_F(CsvAnnotation, TreatsEmptyFetchAndAzimuthAsAbsent) {
 }
 
 TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {
-  const std::string text =
-      Annotate(std::string(kHeader) +
-               "\n5,,12,,.6,7\n-5,,12,,.6,7\n5,,12,,.6,-1\n5,,12,,.6,nan\ninf,,12,,.6,7\n"
-               "5,,12,,.6,1e39\n5,-inf,12,,.6,7\n5,,91,,.6,7\n");
+  const std::string text = Annotate(std::string(kHeader) +
+                                    "\n5,,12,,.6,7\n-5,,12,,.6,7\n5,,12,,.6,-1\n5,,12,,.6,nan\ninf,,12,,.6,7\n"
+                                    "5,,12,,.6,1e39\n5,-inf,12,,.6,7\n5,,91,,.6,7\n");
   EXPECT_THAT(text, HasSubstr("\n-5,,12,,.6,7,,,,,,,OUT_OF_DOMAIN:wind_speed:below\n"));
   EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,-1,,,,,,,OUT_OF_DOMAIN:depth:below\n"));
   EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,nan,,,,,,,INVALID"));
@@ -130,10 +125,9 @@ TEST_F(CsvAnnotation, CopiesBlankLinesAndFilesWithoutPulses) {
 TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44OnRequest) {
   style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b, .standard_errors = true};
   const std::string text = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n5,,12,,.6,99\n");
-  EXPECT_THAT(text,
-              HasSubstr("outcome,refraction_along_wind_standard_error,refraction_cross_wind_standard_error,"
-                        "thu_standard_error,tvu_standard_error,bias_along_beam_standard_error,"
-                        "bias_vertical_standard_error,s44_best_order,s44_remaining_thu,s44_remaining_tvu\n"));
+  EXPECT_THAT(text, HasSubstr("outcome,refraction_along_wind_standard_error,refraction_cross_wind_standard_error,"
+                              "thu_standard_error,tvu_standard_error,bias_along_beam_standard_error,"
+                              "bias_vertical_standard_error,s44_best_order,s44_remaining_thu,s44_remaining_tvu\n"));
   const PulseUncertainty p95 = albtpu::testing::QueryPulse(source_, kPulse, Coverage::kP95);
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", formats::FormatFloat(p95[Quantity::kThu]), ",")));
   const double left = RemainingBudget(ThuLimit(S44Order::k1b, 7), p95[Quantity::kThu]).value();
@@ -152,16 +146,14 @@ TEST_F(CsvAnnotation, NamesLineAndColumnOfTextThatIsNotANumber) {
   const std::string ok = "5,,12,,.6,7\n";
   EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + ok + "5,,12,,.6,deep\n"),
               HasSubstr("in.csv line 4, column 'depth': 'deep' is not a number; "));
-  EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + "5,,,,.6,7\n"),
-              HasSubstr("line 3, column 'incidence': is empty"));
+  EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + "5,,,,.6,7\n"), HasSubstr("line 3, column 'incidence': is empty"));
 }
 
 TEST_F(CsvAnnotation, NamesAMissingColumnAndTheFlagForIt) {
   const std::string message = Annotate("wind_speed,incidence,Depth,footprint\n5,12,7,.6\n");
-  EXPECT_THAT(
-      message,
-      HasSubstr("line 1: no column 'depth' (columns found: wind_speed, incidence, Depth, footprint); add it, "
-                "or give one value for all pulses by --depth"));
+  EXPECT_THAT(message,
+              HasSubstr("line 1: no column 'depth' (columns found: wind_speed, incidence, Depth, footprint); add it, "
+                        "or give one value for all pulses by --depth"));
   EXPECT_FALSE(formats::IsUsageError(status_));
   EXPECT_THAT(Annotate("wind_speed;incidence;depth;footprint\n5;12;7;.6\n"), HasSubstr("by commas"));
 }
@@ -188,12 +180,10 @@ TEST_F(CsvAnnotation, TakesDirectionsForAzimuthAndABeamForFootprint) {
               HasSubstr(",7" + Cells(pulse) + "\n"));
   Fix(PulseInput::kBeamAzimuth, 100);
   Fix(PulseInput::kAltitude, 400);
-  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,0,7\n"),
-              HasSubstr(",7" + Cells(pulse) + "\n"));
+  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,0,7\n"), HasSubstr(",7" + Cells(pulse) + "\n"));
   pulse.incidence = 12.5f;
   pulse.footprint = static_cast<float>(FootprintDiameter(400, 1.5, 12.5));
-  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,12.5,7\n"),
-              HasSubstr(",7" + Cells(pulse) + "\n"));
+  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,12.5,7\n"), HasSubstr(",7" + Cells(pulse) + "\n"));
 }
 
 TEST_F(CsvAnnotation, HasNoAzimuthWhereADirectionIsEmpty) {
@@ -219,15 +209,12 @@ TEST_F(CsvAnnotation, ReadsNoColumnThatLacksTheOtherOfItsWay) {
 
 TEST_F(CsvAnnotation, RejectsTwoWaysToACoordinateAndNamesBoth) {
   const std::string sea = "wind_speed,incidence,depth,";
-  EXPECT_THAT(
-      Annotate(sea + "footprint,azimuth,beam_azimuth,wind_from\n"),
-      HasSubstr("in.csv line 1: column 'azimuth' gives the azimuth, and so do column 'beam_azimuth' and "
-                "column 'wind_from'; leave out"));
+  EXPECT_THAT(Annotate(sea + "footprint,azimuth,beam_azimuth,wind_from\n"),
+              HasSubstr("in.csv line 1: column 'azimuth' gives the azimuth, and so do column 'beam_azimuth' and "
+                        "column 'wind_from'; leave out"));
   EXPECT_FALSE(formats::IsUsageError(status_));
-  EXPECT_THAT(
-      Annotate(sea + "footprint,altitude,divergence\n"),
-      HasSubstr(
-          "column 'footprint' gives the footprint, and so do column 'altitude' and column 'divergence'"));
+  EXPECT_THAT(Annotate(sea + "footprint,altitude,divergence\n"),
+              HasSubstr("column 'footprint' gives the footprint, and so do column 'altitude' and column 'divergence'"));
   Fix(PulseInput::kAltitude, 400);
   EXPECT_THAT(Annotate(sea + "footprint\n"),
               HasSubstr("column 'footprint' gives the footprint, which --altitude is for, too"));
@@ -239,13 +226,11 @@ TEST_F(CsvAnnotation, RejectsTwoWaysToACoordinateAndNamesBoth) {
 TEST_F(CsvAnnotation, NamesTheMissingHalfOfAWay) {
   EXPECT_THAT(Annotate("wind_speed,incidence,depth,altitude\n"),
               HasSubstr("by --footprint, or add divergence to altitude"));
-  EXPECT_THAT(Annotate("wind_speed,incidence,depth\n"),
-              HasSubstr("by --footprint, or give altitude and divergence"));
+  EXPECT_THAT(Annotate("wind_speed,incidence,depth\n"), HasSubstr("by --footprint, or give altitude and divergence"));
   Fix(PulseInput::kWindFrom, 250);
-  EXPECT_THAT(
-      Annotate("wind_speed,incidence,depth,footprint\n"),
-      HasSubstr("--wind-from alone does not give the azimuth; add --beam-azimuth or, in a file, a column "
-                "'beam_azimuth'"));
+  EXPECT_THAT(Annotate("wind_speed,incidence,depth,footprint\n"),
+              HasSubstr("--wind-from alone does not give the azimuth; add --beam-azimuth or, in a file, a column "
+                        "'beam_azimuth'"));
   EXPECT_TRUE(formats::IsUsageError(status_));
 }
 
@@ -263,22 +248,20 @@ TEST_F(CsvAnnotation, RejectsAmbiguousHeaders) {
 }
 
 TEST_F(CsvAnnotation, RejectsRecordsWithAnotherNumberOfCells) {
-  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6\n"),
-              HasSubstr("line 2: 5 cells, but the header has 6"));
+  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6\n"), HasSubstr("line 2: 5 cells, but the header has 6"));
 }
 
 TEST_F(CsvAnnotation, DoesNotOverwriteItsInput) {
   const std::filesystem::path input = folder_.Write("in.csv", kHeader);
   FileProgress progress("pulses", 1, 0);
-  const auto status =
-      AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_, progress).status();
+  const auto status = AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_, progress).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
   EXPECT_EQ(ReadFile(input), kHeader);
 }
 
 TEST_F(CsvAnnotation, RejectsAnInputThatIsModifiedWhileItIsRead) {
-  albtpu::testing::DisturbedSource source(
-      source_, [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
+  albtpu::testing::DisturbedSource source(source_,
+                                          [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
   const std::filesystem::path input = folder_.Write("in.csv", std::string(kHeader) + "\n5,,12,,.6,7\n");
   FileProgress progress("pulses", 1, 0);
   const auto status =

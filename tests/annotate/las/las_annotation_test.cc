@@ -34,11 +34,8 @@ LasSpec Spec(int version_minor, int point_format) {
   LasSpec spec;
   spec.version_minor = version_minor;
   spec.point_format = point_format;
-  spec.points = {{1, 2, -5000, 26, 12},
-                 {3, 4, 100, 26, -3},
-                 {5, 6, -99000, 26, 0},
-                 {7, 8, 900, 2, 5},
-                 {9, 1, -800, 26, -18}};
+  spec.points = {
+      {1, 2, -5000, 26, 12}, {3, 4, 100, 26, -3}, {5, 6, -99000, 26, 0}, {7, 8, 900, 2, 5}, {9, 1, -800, 26, -18}};
   spec.vlrs.push_back({"LASF_Projection", 2112, albtpu::testing::kMetricWkt});
   return spec;
 }
@@ -80,8 +77,7 @@ class LasAnnotationTest : public ::testing::Test {
     pulse.incidence = static_cast<float>(std::abs(spec.points[point].scan_angle));
     pulse.azimuth = annotation_.plan.azimuth;
     pulse.footprint = 0.5f;
-    pulse.depth =
-        static_cast<float>(-spec.points[point].z * spec.scale * annotation_.plan.metres_per_unit.value_or(1));
+    pulse.depth = static_cast<float>(-spec.points[point].z * spec.scale * annotation_.plan.metres_per_unit.value_or(1));
     return albtpu::testing::QueryPulse(source_, pulse, annotation_.style.coverage);
   }
 
@@ -108,8 +104,7 @@ TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
         LasSpec spec = Spec(version, format);
         spec.extra_bytes = extra;
         spec.header_tail = extra > 0 ? "more of the header" : "";
-        spec.gap =
-            version == 0 ? "\xDD\xCC" : "between";  // The first version signs the beginning of the points.
+        spec.gap = version == 0 ? "\xDD\xCC" : "between";  // The first version signs the beginning of the points.
         if (version >= 3) spec.waveform_packet = "samples";
         if (version >= 4) spec.evlrs = {{"someone", 7, "behind"}, {"someone", 8, ""}};
         const std::string input = BuildLas(spec), output = Annotate(input);
@@ -123,20 +118,14 @@ TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
           const std::string record = output.substr(new_points + i * (old_length + 8), old_length + 8);
           ASSERT_EQ(record.substr(0, old_length), input.substr(old_points + i * old_length, old_length));
           const PulseUncertainty answer = AnswerFor(spec, i);
-          const bool has_value =
-              spec.points[i].classification == 26 && answer.outcome == Outcome::kInterpolated;
+          const bool has_value = spec.points[i].classification == 26 && answer.outcome == Outcome::kInterpolated;
           EXPECT_EQ(Load<float>(record, old_length), has_value ? answer[Quantity::kThu] : -1) << i;
           EXPECT_EQ(Load<float>(record, old_length + 4), has_value ? answer[Quantity::kTvu] : -1) << i;
         }
         // After the points: the same bytes, at the offsets that the header states.
-        EXPECT_EQ(output.substr(new_points + count * (old_length + 8)),
-                  input.substr(old_points + count * old_length));
-        if (version >= 3) {
-          EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 227), 7), "samples");
-        }
-        if (version >= 4) {
-          EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 235) + 60, 6), "behind");
-        }
+        EXPECT_EQ(output.substr(new_points + count * (old_length + 8)), input.substr(old_points + count * old_length));
+        if (version >= 3) EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 227), 7), "samples");
+        if (version >= 4) EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 235) + 60, 6), "behind");
         // Before the points: the builder's own header and VLRs and one more VLR, apart from the description of that
         // VLR.
         std::string head = output.substr(0, new_points);
@@ -155,8 +144,7 @@ TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
 TEST_F(LasAnnotationTest, CountsClassesAndOutcomes) {
   Annotate(Spec(4, 6));
   EXPECT_EQ(classes_.points(), 5u);
-  EXPECT_EQ(summary_.outcomes().Text(),
-            "4 pulses: 2 interpolated, 1 OUT_OF_DOMAIN:depth:above, 1 ABOVE_WATER");
+  EXPECT_EQ(summary_.outcomes().Text(), "4 pulses: 2 interpolated, 1 OUT_OF_DOMAIN:depth:above, 1 ABOVE_WATER");
   EXPECT_EQ(classes_.Text(), "class 2: 1 points, class 26: 4 points");
   EXPECT_THAT(summary_.Text(), HasSubstr("depth 0.800 m to 5.000 m"));
 }
@@ -254,8 +242,7 @@ TEST_F(LasAnnotationTest, RejectsAnInputThatIsModifiedWhileItIsRead) {
   const std::string file = BuildLas(Spec(4, 6));
   for (const std::size_t size : {file.size(), file.size() - 1, file.size() + 1}) {
     const std::filesystem::path input = folder_.Write("in.las", file);
-    std::filesystem::last_write_time(input,
-                                     std::filesystem::file_time_type::clock::now() - std::chrono::seconds(9));
+    std::filesystem::last_write_time(input, std::filesystem::file_time_type::clock::now() - std::chrono::seconds(9));
     albtpu::testing::DisturbedSource source(source_, [&] {
       std::string changed = file;
       changed.resize(size);
@@ -272,8 +259,7 @@ TEST_F(LasAnnotationTest, LeavesNothingBehindWhenTheSourceFails) {
   const std::filesystem::path input = folder_.Write("in.las", BuildLas(Spec(4, 6)));
   albtpu::testing::DisturbedSource source(
       source_, [] {}, absl::UnavailableError("gone"));
-  const auto status =
-      AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
+  const auto status = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
   EXPECT_EQ(status, absl::UnavailableError("gone"));
   EXPECT_EQ(folder_.file_count(), 1u);
 }

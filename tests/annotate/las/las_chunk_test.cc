@@ -60,8 +60,7 @@ LasSpec MixedPulses(std::size_t pulses) {
       placed.push_back({static_cast<double>(i) + jitter(), point});
     }
   }
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const Placed& a, const Placed& b) { return a.at < b.at; });
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.at < b.at; });
   LasSpec spec;
   spec.vlrs.push_back({"LASF_Projection", 2112, albtpu::testing::kMetricWkt});
   for (const Placed& each : placed) spec.points.push_back(each.point);
@@ -122,8 +121,8 @@ class LasChunkTest : public ::testing::Test {
   std::string AnnotateFile(const std::string& file) {
     const std::filesystem::path output = folder_ / "out.las";
     FileProgress progress("points", 1, 0);
-    absl::StatusOr<AnnotatedLas> annotated = AnnotateLas(folder_.Write("in.las", file), output,
-                                                         Existing::kReplace, annotation_, source_, progress);
+    absl::StatusOr<AnnotatedLas> annotated =
+        AnnotateLas(folder_.Write("in.las", file), output, Existing::kReplace, annotation_, source_, progress);
     EXPECT_TRUE(annotated->file.Commit().ok());
     const std::string bytes = albtpu::testing::ReadFile(output);
     return bytes.substr(Load<std::uint32_t>(bytes, 96));
@@ -179,8 +178,7 @@ TEST_F(LasChunkTest, FindsTheSurfaceReturnOfThePulse) {
       continue;
     }
     ++found;
-    const std::size_t depth =
-        albtpu::testing::PointSize(6) + (formats::kUncertaintyCount + 3) * sizeof(float);
+    const std::size_t depth = albtpu::testing::PointSize(6) + (formats::kUncertaintyCount + 3) * sizeof(float);
     ASSERT_EQ(Load<float>(whole.records, i * length + depth),
               static_cast<float>(surface->z * spec.scale - point.z * spec.scale))
         << i;

@@ -14,8 +14,7 @@ using ::testing::HasSubstr;
 
 absl::StatusOr<LasPlace> PlaceOf(const LasSpec& spec, const BeamSource& source) {
   const TemporaryFolder folder;
-  const absl::StatusOr<formats::LasReader> reader =
-      formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+  const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
   BeamPlan plan;
   plan.source = source;
   return PlaceOf(*reader, plan);

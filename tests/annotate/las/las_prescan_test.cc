@@ -20,8 +20,7 @@ constexpr int kBottom = 40, kSurface = 41;
 
 LasPrescan PrescanOf(const LasSpec& spec, const LasPrescanOptions& options) {
   const TemporaryFolder folder;
-  const absl::StatusOr<formats::LasReader> reader =
-      formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+  const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
   absl::StatusOr<LasPrescan> prescan = Prescan(*reader, LocalFrame(), options);
   EXPECT_TRUE(prescan.ok());
   return *std::move(prescan);
@@ -59,13 +58,10 @@ TEST(LasPrescan, FindsPairsOfReturnsOfOnePulse) {
 
 TEST(LasPrescan, ComparesReturnsFromTheSurfaceWithTheLevel) {
   LasSpec spec;
-  spec.points = {Return(1, 0.5, kSurface, 1, 1), Return(2, -20, kSurface, 1, 1),
-                 Return(3, -22, kSurface, 1, 1), Return(4, -30, kBottom, 1, 1)};
-  LasPrescanOptions options = {.classes = {kBottom},
-                               .water_classes = {},
-                               .pairs = true,
-                               .water_level = 0,
-                               .level_classes = {kSurface}};
+  spec.points = {Return(1, 0.5, kSurface, 1, 1), Return(2, -20, kSurface, 1, 1), Return(3, -22, kSurface, 1, 1),
+                 Return(4, -30, kBottom, 1, 1)};
+  LasPrescanOptions options = {
+      .classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 0, .level_classes = {kSurface}};
   const LasPrescan prescan = PrescanOf(spec, options);
   EXPECT_EQ(prescan.level_returns, 3u);
   EXPECT_EQ(prescan.off_level, 2u);
@@ -77,11 +73,9 @@ TEST(LasPrescan, ComparesReturnsFromTheSurfaceWithTheLevel) {
 TEST(LasPrescan, LeavesReturnsAboveTheWaterLevelOut) {
   LasSpec spec;
   spec.points = {Return(1, 0.5, 1, 1, 2), Return(1, -3, kBottom, 2, 2)};
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 0})
-                .pairs.size(),
+  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 0}).pairs.size(),
             0u);
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 1})
-                .pairs.size(),
+  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 1}).pairs.size(),
             1u);
 }
 
@@ -93,8 +87,7 @@ TEST(LasPrescan, FindsPairsAcrossTheBordersOfChunks) {
     spec.points.push_back(Return(i * 0.01, -3, kBottom, 2, 2));
   }
   spec.points.erase(spec.points.begin());  // Chunks of an even number of records divide the pulses.
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}})
-                .pair_count,
+  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}}).pair_count,
             kPulses - 1u);
 }
 
@@ -107,8 +100,7 @@ LasSpec ScatteredPulses() {
 }
 
 TEST(LasPrescan, FindsPairsOfReturnsThatLieFarApartInTheFile) {
-  const LasPrescanOptions options = {
-      .classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}};
+  const LasPrescanOptions options = {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}};
   const LasSpec spec = ScatteredPulses();
   const LasPrescan scattered = PrescanOf(spec, options);
   EXPECT_TRUE(scattered.is_scattered());
@@ -131,8 +123,7 @@ TEST(LasPrescan, FindsPairsOfReturnsThatLieFarApartInTheFile) {
 
 TEST(LasPrescan, FindsEachPairOnceWhereSomeReturnsLieApart) {
   LasSpec spec;
-  for (int i = 0; i < 40;
-       ++i) {  // Returns 1 and 2 side by side, and 3 far from them, in steps of one record.
+  for (int i = 0; i < 40; ++i) {  // Returns 1 and 2 side by side, and 3 far from them, in steps of one record.
     spec.points.push_back(Return(i, -1.5, kBottom, 1, 3));
     spec.points.push_back(Return(i, -3, kBottom, 2, 3));
   }
@@ -148,8 +139,7 @@ TEST(LasPrescan, DoesNotPairReturnsOfPulsesThatShareACoarseTime) {
   LasSpec spec = ScatteredPulses();
   for (LasPoint& point : spec.points) point.gps_time = std::floor(point.gps_time);
   // Neighbours of equal time and number are of different pulses, too.
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}})
-                .pair_count,
+  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}}).pair_count,
             0u);
 }
 

@@ -104,15 +104,10 @@ TEST_F(LazAnnotation, GivesTheSameBytesAsLasInEveryVersionAndFormat) {
       const std::string las_to_las = Annotate(las), las_to_laz = Annotate(las, formats::LasKind::kLaz);
       EXPECT_TRUE(Annotate(laz, formats::LasKind::kLas) == las_to_las) << version << " " << format;
       EXPECT_TRUE(Annotate(laz) == las_to_laz) << version << " " << format;
-      EXPECT_TRUE(RecordsOf(folder_, las_to_laz) == RecordsOf(folder_, las_to_las))
-          << version << " " << format;
+      EXPECT_TRUE(RecordsOf(folder_, las_to_laz) == RecordsOf(folder_, las_to_las)) << version << " " << format;
       EXPECT_EQ(static_cast<unsigned char>(las_to_laz[104]), 0x80 | format);
-      if (version >= 3) {
-        EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 227), 7), "samples");
-      }
-      if (version >= 4) {
-        EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 235) + 60, 6), "behind");
-      }
+      if (version >= 3) EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 227), 7), "samples");
+      if (version >= 4) EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 235) + 60, 6), "behind");
     }
   }
 }
@@ -122,9 +117,8 @@ TEST_F(LazAnnotation, SearchesThePulsesAcrossChunks) {
   LasSpec spec = Spec(4, 6, 40'000);
   spec.points.erase(spec.points.begin());  // Chunks of even numbers of points divide the pulses.
   const std::string las_to_las = Annotate(BuildLas(spec));
-  for (const std::uint32_t size : {1000u, 50'000u, 1'000'000u}) {
+  for (const std::uint32_t size : {1000u, 50'000u, 1'000'000u})
     EXPECT_TRUE(Annotate(BuildLaz(spec, size), formats::LasKind::kLas) == las_to_las) << size;
-  }
 }
 
 TEST_F(LazAnnotation, WritesTheLaszipRecordLast) {
@@ -184,27 +178,23 @@ TEST_F(LazAnnotation, RefusesWhatContradictsItself) {
   laz = BuildLas(spec);
   laz[104] = static_cast<char>(0x80 | 6);
   EXPECT_EQ(Annotate(laz),
-            name + "its points are compressed, but it has 0 LASzip records (expected one, of number 22204)" +
-                remedy);
+            name + "its points are compressed, but it has 0 LASzip records (expected one, of number 22204)" + remedy);
   laz = truth;
   laz[104] = 6;
   Store<std::uint64_t>(10, laz.data() + 247);  // As many as fit uncompressed.
   Store<std::uint64_t>(begin + 10 * 30, laz.data() + 227);
   Store<std::uint64_t>(begin + 10 * 30, laz.data() + 235);
   Store<std::uint32_t>(0, laz.data() + 243);
-  EXPECT_EQ(Annotate(laz),
-            name + "has a LASzip record, but its point format is not marked as compressed" + remedy);
+  EXPECT_EQ(Annotate(laz), name + "has a LASzip record, but its point format is not marked as compressed" + remedy);
   laz = truth;
   Store<std::uint64_t>(points + 1, laz.data() + 247);
-  EXPECT_EQ(Annotate(laz),
-            name + absl::StrCat("its chunk table states ", points, " points in 10 chunks (expected ",
-                                points + 1, ", as the header states)", remedy));
+  EXPECT_EQ(Annotate(laz), name + absl::StrCat("its chunk table states ", points, " points in 10 chunks (expected ",
+                                               points + 1, ", as the header states)", remedy));
   laz = truth;
   const auto table = laz::ReadChunkTable(laz::MemorySource(laz), laz::RecordFor(6, 30, 100), begin, points);
   Store<std::uint64_t>(begin + 20, laz.data() + 227);
-  EXPECT_EQ(Annotate(laz),
-            name + absl::StrCat("its chunk table ends at byte ", table->end,
-                                ", behind the begin of what follows the points, ", begin + 20, remedy));
+  EXPECT_EQ(Annotate(laz), name + absl::StrCat("its chunk table ends at byte ", table->end,
+                                               ", behind the begin of what follows the points, ", begin + 20, remedy));
 }
 
 TEST_F(LazAnnotation, NamesTheFileAndTheChunkOfADamage) {
@@ -212,8 +202,7 @@ TEST_F(LazAnnotation, NamesTheFileAndTheChunkOfADamage) {
   const auto begin = Load<std::uint32_t>(laz, 96);
   const auto table = laz::ReadChunkTable(laz::MemorySource(laz), laz::RecordFor(6, 30, 100), begin, 1000);
   Store<std::uint32_t>(99, laz.data() + table->chunks[3].offset + 30);  // Behind the first point.
-  EXPECT_EQ(Annotate(laz), (folder_ / "in").string() +
-                               ": chunk 4 of 10: it states 99 points (expected 100); " +
+  EXPECT_EQ(Annotate(laz), (folder_ / "in").string() + ": chunk 4 of 10: it states 99 points (expected 100); " +
                                "get another copy of the file");
 }
 

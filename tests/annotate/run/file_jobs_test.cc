@@ -15,12 +15,9 @@ using ::testing::HasSubstr;
 class FileJobs : public ::testing::Test {
  protected:
   FileJobs() {
-    for (const char* name : {"out", "in", "in/line", "in/line/deep"}) {
-      std::filesystem::create_directory(folder_ / name);
-    }
-    for (const char* name : {"b.las", "a.LAS", "notes.txt", "line/a.las", "line/deep/c.las"}) {
+    for (const char* name : {"out", "in", "in/line", "in/line/deep"}) std::filesystem::create_directory(folder_ / name);
+    for (const char* name : {"b.las", "a.LAS", "notes.txt", "line/a.las", "line/deep/c.las"})
       folder_.Write(std::string("in/") + name, "");
-    }
     options_.output_folder = folder_ / "out";
   }
 

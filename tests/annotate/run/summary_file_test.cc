@@ -18,8 +18,7 @@ class SummaryFile : public ::testing::Test {
   SummaryFile() {
     folder_.Write("in.las", "input");
     settings_.command = "las";
-    settings_.parameters =
-        nlohmann::ordered_json{{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
+    settings_.parameters = nlohmann::ordered_json{{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
     settings_.table.id = "survey";
     settings_.table.digest = "1234";
   }
@@ -117,8 +116,7 @@ TEST_F(SummaryFile, RejectsADeeplyNestedOrHugeSummary) {
 
 TEST_F(SummaryFile, NamesTheOutputWhenBothExist) {
   ASSERT_TRUE(Write().ok());
-  EXPECT_THAT(CheckSummaryCanBeWritten(job_, Existing::kKeep).message(),
-              HasSubstr("out.las: already exists"));
+  EXPECT_THAT(CheckSummaryCanBeWritten(job_, Existing::kKeep).message(), HasSubstr("out.las: already exists"));
 }
 
 TEST_F(SummaryFile, KeepsAnotherFileWithItsName) {

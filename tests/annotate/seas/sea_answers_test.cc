@@ -68,8 +68,7 @@ class SeaAnswersTest : public ::testing::Test {
   }
 
   static AnswerSelection Everything() {
-    AnswerSelection all{
-        .quantities = {}, .standard_errors = true, .best_s44_orders = true, .s44_remaining = true};
+    AnswerSelection all{.quantities = {}, .standard_errors = true, .best_s44_orders = true, .s44_remaining = true};
     all.quantities.fill(true);
     return all;
   }
@@ -91,11 +90,11 @@ class SeaAnswersTest : public ::testing::Test {
 // The pulse `i` over the table of a sea, by the slow interpolation.
 PulseUncertainty Slowly(const UncertaintyTable& table, const PulseBatch& pulses, std::size_t i) {
   const double x_azimuth = SummaryOfSea(table)->x_azimuth;
-  return Interpolate(
-      table, {.incidence = pulses.coordinate(AxisId::kIncidence, i),
-              .azimuth = static_cast<float>(BeamAzimuth(pulses.coordinate(AxisId::kAzimuth, i), x_azimuth)),
-              .footprint = pulses.coordinate(AxisId::kFootprint, i),
-              .depth = pulses.coordinate(AxisId::kDepth, i)});
+  return Interpolate(table,
+                     {.incidence = pulses.coordinate(AxisId::kIncidence, i),
+                      .azimuth = static_cast<float>(BeamAzimuth(pulses.coordinate(AxisId::kAzimuth, i), x_azimuth)),
+                      .footprint = pulses.coordinate(AxisId::kFootprint, i),
+                      .depth = pulses.coordinate(AxisId::kDepth, i)});
 }
 
 // Each pulse by itself: two tables, the slow interpolation, the mean of the squares.
@@ -209,8 +208,8 @@ TEST_F(SeaAnswersTest, OpenEachSeaOnceAndKeepTheLast) {
 
 TEST_F(SeaAnswersTest, FailWhenNoSeaCanBeOpened) {
   std::atomic<int> opened = 0;
-  const auto answers = SeaAnswers::Open(
-      Hourly(2), std::make_unique<CountedSeas>(opened, absl::UnavailableError("the server is away")));
+  const auto answers =
+      SeaAnswers::Open(Hourly(2), std::make_unique<CountedSeas>(opened, absl::UnavailableError("the server is away")));
   EXPECT_EQ(answers.status().message(), "the server is away");
 }
 

@@ -66,8 +66,7 @@ TEST_F(SeaTimelineTest, GoesByTimeWithSeveralRecords) {
   }
   EXPECT_FALSE(seas.At(kStart - 0.1).has_value());
   EXPECT_FALSE(seas.At(kStart + 2 * kHour + 0.1).has_value());
-  for (const double time : {double{NAN}, double{INFINITY}, -double{INFINITY}})
-    EXPECT_FALSE(seas.At(time).has_value());
+  for (const double time : {double{NAN}, double{INFINITY}, -double{INFINITY}}) EXPECT_FALSE(seas.At(time).has_value());
 }
 
 TEST_F(SeaTimelineTest, BridgesShortGapsOnly) {
@@ -151,8 +150,7 @@ FACTOR
 
 TEST_F(SeaTimelineTest, AsksForThePlace) {
   config::SeaSettings told = File(kTwoPlaces);
-  EXPECT_THAT(ErrorOf(told),
-              HasSubstr("has 2 places (28.5000,-80.0000; 29.5000,-79.0000); name one by --sea-place"));
+  EXPECT_THAT(ErrorOf(told), HasSubstr("has 2 places (28.5000,-80.0000; 29.5000,-79.0000); name one by --sea-place"));
   told.place = "29.5000,-79.0000";
   EXPECT_EQ(SeaTimeline::Open(told)->place(), "29.5000,-79.0000");
   told.place = "28.6,-80.1";
@@ -160,8 +158,7 @@ TEST_F(SeaTimelineTest, AsksForThePlace) {
   told.place = "29.1,281";  // east, a full turn on
   EXPECT_EQ(SeaTimeline::Open(told)->place(), "29.5000,-79.0000");
   told.place = "Canaveral";
-  EXPECT_THAT(ErrorOf(told),
-              HasSubstr("has no place 'Canaveral' (it has 28.5000,-80.0000; 29.5000,-79.0000)"));
+  EXPECT_THAT(ErrorOf(told), HasSubstr("has no place 'Canaveral' (it has 28.5000,-80.0000; 29.5000,-79.0000)"));
 }
 
 TEST_F(SeaTimelineTest, RefusesATimeOfASeaWithoutOne) {

@@ -41,9 +41,8 @@ std::string ProblemOf(const std::string& text, const TotalContext& context = {.h
 }
 
 TEST(PlanTotal, TakesWhatTheUserSaysBeforeTheSensorAndTheSensorBeforeWhatIsAssumed) {
-  const absl::StatusOr<TotalPlan> plan =
-      PlanTotal(Survey(Decided() + "[sigma]\nbottom_range = 0.03\nposition = [0.01, 0.02, 0.03]\n"),
-                {.has_level = true});
+  const absl::StatusOr<TotalPlan> plan = PlanTotal(
+      Survey(Decided() + "[sigma]\nbottom_range = 0.03\nposition = [0.01, 0.02, 0.03]\n"), {.has_level = true});
   ASSERT_TRUE(plan.ok()) << plan.status();
   const AirErrors& errors = plan->options.errors;
   EXPECT_NEAR(errors.bottom_range, 0.03, kAny);
@@ -65,9 +64,8 @@ TEST(PlanTotal, NamesAllThatIsAssumed) {
   std::set<std::string> assumed;
   for (const StatedNumber& number : plan->numbers)
     if (number.assumed) assumed.insert(number.name);
-  EXPECT_EQ(assumed,
-            (std::set<std::string>{"position", "attitude", "boresight", "lever_arm", "time", "range_offset",
-                                   "surface_height", "index", "refractive_index", "lever_arm_vector"}));
+  EXPECT_EQ(assumed, (std::set<std::string>{"position", "attitude", "boresight", "lever_arm", "time", "range_offset",
+                                            "surface_height", "index", "refractive_index", "lever_arm_vector"}));
   EXPECT_EQ(Assumptions(*plan).size(), assumed.size());
 }
 
@@ -92,11 +90,9 @@ TEST(PlanTotal, LocatesTheSurfaceAsGivenElseByWhatThereIs) {
   };
   EXPECT_EQ(located("", {.has_surface_returns = true, .has_level = true}), SurfaceLocation::kLocal);
   EXPECT_EQ(located("", {.has_level = true}), SurfaceLocation::kLevel);
-  EXPECT_EQ(located("[surface]\nlocated = \"pulse\"\n", {.has_surface_returns = true}),
-            SurfaceLocation::kPulse);
+  EXPECT_EQ(located("[surface]\nlocated = \"pulse\"\n", {.has_surface_returns = true}), SurfaceLocation::kPulse);
   EXPECT_THAT(ProblemOf(Decided(), {}), HasSubstr("nothing says how the surface was located"));
-  EXPECT_THAT(ProblemOf(Decided() + "[surface]\nlocated = \"pulse\"\n"),
-              HasSubstr("needs returns from the surface"));
+  EXPECT_THAT(ProblemOf(Decided() + "[surface]\nlocated = \"pulse\"\n"), HasSubstr("needs returns from the surface"));
 }
 
 TEST(PlanTotal, ErrsByTheRangeOfTheOwnReturn) {
@@ -110,9 +106,9 @@ TEST(PlanTotal, ErrsByTheRangeOfTheOwnReturn) {
 
 TEST(PlanTotal, TakesTheRangeToTheSurfaceForThatOfItsReturns) {
   const auto errors = [](const std::string& located) {
-    const absl::StatusOr<TotalPlan> plan = PlanTotal(
-        Survey(Decided() + "[surface]\nlocated = \"" + located + "\"\n[sigma]\nsurface_range = 0.04\n"),
-        {.has_surface_returns = true});
+    const absl::StatusOr<TotalPlan> plan =
+        PlanTotal(Survey(Decided() + "[surface]\nlocated = \"" + located + "\"\n[sigma]\nsurface_range = 0.04\n"),
+                  {.has_surface_returns = true});
     EXPECT_TRUE(plan.ok()) << plan.status();
     return plan->options.errors;
   };
@@ -120,8 +116,7 @@ TEST(PlanTotal, TakesTheRangeToTheSurfaceForThatOfItsReturns) {
   EXPECT_EQ(errors("pulse").surface_height, 0);
   EXPECT_EQ(errors("local").surface_range, 0);
   EXPECT_EQ(errors("local").surface_height, 0.04);
-  EXPECT_THAT(ProblemOf(Decided() + "[sigma]\nsurface_range = 0.04\n"),
-              HasSubstr("has no effect where a level"));
+  EXPECT_THAT(ProblemOf(Decided() + "[sigma]\nsurface_range = 0.04\n"), HasSubstr("has no effect where a level"));
 }
 
 TEST(PlanTotal, CallsNothingTotalBeforeDatumAndWaterAreDecided) {
@@ -136,9 +131,8 @@ TEST(PlanTotal, NeverAssumesWhatOnlyTheSensorKnows) {
   const std::string problem = ProblemOf(Decided("usgs-eaarl-b"));
   EXPECT_THAT(problem, HasSubstr("scan (degree)"));
   EXPECT_THAT(problem, HasSubstr("[sigma]"));
-  EXPECT_THAT(
-      ProblemOf("[sensor]\nname = \"nothing.toml\"\n[datum]\nsigma = 0\n[water]\ncolumn = \"none\"\n"),
-      HasSubstr("nothing.toml"));
+  EXPECT_THAT(ProblemOf("[sensor]\nname = \"nothing.toml\"\n[datum]\nsigma = 0\n[water]\ncolumn = \"none\"\n"),
+              HasSubstr("nothing.toml"));
 }
 
 TEST(WaveHeightOfWind, GrowsWithWindAndFetch) {

@@ -38,8 +38,7 @@ AnswerBatch Sea() {
 
 TotalPlan Plan() {
   TotalPlan plan;
-  plan.options.errors = {
-      .position = {0.02, 0.03, 0.06}, .attitude = {0.005, 0.005, 0.008}, .bottom_range = 0.025};
+  plan.options.errors = {.position = {0.02, 0.03, 0.06}, .attitude = {0.005, 0.005, 0.008}, .bottom_range = 0.025};
   plan.options.datum = 0.05;
   plan.sea_axis = 70;
   return plan;
@@ -68,8 +67,7 @@ TEST(ComputeTotals, TakesSigmasOfThePulseWhereTheyAreKnown) {
   TotalPlan plan = Plan();
   plan.position_by_pulse = true;
   AircraftColumns aircraft = Aircraft();
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    aircraft[BudgetInput::kPositionSigmaNorth + axis] = {1, NAN, 1};
+  for (std::size_t axis = 0; axis < 3; ++axis) aircraft[BudgetInput::kPositionSigmaNorth + axis] = {1, NAN, 1};
   TotalBatch totals, assumed;
   ComputeTotals(plan, Pulses(), Sea(), aircraft, totals);
   aircraft = Aircraft();

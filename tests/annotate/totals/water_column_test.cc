@@ -28,8 +28,7 @@ class WaterColumnPlan : public ::testing::Test {
     EXPECT_TRUE(survey.ok()) << survey.status();
     return survey.ok() ? survey->water : config::WaterSettings();
   }
-  static absl::StatusOr<WaterPlan> Plan(const std::string& text,
-                                        std::vector<StatedNumber>* numbers = nullptr) {
+  static absl::StatusOr<WaterPlan> Plan(const std::string& text, std::vector<StatedNumber>* numbers = nullptr) {
     std::vector<StatedNumber> own;
     return PlanWater(Water(text), 1.34, numbers != nullptr ? *numbers : own);
   }
@@ -69,14 +68,12 @@ TEST_F(WaterColumnPlan, SaysWhatIsMissingOrContradictsItself) {
   EXPECT_THAT(ProblemOf(kReceiver + kNone + kOptics + "secchi = 4\n"), HasSubstr("several ways"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + kNone + "column = \"none\"\n"), HasSubstr("contradicts"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + "bias = \"vendor\"\n"), HasSubstr("needs residual_fraction"));
-  EXPECT_THAT(ProblemOf(kReceiver + kOptics + kNone + "residual_fraction = 0.1\n"),
-              HasSubstr("has no effect"));
+  EXPECT_THAT(ProblemOf(kReceiver + kOptics + kNone + "residual_fraction = 0.1\n"), HasSubstr("has no effect"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + "bias = \"calibrated\"\n"), HasSubstr("needs calibration"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + "bias = \"calibrated\"\ncalibration = {depth = 5}\n"),
               HasSubstr("lacks a number"));
   EXPECT_THAT(ProblemOf("processed_with = 1.33\ncolumn = \"none\"\n"), HasSubstr("temperature"));
-  EXPECT_THAT(ProblemOf(kReceiver + kNone + "kd = 0.05\nkd_kind = \"diffuse532\"\n"),
-              HasSubstr("pure water"));
+  EXPECT_THAT(ProblemOf(kReceiver + kNone + "kd = 0.05\nkd_kind = \"diffuse532\"\n"), HasSubstr("pure water"));
 }
 
 TEST_F(WaterColumnPlan, NamesWhatIsAssumed) {
@@ -112,8 +109,7 @@ TEST_F(WaterColumnPlan, AddsBiasesToThoseOfTheSeaAndMarksPulsesBeyond) {
   EXPECT_NEAR(answers[Quantity::kBiasAlongBeam][0], 0.1 + expected.bias_along, 1e-6);
   EXPECT_LT(expected.bias_vertical, 0);
   EXPECT_NEAR(water.sigma_vertical[0], expected.left_vertical, 1e-6);
-  EXPECT_NEAR(water.noise[0],
-              plan->share->PhotonNoise(100, expected.stretch, std::cos(std::asin(0.342 / 1.34))), 1e-4);
+  EXPECT_NEAR(water.noise[0], plan->share->PhotonNoise(100, expected.stretch, std::cos(std::asin(0.342 / 1.34))), 1e-4);
   // Too deep, too slanted, too wide for the field of view.
   EXPECT_EQ(answers.outcomes, (std::vector<std::uint8_t>{1, kNoWater, kNoWater, kNoWater}));
   EXPECT_EQ(OutcomeName(answers, 1), "NO_WATER");

@@ -55,9 +55,7 @@ void Columns(benchmark::State& state) {
   std::vector<double> incidence(kBatch), azimuth(kBatch), slant_range(kBatch), water_path(kBatch);
   for (auto _ : state) {
     for (std::size_t begin = 0; begin < kPulses; begin += kBatch) {
-      const auto rows = [begin](const std::vector<double>& column) {
-        return std::span(column).subspan(begin, kBatch);
-      };
+      const auto rows = [begin](const std::vector<double>& column) { return std::span(column).subspan(begin, kBatch); };
       ComputeBeams({rows(line.east), rows(line.north), rows(line.height), rows(line.depth), convergence},
                    kRefractiveIndex, {incidence, azimuth, slant_range, water_path});
       benchmark::ClobberMemory();
@@ -86,9 +84,7 @@ BENCHMARK(Plain)->Name("plain")->Unit(benchmark::kMillisecond);
 SurfaceReturns Collect() {
   const FlightLine& line = Line();
   SurfaceReturns returns;
-  for (std::size_t i = 0; i < kPulses; ++i) {
-    returns.Add(line.x(i), line.north[i], line.time[i], line.surface[i]);
-  }
+  for (std::size_t i = 0; i < kPulses; ++i) returns.Add(line.x(i), line.north[i], line.time[i], line.surface[i]);
   return returns;
 }
 
@@ -110,9 +106,8 @@ void Height(benchmark::State& state) {
   const LocalWaterSurface surface = Collect().Finish();
   for (auto _ : state) {
     double sum = 0;
-    for (std::size_t i = 0; i < kPulses; ++i) {
+    for (std::size_t i = 0; i < kPulses; ++i)
       sum += surface.HeightAt(line.x(i), line.north[i], line.time[i]).value_or(0);
-    }
     benchmark::DoNotOptimize(sum);
   }
   state.SetItemsProcessed(state.iterations() * kPulses);

@@ -37,13 +37,11 @@ struct FlightLine {
     const testing::Flight flight;
     bytes = testing::SbetBytes(testing::Fly(flight));
     const TrajectoryFiles files = {Must(SbetFile::Parse("sbet", MappedFile::View(bytes)))};
-    const PointTimes times = {{flight.start + 1, flight.start + flight.duration - 1},
-                              PointTimeForm::kWeekSeconds};
+    const PointTimes times = {{flight.start + 1, flight.start + flight.duration - 1}, PointTimeForm::kWeekSeconds};
     track = Must(ProjectedTrack::Create(Must(TrajectoryTimeline::Create(files, TrajectoryClock::kGps, times)),
                                         Must(MapFrame::Create("points", {.user = "EPSG:32617"})), {}));
-    for (std::size_t i = 0; i < kPulses; ++i) {
+    for (std::size_t i = 0; i < kPulses; ++i)
       points.times.push_back(flight.start + 1 + static_cast<double>(i) / kPulseRate);
-    }
     std::vector<SensorPosition> sensor(kPulses);
     std::vector<TrackOutcome> outcomes(kPulses);
     track->PositionsAt(points.times, sensor, outcomes);

@@ -36,9 +36,8 @@ struct Columns {
     draw(BudgetInput::kRoll, -3, 3);
     draw(BudgetInput::kPitch, -3, 3);
     draw(BudgetInput::kHeading, 28, 32);
-    for (const auto input :
-         {BudgetInput::kVelocityNorth, BudgetInput::kVelocityEast, BudgetInput::kVelocityDown,
-          BudgetInput::kRollRate, BudgetInput::kPitchRate, BudgetInput::kYawRate})
+    for (const auto input : {BudgetInput::kVelocityNorth, BudgetInput::kVelocityEast, BudgetInput::kVelocityDown,
+                             BudgetInput::kRollRate, BudgetInput::kPitchRate, BudgetInput::kYawRate})
       draw(input, -5, 50);
     draw(BudgetInput::kSeaThu, 0.1, 0.5);
     draw(BudgetInput::kSeaTvu, 0.05, 0.1);

@@ -42,24 +42,20 @@ inline void PlainBudget(const BudgetInputs& inputs, std::size_t i, const BudgetO
     g.col(2) -= rho / ct * k;
     p.col(2) -= k / ct;
   }
-  const double sr = std::sin(kDegree * at(BudgetInput::kRoll)),
-               cr = std::cos(kDegree * at(BudgetInput::kRoll));
-  const double sp = std::sin(kDegree * at(BudgetInput::kPitch)),
-               cp = std::cos(kDegree * at(BudgetInput::kPitch));
-  const double sh = std::sin(kDegree * at(BudgetInput::kHeading)),
-               ch = std::cos(kDegree * at(BudgetInput::kHeading));
+  const double sr = std::sin(kDegree * at(BudgetInput::kRoll)), cr = std::cos(kDegree * at(BudgetInput::kRoll));
+  const double sp = std::sin(kDegree * at(BudgetInput::kPitch)), cp = std::cos(kDegree * at(BudgetInput::kPitch));
+  const double sh = std::sin(kDegree * at(BudgetInput::kHeading)), ch = std::cos(kDegree * at(BudgetInput::kHeading));
   Matrix3d r;
-  r << ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr, sh * cp, sh * sp * sr + ch * cr,
-      sh * sp * cr - ch * sr, -sp, cp * sr, cp * cr;
+  r << ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr, sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr,
+      -sp, cp * sr, cp * cr;
   const Vector3d l = r * Vector3d(options.lever_arm.data());
-  const Vector3d omega = r * (kDegree * Vector3d(at(BudgetInput::kRollRate), at(BudgetInput::kPitchRate),
-                                                 at(BudgetInput::kYawRate)));
+  const Vector3d omega =
+      r * (kDegree * Vector3d(at(BudgetInput::kRollRate), at(BudgetInput::kPitchRate), at(BudgetInput::kYawRate)));
   Matrix3d c = Matrix3d::Zero();
   const auto add = [&](const Vector3d& v) { c.noalias() += v * v.transpose(); };
   for (int a = 0; a < 3; ++a) add(errors.position[a] * p.col(a));
   const Vector3d axes[] = {r.col(0), Vector3d(-sh, ch, 0), Vector3d(0, 0, 1)};
-  for (int a = 0; a < 3; ++a)
-    add(kDegree * errors.attitude[a] * (g * axes[a].cross(u) + p * axes[a].cross(l)));
+  for (int a = 0; a < 3; ++a) add(kDegree * errors.attitude[a] * (g * axes[a].cross(u) + p * axes[a].cross(l)));
   for (int a = 0; a < 3; ++a) add(kDegree * errors.boresight[a] * (g * r.col(a).cross(u)));
   for (int a = 0; a < 3; ++a) add(errors.lever_arm * (p * r.col(a)));
   add(kDegree * errors.scan * (g_scan * Vector3d(ct * ca, ct * sa, -st)));
@@ -76,16 +72,13 @@ inline void PlainBudget(const BudgetInputs& inputs, std::size_t i, const BudgetO
   const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
   const double share = along * along / (along * along + cross * cross);
   const double trace = std::pow(at(BudgetInput::kSeaThu) / 2, 2);
-  const double sx = std::sin(kDegree * at(BudgetInput::kSeaAxis)),
-               cx = std::cos(kDegree * at(BudgetInput::kSeaAxis));
+  const double sx = std::sin(kDegree * at(BudgetInput::kSeaAxis)), cx = std::cos(kDegree * at(BudgetInput::kSeaAxis));
   Eigen::Matrix2d turned_axes;
   turned_axes << cx, -sx, sx, cx;
   const Eigen::Vector2d in_sea = turned_axes.transpose() * Eigen::Vector2d(ca, sa);
-  const Eigen::Matrix2d response =
-      Eigen::Matrix2d::Identity() + (1 / (cw * cw) - 1) * in_sea * in_sea.transpose();
+  const Eigen::Matrix2d response = Eigen::Matrix2d::Identity() + (1 / (cw * cw) - 1) * in_sea * in_sea.transpose();
   const Eigen::Vector2d variances(trace * share, trace * (1 - share));
-  const Eigen::Vector2d slopes =
-      (response.cwiseAbs2().inverse() * variances).cwiseMax(Eigen::Vector2d::Zero());
+  const Eigen::Vector2d slopes = (response.cwiseAbs2().inverse() * variances).cwiseMax(Eigen::Vector2d::Zero());
   Eigen::Matrix2d on_axes = response * slopes.asDiagonal() * response.transpose();
   on_axes.diagonal() = variances;
   const Eigen::Matrix2d sea = turned_axes * on_axes * turned_axes.transpose();

@@ -27,8 +27,7 @@ namespace {
 constexpr std::size_t kMany = std::size_t{1} << 17;
 
 struct Tables {
-  explicit Tables(int megabytes)
-      : table(TableOf(megabytes)), columns(table), plain(table), side_by_side(table) {}
+  explicit Tables(int megabytes) : table(TableOf(megabytes)), columns(table), plain(table), side_by_side(table) {}
   UncertaintyTable table;
   ColumnInterpolator columns;
   PlainInterpolator<Quantities::kApart> plain;
@@ -54,9 +53,7 @@ class Answers {
   Answers(std::size_t count, const Wanted& wanted) : numbers_(2 * kQuantityCount * count), bytes_(2 * count) {
     for (std::size_t q = wanted.refraction ? 0 : 2; q < kQuantityCount; ++q) {
       columns_.values[q] = numbers_.data() + q * count;
-      if (wanted.standard_errors) {
-        columns_.standard_errors[q] = numbers_.data() + (kQuantityCount + q) * count;
-      }
+      if (wanted.standard_errors) columns_.standard_errors[q] = numbers_.data() + (kQuantityCount + q) * count;
     }
     if (!wanted.outcomes) return;
     columns_.outcomes = bytes_.data();
@@ -81,16 +78,14 @@ void Measure(benchmark::State& state, const Case& of, bool azimuth_absent, const
   const Tables& tables = TablesOf(of.megabytes);
   const PulseBatch pulses(tables.table, of.order, kMany, azimuth_absent);
   for (auto _ : state) {
-    for (std::size_t begin = 0; begin < kMany; begin += of.batch) {
+    for (std::size_t begin = 0; begin < kMany; begin += of.batch)
       run(tables, pulses.columns(), begin, std::min(kMany, begin + of.batch));
-    }
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * kMany);
 }
 
-void Columns(benchmark::State& state, const Case& of, const Query& query, const Wanted& wanted,
-             bool azimuth_absent) {
+void Columns(benchmark::State& state, const Case& of, const Query& query, const Wanted& wanted, bool azimuth_absent) {
   const Answers answers(kMany, wanted);
   Measure(state, of, azimuth_absent,
           [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
@@ -106,22 +101,21 @@ void OnAllCores(benchmark::State& state, const Case& of) {
 }
 
 void Rows(benchmark::State& state, const Case& of) {
-  Measure(state, of, false,
-          [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-              benchmark::DoNotOptimize(Interpolate(tables.table, PulseAt(pulses, i)));
-            }
-          });
+  Measure(
+      state, of, false,
+      [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          benchmark::DoNotOptimize(Interpolate(tables.table, PulseAt(pulses, i)));
+      });
 }
 
 template <typename Interpolator>
 void Plain(benchmark::State& state, const Case& of, Interpolator Tables::*interpolator) {
   const Answers answers(kMany, {});
   const auto& values = answers.columns().values;
-  Measure(state, of, false,
-          [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
-            (tables.*interpolator).Answer(pulses, begin, end, {values[2], values[3], values[4], values[5]});
-          });
+  Measure(state, of, false, [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
+    (tables.*interpolator).Answer(pulses, begin, end, {values[2], values[3], values[4], values[5]});
+  });
 }
 
 void Register(int megabytes, Order order, std::size_t batch) {
@@ -129,7 +123,8 @@ void Register(int megabytes, Order order, std::size_t batch) {
   const auto add = [&](const std::string& who, auto run) {
     const std::string name =
         absl::StrCat(who, "/", megabytes, "/", order == Order::kScan ? "scan" : "random", "/", batch);
-    return benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, of); })
+    return benchmark::RegisterBenchmark(
+               name.c_str(), [=](benchmark::State& state) { run(state, of); })
         ->Unit(benchmark::kMillisecond);
   };
   const auto columns = [&](const std::string& who, const Query& query, const Wanted& wanted, bool absent) {
@@ -153,11 +148,9 @@ void Register(int megabytes, Order order, std::size_t batch) {
 
 int main(int argc, char** argv) {
   using albtpu::bench::Order;
-  for (const int megabytes : {5, 15, 200}) {
-    for (const Order order : {Order::kScan, Order::kRandom}) {
+  for (const int megabytes : {5, 15, 200})
+    for (const Order order : {Order::kScan, Order::kRandom})
       albtpu::bench::Register(megabytes, order, albtpu::bench::kMany);
-    }
-  }
   for (const std::size_t batch : {1, 16, 256}) albtpu::bench::Register(15, Order::kScan, batch);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -71,11 +71,10 @@ UncertaintyTable TableOf(int megabytes) {
 }
 
 PulseBatch::PulseBatch(const UncertaintyTable& table, Order order, std::size_t count, bool azimuth_absent) {
-  if (order == Order::kScan) {
+  if (order == Order::kScan)
     FlyLine(count);
-  } else {
+  else
     Scatter(table, count);
-  }
   if (azimuth_absent) numbers_[Index(AxisId::kAzimuth)].clear();
   columns_.size = count;
   for (AxisId axis : kAxes) columns_.axis[Index(axis)] = numbers_[Index(axis)];

@@ -20,8 +20,7 @@ namespace {
 void Write(const std::filesystem::path& folder, std::string_view name, std::span<const float> numbers) {
   std::filesystem::create_directories(folder);
   std::ofstream file(folder / name, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(numbers.data()),
-             static_cast<std::streamsize>(numbers.size_bytes()));
+  file.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size_bytes()));
 }
 
 void WriteCase(const std::filesystem::path& folder, int megabytes, Order order, std::size_t count) {
@@ -33,8 +32,7 @@ void WriteCase(const std::filesystem::path& folder, int megabytes, Order order, 
     Write(folder / "pulses", Describe(axis).name, pulses.columns()[axis]);
   }
   const ColumnInterpolator interpolator(table);
-  for (Quantity quantity :
-       {Quantity::kThu, Quantity::kTvu, Quantity::kBiasAlongBeam, Quantity::kBiasVertical}) {
+  for (Quantity quantity : {Quantity::kThu, Quantity::kTvu, Quantity::kBiasAlongBeam, Quantity::kBiasVertical}) {
     std::vector<float> answer(count);
     AnswerColumns answers;
     answers.values[Index(quantity)] = answer.data();

@@ -21,9 +21,7 @@ PlainInterpolator<kLayout>::PlainInterpolator(const UncertaintyTable& table) {
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const std::vector<float>& values = table.variable(albtpu::kQuantities[2 + q])->values;
     if (kLayout == Quantities::kApart) apart_[q] = values;
-    for (std::size_t i = 0; i < side_by_side_.size() / kQuantities; ++i) {
-      side_by_side_[i * kQuantities + q] = values[i];
-    }
+    for (std::size_t i = 0; i < side_by_side_.size() / kQuantities; ++i) side_by_side_[i * kQuantities + q] = values[i];
   }
 }
 
@@ -54,13 +52,11 @@ void PlainInterpolator<kLayout>::Answer(const PulseColumns& pulses, std::size_t 
     }
     std::array<double, kQuantities> sum{};
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
-      for (std::size_t q = 0; q < kQuantities; ++q) {
-        if constexpr (kLayout == Quantities::kApart) {
+      for (std::size_t q = 0; q < kQuantities; ++q)
+        if constexpr (kLayout == Quantities::kApart)
           sum[q] += weight[corner] * apart_[q][index[corner]];
-        } else {
+        else
           sum[q] += weight[corner] * side_by_side_[index[corner] * kQuantities + q];
-        }
-      }
     }
     for (std::size_t q = 0; q < kQuantities; ++q) answers[q][i] = static_cast<float>(sum[q]);
   }

@@ -35,9 +35,8 @@ bool Decode(const laz::ByteSource& file, const laz::LazExtent& extent, int threa
   const auto points = laz::LazPoints::Open(file, extent, threads);
   if (!points.ok()) return false;
   const std::size_t step = 50000 * extent.record.record_length();
-  for (std::size_t at = 0; at < records.size(); at += step) {
+  for (std::size_t at = 0; at < records.size(); at += step)
     if (!(*points)->Read(records.subspan(at, std::min(step, records.size() - at))).ok()) return false;
-  }
   return true;
 }
 
@@ -48,9 +47,8 @@ std::size_t Encode(const laz::LaszipRecord& record, int threads, std::string_vie
   const auto work = [&] {
     const auto encoder = laz::ChunkEncoder::For(record);
     std::string chunk;
-    for (std::size_t at; (at = next.fetch_add(step)) < records.size(); bytes += chunk.size()) {
+    for (std::size_t at; (at = next.fetch_add(step)) < records.size(); bytes += chunk.size())
       encoder->Encode(records.substr(at, step), chunk);
-    }
   };
   std::vector<std::jthread> others;
   for (int i = 1; i < threads; ++i) others.emplace_back(work);

@@ -39,9 +39,7 @@ std::uint64_t Morton(std::uint32_t a, std::uint32_t b) {
 FloatRays AlongMortonCurve(const std::vector<Ray>& rays, double reach, double spacing) {
   const auto cell = [&](double x) { return static_cast<std::uint32_t>((x + reach) / spacing); };
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  for (const Ray& ray : rays) {
-    order.emplace_back(Morton(cell(ray.at_zero.x()), cell(ray.at_zero.y())), order.size());
-  }
+  for (const Ray& ray : rays) order.emplace_back(Morton(cell(ray.at_zero.x()), cell(ray.at_zero.y())), order.size());
   std::sort(order.begin(), order.end());
   FloatRays sorted{{}, {}, rays.front().direction};
   for (const auto& [place, r] : order) {
@@ -55,8 +53,8 @@ FloatRays AlongMortonCurve(const std::vector<Ray>& rays, double reach, double sp
 
 BeamCase::BeamCase(const CaseOptions& options)
     : options_(options),
-      patch_(SeaState(options.wind_speed, std::numeric_limits<double>::infinity()), PatchLength(options),
-             options.size, PatchShare(PatchLength(options))),
+      patch_(SeaState(options.wind_speed, std::numeric_limits<double>::infinity()), PatchLength(options), options.size,
+             PatchShare(PatchLength(options))),
       beam_(options.BeamOf(), options.rays),
       rays_(beam_.Rays(0)),
       bundle_(beam_, kRefractiveIndex),
@@ -74,9 +72,7 @@ double BeamCase::ModePower(int i, int j) const {
 
 std::vector<Ray> BeamCase::SortedRays() const {
   std::vector<Ray> rays;
-  for (std::size_t r = 0; r < sorted_.x.size(); ++r) {
-    rays.push_back({sorted_.direction, {sorted_.x[r], sorted_.y[r]}});
-  }
+  for (std::size_t r = 0; r < sorted_.x.size(); ++r) rays.push_back({sorted_.direction, {sorted_.x[r], sorted_.y[r]}});
   return rays;
 }
 
@@ -108,8 +104,7 @@ BeamMeans MeansOf(const TracedBeam& traced) {
 
 double Difference(const BeamMeans& a, const BeamMeans& b, double footprint) {
   return std::max({std::abs(a.tangent_x - b.tangent_x), std::abs(a.tangent_y - b.tangent_y),
-                   std::abs(a.secant - b.secant),
-                   std::abs(a.height_tangent_x - b.height_tangent_x) / footprint,
+                   std::abs(a.secant - b.secant), std::abs(a.height_tangent_x - b.height_tangent_x) / footprint,
                    std::abs(a.height_tangent_y - b.height_tangent_y) / footprint,
                    std::abs(a.height_secant - b.height_secant) / footprint});
 }

@@ -20,8 +20,7 @@ namespace {
 template <typename T>
 bool Write(const std::vector<T>& values, const std::string& path) {
   std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(values.size() * sizeof(T)));
+  file.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
   return file.good();
 }
 
@@ -39,9 +38,8 @@ int main(int argc, char** argv) {
   const bench::FloatSurface surface = beam_case.Draw(1, beam_case.whole_points());
 
   std::vector<double> power, rays;
-  for (int row = 0; row < size; ++row) {
+  for (int row = 0; row < size; ++row)
     for (int j = 0; j <= size / 2; ++j) power.push_back(beam_case.ModePower(SignedIndex(row, size), j));
-  }
   for (const Ray& ray : beam_case.rays()) rays.insert(rays.end(), {ray.at_zero.x(), ray.at_zero.y()});
   if (!Write(power, folder + "/power.f64") || !Write(surface.heights, folder + "/heights.f32") ||
       !Write(rays, folder + "/rays.f64")) {
@@ -57,8 +55,7 @@ int main(int argc, char** argv) {
                            {"refractive_index", kRefractiveIndex},
                            {"depths", bench::kDepths}};
   const TracedBeam traced = Trace(beam_case.rays(), surface.InDouble(), kRefractiveIndex);
-  for (const bench::SpotAtDepth& spot : bench::SpotsOf(bench::MeansOf(traced))) {
+  for (const bench::SpotAtDepth& spot : bench::SpotsOf(bench::MeansOf(traced)))
     report["spots"].push_back({spot.x, spot.y, spot.path});
-  }
   std::cout << report.dump(2) << "\n";
 }

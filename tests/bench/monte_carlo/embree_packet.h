@@ -20,8 +20,7 @@ struct alignas(std::clamp(4 * kWidth, 16, 64)) EmbreePacket {
   unsigned primitive[kWidth], geometry[kWidth], instance[kWidth];
 };
 static_assert(sizeof(EmbreePacket<1>) == sizeof(RTCRayHit) && sizeof(EmbreePacket<4>) == sizeof(RTCRayHit4) &&
-              sizeof(EmbreePacket<8>) == sizeof(RTCRayHit8) &&
-              sizeof(EmbreePacket<16>) == sizeof(RTCRayHit16));
+              sizeof(EmbreePacket<8>) == sizeof(RTCRayHit8) && sizeof(EmbreePacket<16>) == sizeof(RTCRayHit16));
 
 // One packet at a time.
 inline void Intersect(RTCScene scene, RTCIntersectContext* context, EmbreePacket<1>& packet) {
@@ -41,8 +40,7 @@ inline void Intersect(RTCScene scene, RTCIntersectContext* context, EmbreePacket
 }
 
 // As a stream.
-inline void IntersectStream(RTCScene scene, RTCIntersectContext* context, EmbreePacket<1>* packets,
-                            int count) {
+inline void IntersectStream(RTCScene scene, RTCIntersectContext* context, EmbreePacket<1>* packets, int count) {
   rtcIntersect1M(scene, context, reinterpret_cast<RTCRayHit*>(packets), static_cast<unsigned>(count),
                  sizeof(EmbreePacket<1>));
 }
@@ -56,8 +54,8 @@ void IntersectStream(RTCScene scene, RTCIntersectContext* context, EmbreePacket<
 template <int kWidth>
 void IntersectArrays(RTCScene scene, RTCIntersectContext* context, EmbreePacket<kWidth>& p, int count) {
   const RTCRayHitNp arrays = {
-      .ray = {p.origin_x, p.origin_y, p.origin_z, p.near, p.direction_x, p.direction_y, p.direction_z, p.time,
-              p.far, p.mask, p.id, p.flags},
+      .ray = {p.origin_x, p.origin_y, p.origin_z, p.near, p.direction_x, p.direction_y, p.direction_z, p.time, p.far,
+              p.mask, p.id, p.flags},
       .hit = {p.normal_x, p.normal_y, p.normal_z, p.u, p.v, p.primitive, p.geometry, {p.instance}}};
   rtcIntersectNp(scene, context, &arrays, static_cast<unsigned>(count));
 }

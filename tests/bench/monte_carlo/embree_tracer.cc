@@ -35,14 +35,13 @@ int VertexAt(int ix, int iy, int points) { return ix * points + points - 1 - iy;
 
 void SetTriangles(RTCGeometry geometry, int points) {
   const std::size_t count = 2 * static_cast<std::size_t>(points - 1) * (points - 1);
-  auto* corner = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
+  auto* corner = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
   for (int ix = 0; ix + 1 < points; ++ix) {
     for (int iy = 0; iy + 1 < points; ++iy) {
       const int low = VertexAt(ix, iy, points), high = VertexAt(ix + 1, iy + 1, points);
-      for (const int third : {VertexAt(ix + 1, iy, points), VertexAt(ix, iy + 1, points)}) {
+      for (const int third : {VertexAt(ix + 1, iy, points), VertexAt(ix, iy + 1, points)})
         for (const int vertex : {low, third, high}) *corner++ = static_cast<unsigned>(vertex);
-      }
     }
   }
 }
@@ -82,8 +81,8 @@ EmbreeTracer::EmbreeTracer(const EmbreeOptions& options, int points, float spaci
   geometry_ = rtcNewGeometry(device_, grid ? RTC_GEOMETRY_TYPE_GRID : RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetGeometryBuildQuality(geometry_, QualityOf(options.build));
   const std::size_t count = static_cast<std::size_t>(points) * points;
-  vertices_ = static_cast<float*>(rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                          RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
+  vertices_ = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
   const int centre = (points - 1) / 2;
   for (int ix = 0; ix < points; ++ix) {
     for (int iy = 0; iy < points; ++iy) {
@@ -97,8 +96,7 @@ EmbreeTracer::EmbreeTracer(const EmbreeOptions& options, int points, float spaci
   rtcCommitGeometry(geometry_);
   rtcAttachGeometry(scene_, geometry_);
   rtcInitIntersectContext(&context_);
-  context_.flags =
-      options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context_.flags = options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
 
 EmbreeTracer::~EmbreeTracer() {
@@ -108,9 +106,8 @@ EmbreeTracer::~EmbreeTracer() {
 }
 
 void EmbreeTracer::SetHeights(const float* heights) {
-  for (int ix = 0; ix < points_; ++ix) {
+  for (int ix = 0; ix < points_; ++ix)
     for (int iy = 0; iy < points_; ++iy) vertices_[3 * VertexAt(ix, iy, points_) + 2] = *heights++;
-  }
   rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(geometry_);
   rtcCommitScene(scene_);
@@ -219,9 +216,8 @@ BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
     }
     const float block[8] = {found, height, tx, ty, secants, htx, hty, hs};
     for (int s = 0; s < 8; ++s) sums[s] += block[s];
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
       hit_heights_[first + i] = hits.found[i] != 0 ? hits.height[i] : std::numeric_limits<float>::quiet_NaN();
-    }
   }
   const double count = sums[0];
   const double height = sums[1] / count;

@@ -12,12 +12,7 @@
 namespace albtpu::bench {
 
 enum class EmbreeGeometry { kTriangles, kGrid };
-enum class EmbreeBuild {
-  kHigh,
-  kMedium,
-  kLow,
-  kRefit
-};  // rtcSetGeometryBuildQuality and rtcSetSceneBuildQuality
+enum class EmbreeBuild { kHigh, kMedium, kLow, kRefit };   // rtcSetGeometryBuildQuality and rtcSetSceneBuildQuality
 enum class EmbreeRays { k1, k4, k8, k16, k1M, k8M, kNp };  // rtcIntersect...: one ray, packets, streams
 
 struct EmbreeOptions {

@@ -33,12 +33,9 @@ std::vector<double> AroundTheCentre(const BeamCase& beam_case, const FloatSurfac
   const int size = beam_case.options().size;
   std::vector<double> heights(static_cast<std::size_t>(size) * size, 0.0);
   const int first = size / 2 - (surface.points - 1) / 2;
-  for (int i = 0; i < surface.points; ++i) {
-    for (int j = 0; j < surface.points; ++j) {
-      heights[static_cast<std::size_t>(first + i) * size + first + j] =
-          surface.heights[i * surface.points + j];
-    }
-  }
+  for (int i = 0; i < surface.points; ++i)
+    for (int j = 0; j < surface.points; ++j)
+      heights[static_cast<std::size_t>(first + i) * size + first + j] = surface.heights[i * surface.points + j];
   return heights;
 }
 

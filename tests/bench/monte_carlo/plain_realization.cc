@@ -101,8 +101,7 @@ Spots PlainRealization::Trace(double refractive_index) const {
     const Eigen::Vector3d normal = Eigen::Vector3d(-hit.slope_x, -hit.slope_y, 1).normalized();
     const double cosine = -normal.dot(ray.direction), ratio = 1 / refractive_index;
     const Eigen::Vector3d direction =
-        ratio * ray.direction +
-        (ratio * cosine - std::sqrt(1 - ratio * ratio * (1 - cosine * cosine))) * normal;
+        ratio * ray.direction + (ratio * cosine - std::sqrt(1 - ratio * ratio * (1 - cosine * cosine))) * normal;
     const double x = ray.at_zero.x() + hit.height * ray.direction.x() / ray.direction.z();
     const double y = ray.at_zero.y() + hit.height * ray.direction.y() / ray.direction.z();
     below.push_back({x, y, hit.height, direction});

@@ -30,8 +30,7 @@ class PlainRealization {
 
   int size_;
   double spacing_;
-  std::vector<double>
-      scale_;  // of the modes' normal numbers; the signs put the patch's point 0 at the centre
+  std::vector<double> scale_;  // of the modes' normal numbers; the signs put the patch's point 0 at the centre
   std::vector<std::complex<double>> modes_;
   std::vector<double> heights_;
   std::vector<Ray> rays_;

@@ -103,8 +103,7 @@ void OursOnTwoThreads(benchmark::State& state, const BeamCase& beam_case) {
 
 #ifdef ALBTPU_EMBREE
 // With `draw` unset, traces the same surface again and again, which measures the tree and the tracing alone.
-void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole,
-            bool draw) {
+void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole, bool draw) {
   const int points = whole ? beam_case.whole_points() : beam_case.footprint_points();
   FastSurface surface(beam_case, points);
   EmbreeTracer tracer(options, points, static_cast<float>(beam_case.patch().spacing()));
@@ -176,8 +175,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("embree", "absent when this was built");
 #endif
   using albtpu::bench::Transform;
-  benchmark::RegisterBenchmark("transform/estimated", Transform, FFTW_ESTIMATE)
-      ->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("transform/estimated", Transform, FFTW_ESTIMATE)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("transform/measured", Transform, FFTW_MEASURE)->Unit(benchmark::kMicrosecond);
   for (const int degrees : {0, 20}) albtpu::bench::RegisterAt(degrees);
   benchmark::Initialize(&argc, argv);

@@ -13,8 +13,7 @@ namespace {
 
 // A wind sea with the harmonics of a measured spectrum.
 HarmonicSpectrum Sea(std::size_t harmonics) {
-  return Sampled(*WindSea{.wind_speed_10m = 8, .model = &kElfouhailyModel}.MakeSpectrum(), SeaWavenumbers(),
-                 harmonics);
+  return Sampled(*WindSea{.wind_speed_10m = 8, .model = &kElfouhailyModel}.MakeSpectrum(), SeaWavenumbers(), harmonics);
 }
 
 void OneBeam(benchmark::State& state, BeamProfile profile) {

@@ -33,9 +33,7 @@ void Compile(benchmark::State& state, const SeaDescription& sea) {
   for (auto _ : state) benchmark::DoNotOptimize(compiler.Compile(sea, kNotMeasured)->digest());
 }
 BENCHMARK_CAPTURE(Compile, wind, Wind(7))->Name("compile/wind")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Compile, components, Components())
-    ->Name("compile/components")
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Compile, components, Components())->Name("compile/components")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Compile, calm, Wind(0))->Name("compile/calm")->Unit(benchmark::kMillisecond);
 
 void Compiler(benchmark::State& state) {

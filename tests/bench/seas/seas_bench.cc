@@ -68,8 +68,7 @@ struct Chunk {
 };
 
 // Asks batches of pulses as files do: in order, on all cores.
-void Ask(benchmark::State& state, std::shared_ptr<const SeaTimeline> timeline, std::size_t batches,
-         bool in_one_hour) {
+void Ask(benchmark::State& state, std::shared_ptr<const SeaTimeline> timeline, std::size_t batches, bool in_one_hour) {
   const PulseBatch pulses = Pulses(0);
   for (auto _ : state) {
     const std::unique_ptr<SeaAnswers> seas = Must(SeaAnswers::Open(timeline, LocalSeas()));

@@ -61,11 +61,9 @@ std::vector<float> Columns(std::size_t count) {
   for (const AxisId axis : kAxisColumns)
     columns.insert(columns.end(), line.pulses()[axis].begin(), line.pulses()[axis].end());
   constexpr std::array<double, kAircraftColumns> kMeans = {400, 90, 1, 4, 30, 58, 31, 0.4, 1.9, -0.8, 0.6};
-  for (std::size_t c = 0; c < kAircraftColumns; ++c) {
+  for (std::size_t c = 0; c < kAircraftColumns; ++c)
     for (std::size_t i = 0; i < count; ++i)
-      columns.push_back(
-          static_cast<float>(kMeans[c] * (1 + 0.1 * std::sin(0.001 * static_cast<double>(i * (c + 1))))));
-  }
+      columns.push_back(static_cast<float>(kMeans[c] * (1 + 0.1 * std::sin(0.001 * static_cast<double>(i * (c + 1))))));
   return columns;
 }
 
@@ -84,8 +82,7 @@ void ServeRaw(const ColumnInterpolator& table) {
     std::vector<char> answer(kAnswerBytes * kBatch);
     const std::size_t bytes = request.size() * sizeof(float);
     while (ReadAll(socket, reinterpret_cast<char*>(request.data()), bytes)) {
-      QueryBudgetOnAllCores(table, PulsesIn(request.data(), kBatch), Options(),
-                            AnswersIn(answer.data(), kBatch));
+      QueryBudgetOnAllCores(table, PulsesIn(request.data(), kBatch), Options(), AnswersIn(answer.data(), kBatch));
       if (!WriteAll(socket, answer.data(), answer.size())) return;
     }
   });
@@ -100,9 +97,8 @@ std::size_t AskRaw(const std::string& port, const std::vector<std::vector<float>
   for (std::size_t caller = 0; caller < pulses.size(); ++caller) {
     callers.emplace_back([&, caller] {
       const int socket = ConnectTo(port);
-      for (std::size_t i = caller;
-           std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds) ||
-           pulses[caller] < kBatches / 2 * kBatch;
+      for (std::size_t i = caller; std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds) ||
+                                   pulses[caller] < kBatches / 2 * kBatch;
            i = (i + 2) % kBatches) {
         const std::size_t bytes = requests[i].size() * sizeof(float);
         if (!WriteAll(socket, reinterpret_cast<const char*>(requests[i].data()), bytes) ||
@@ -150,8 +146,7 @@ int Main(const std::vector<std::string>& arguments) {
   const std::size_t size = kBatches * kBatch;
   const std::vector<float> line = Columns(size);
   std::vector<char> expected(kAnswerBytes * size), answers(kAnswerBytes * size);
-  QueryBudgetOnAllCores(interpolator, PulsesIn(line.data(), size), Options(),
-                        AnswersIn(expected.data(), size));
+  QueryBudgetOnAllCores(interpolator, PulsesIn(line.data(), size), Options(), AnswersIn(expected.data(), size));
   const bool raw = arguments[0] == "raw";
   std::vector<std::vector<float>> requests(raw ? kBatches : 0);
   std::vector<std::vector<char>> parts(requests.size(), std::vector<char>(kAnswerBytes * kBatch));
@@ -169,8 +164,7 @@ int Main(const std::vector<std::string>& arguments) {
     for (std::size_t c = 0; c < 2; ++c)
       std::memcpy(answers.data() + (c * size + b * kBatch) * 4, parts[b].data() + c * kBatch * 4, kBatch * 4);
     for (std::size_t c = 0; c < 2; ++c)
-      std::memcpy(answers.data() + 8 * size + c * size + b * kBatch,
-                  parts[b].data() + 8 * kBatch + c * kBatch, kBatch);
+      std::memcpy(answers.data() + 8 * size + c * size + b * kBatch, parts[b].data() + 8 * kBatch + c * kBatch, kBatch);
   }
   if (answers != expected) {
     std::cerr << "budget_service_bench: answers differ from those in process\n";
@@ -184,7 +178,6 @@ int Main(const std::vector<std::string>& arguments) {
 }  // namespace albtpu::bench
 
 int main(int argc, char** argv) {
-  absl::SetMutexDeadlockDetectionMode(
-      absl::OnDeadlockCycle::kIgnore);  // As in albtpu-serve and albtpu-query.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // As in albtpu-serve and albtpu-query.
   return albtpu::bench::Main({argv + 1, argv + argc});
 }

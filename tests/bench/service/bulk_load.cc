@@ -75,20 +75,17 @@ std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
 
 void AskRaw(const Load& load, Record& record) {
   RawConnection connection(load.address);
-  AskInTurn(record, load.line, load.answers, load.batch,
-            [&](const PulseColumns& pulses, const AnswerColumns& answers) {
-              connection.Send(pulses);
-              connection.Receive(pulses.size, answers);
-            });
+  AskInTurn(record, load.line, load.answers, load.batch, [&](const PulseColumns& pulses, const AnswerColumns& answers) {
+    connection.Send(pulses);
+    connection.Receive(pulses.size, answers);
+  });
 }
 
 void AskInCalls(const Load& load, Record& record, const std::string& method,
                 const std::function<grpc::ByteBuffer(const PulseColumns&)>& request,
                 const std::function<void(grpc::ByteBuffer& response, const AnswerColumns&)>& read) {
   std::vector<std::unique_ptr<grpc::GenericStub>> stubs;
-  while (stubs.size() < load.connections) {
-    stubs.push_back(std::make_unique<grpc::GenericStub>(ChannelTo(load.address)));
-  }
+  while (stubs.size() < load.connections) stubs.push_back(std::make_unique<grpc::GenericStub>(ChannelTo(load.address)));
   grpc::CompletionQueue finished;
   std::size_t started = 0;
   const auto start = [&] {
@@ -125,24 +122,22 @@ void AskColumns(const Load& load, Record& record) {
     client::AddPulses(pulses, message);
     return message.Finish();
   };
-  AskInCalls(load, record, "QueryColumns", request,
-             [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
-               const auto read = client::ReadAnswer(response, {}, load.batch, answers);
-               Check(read.ok(), read.status().ToString());
-             });
+  AskInCalls(load, record, "QueryColumns", request, [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
+    const auto read = client::ReadAnswer(response, {}, load.batch, answers);
+    Check(read.ok(), read.status().ToString());
+  });
 }
 
 void AskRows(const Load& load, Record& record) {
-  AskInCalls(load, record, "QueryPulses", RowRequest,
-             [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
-               v1::QueryPulsesResponse rows;
-               const grpc::Status status =
-                   grpc::SerializationTraits<v1::QueryPulsesResponse>::Deserialize(&response, &rows);
-               Check(status.ok(), status.error_message());
-               for (int i = 0; i < rows.uncertainties_size(); ++i) {
-                 ReadRow(rows.uncertainties(i), static_cast<std::size_t>(i), answers);
-               }
-             });
+  AskInCalls(
+      load, record, "QueryPulses", RowRequest,
+      [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
+        v1::QueryPulsesResponse rows;
+        const grpc::Status status = grpc::SerializationTraits<v1::QueryPulsesResponse>::Deserialize(&response, &rows);
+        Check(status.ok(), status.error_message());
+        for (int i = 0; i < rows.uncertainties_size(); ++i)
+          ReadRow(rows.uncertainties(i), static_cast<std::size_t>(i), answers);
+      });
 }
 
 void AskStream(const Load& load, Record& record) {

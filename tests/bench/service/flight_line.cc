@@ -25,10 +25,8 @@ FlightLine::FlightLine(std::size_t pulse_count) {
 
 PulseColumns FlightLine::pulses(std::size_t begin, std::size_t count) const {
   const auto some = [=](const std::vector<float>& column) { return std::span(column).subspan(begin, count); };
-  return {
-      .size = count,
-      .axis = {
-          std::span(&wind_speed_, 1), {}, some(incidence_), some(azimuth_), some(footprint_), some(depth_)}};
+  return {.size = count,
+          .axis = {std::span(&wind_speed_, 1), {}, some(incidence_), some(azimuth_), some(footprint_), some(depth_)}};
 }
 
 AnswerMemory::AnswerMemory(std::size_t pulse_count) : outcomes_(pulse_count), axes_(pulse_count) {

@@ -24,8 +24,7 @@ void Check(bool good, const std::string& what);
 class Record {
  public:
   explicit Record(double seconds)
-      : end_(Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+      : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
   bool going_on() const { return Clock::now() < end_; }
 
@@ -39,8 +38,8 @@ class Record {
   std::size_t calls() const { return latencies_.size(); }
   double Latency(double quantile) {
     if (latencies_.empty()) return 0;
-    const auto nth = latencies_.begin() +
-                     static_cast<std::ptrdiff_t>(quantile * static_cast<double>(latencies_.size() - 1));
+    const auto nth =
+        latencies_.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(latencies_.size() - 1));
     std::nth_element(latencies_.begin(), nth, latencies_.end());
     return *nth;
   }

@@ -14,8 +14,7 @@
 namespace albtpu::bench {
 namespace {
 
-constexpr std::array<AxisId, 4> kColumns = {AxisId::kIncidence, AxisId::kAzimuth, AxisId::kFootprint,
-                                            AxisId::kDepth};
+constexpr std::array<AxisId, 4> kColumns = {AxisId::kIncidence, AxisId::kAzimuth, AxisId::kFootprint, AxisId::kDepth};
 constexpr std::size_t kHeader = sizeof(std::uint32_t) + sizeof(float);
 
 std::size_t RequestBytes(std::size_t count) { return kHeader + kColumns.size() * count * sizeof(float); }
@@ -32,17 +31,14 @@ const float* FloatsAt(const char* bytes) { return reinterpret_cast<const float*>
 PulseColumns ReadRequest(const char* bytes, std::size_t count) {
   PulseColumns pulses{.size = count, .axis = {}};
   pulses.axis[Index(AxisId::kWindSpeed)] = {FloatsAt(bytes + sizeof(std::uint32_t)), 1};
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+  for (std::size_t i = 0; i < kColumns.size(); ++i)
     pulses.axis[Index(kColumns[i])] = {FloatsAt(bytes + kHeader) + i * count, count};
-  }
   return pulses;
 }
 
 AnswerColumns AnswerIn(char* bytes, std::size_t count) {
   AnswerColumns answers;
-  for (std::size_t q = 0; q < kAskedQuantities; ++q) {
-    answers.values[q] = reinterpret_cast<float*>(bytes) + q * count;
-  }
+  for (std::size_t q = 0; q < kAskedQuantities; ++q) answers.values[q] = reinterpret_cast<float*>(bytes) + q * count;
   answers.outcomes = reinterpret_cast<std::uint8_t*>(bytes) + kAskedQuantities * count * sizeof(float);
   answers.outcome_axes = answers.outcomes + count;
   return answers;
@@ -78,9 +74,7 @@ void ServeRaw(const ColumnInterpolator& interpolator) {
 }
 
 RawConnection::RawConnection(const std::string& port)
-    : socket_(ConnectTo(port)),
-      outgoing_(RequestBytes(kMostRawPulses)),
-      incoming_(2 * AnswerBytes(kMostRawPulses)) {}
+    : socket_(ConnectTo(port)), outgoing_(RequestBytes(kMostRawPulses)), incoming_(2 * AnswerBytes(kMostRawPulses)) {}
 
 RawConnection::~RawConnection() { close(socket_); }
 
@@ -109,9 +103,8 @@ void RawConnection::Receive(std::size_t pulse_count, const AnswerColumns& answer
     end_ += static_cast<std::size_t>(received);
   }
   const AnswerColumns here = AnswerIn(incoming_.data() + begin_, pulse_count);
-  for (std::size_t q = 0; q < kAskedQuantities; ++q) {
+  for (std::size_t q = 0; q < kAskedQuantities; ++q)
     std::memcpy(answers.values[q], here.values[q], pulse_count * sizeof(float));
-  }
   std::memcpy(answers.outcomes, here.outcomes, pulse_count);
   std::memcpy(answers.outcome_axes, here.outcome_axes, pulse_count);
   begin_ += bytes;

@@ -56,8 +56,8 @@ void ExpectAnswersOf(const ColumnInterpolator& table, const FlightLine& line,
 }
 
 int Ask(const Options& options, const ColumnInterpolator& table) {
-  const auto peer = std::find_if(kPeers.begin(), kPeers.end(),
-                                 [&](const auto& known) { return known.first == options.peer; });
+  const auto peer =
+      std::find_if(kPeers.begin(), kPeers.end(), [&](const auto& known) { return known.first == options.peer; });
   Check(peer != kPeers.end(), "no peer '" + options.peer + "'");
   const FlightLine line(kBatches * options.batch), bulk_line(kBatches * kStreamBatch);
   std::vector<AnswerMemory> answers(options.callers, AnswerMemory(line.size()));
@@ -67,15 +67,12 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
   Record record(options.seconds), bulk(options.seconds);
   std::vector<std::thread> threads;
   for (AnswerMemory& memory : answers) {
-    threads.emplace_back(
-        peer->second,
-        Load{options.address, line, memory, options.batch, options.in_flight, options.connections},
-        std::ref(record));
+    threads.emplace_back(peer->second,
+                         Load{options.address, line, memory, options.batch, options.in_flight, options.connections},
+                         std::ref(record));
   }
-  for (AnswerMemory& memory : bulk_answers) {
-    threads.emplace_back(AskStream, Load{options.address, bulk_line, memory, kStreamBatch, 1, 1},
-                         std::ref(bulk));
-  }
+  for (AnswerMemory& memory : bulk_answers)
+    threads.emplace_back(AskStream, Load{options.address, bulk_line, memory, kStreamBatch, 1, 1}, std::ref(bulk));
   for (std::thread& thread : threads) thread.join();
   const double elapsed = Seconds(Clock::now() - begin);
   const auto pulses = static_cast<double>(record.pulses());
@@ -103,8 +100,7 @@ int Main(int argc, char** argv) {
   app.add_option("--server-pid", options.server_pid, "The process whose processor time is counted");
   app.add_option("--batch", options.batch, "Pulses in one message");
   app.add_option("--callers", options.callers, "Threads that query");
-  app.add_option("--in-flight", options.in_flight,
-                 "Messages in flight of a caller (raw and stream: see load.h)");
+  app.add_option("--in-flight", options.in_flight, "Messages in flight of a caller (raw and stream: see load.h)");
   app.add_option("--connections", options.connections, "Connections that a caller uses in turn")
       ->check(CLI::PositiveNumber);
   app.add_option("--beside", options.beside, "Further threads that stream and are not counted");

@@ -66,8 +66,8 @@ void AskStreamSingle(const Load& load, Record& record) {
     events.Next(&event, &ok);
     if (event == tag(kRead) && !ok) stream->Finish(&status, tag(kFinished));
     if (event == tag(kRead) && ok) {
-      const auto read = client::ReadStreamedAnswer(response, {}, 1,
-                                                   load.answers.columns(latencies.size() % requests.size()));
+      const auto read =
+          client::ReadStreamedAnswer(response, {}, 1, load.answers.columns(latencies.size() % requests.size()));
       Check(read.ok(), read.status().ToString());
       latencies.push_back(Seconds(Clock::now() - begin[latencies.size() % begin.size()]));
     }

@@ -47,11 +47,10 @@ TEST(ErrorSources, AverageOutByTheirGroup) {
 std::string RowOf(const ErrorSource& source) {
   std::ostringstream row;
   row << "| `" << source.name << "` | " << source.unit << " | " << source.greatest << " | ";
-  if (source.group.has_value()) {
+  if (source.group.has_value())
     row << "a " << kErrorGroupNames[static_cast<std::size_t>(*source.group)];
-  } else {
+  else
     row << "its location";
-  }
   row << " | ";
   if (source.assumption.empty()) {
     row << "never";

@@ -59,8 +59,7 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   using std::sqrt;
   constexpr double kDegree = std::numbers::pi / 180;
   const double incidence = pulse.incidence * kDegree, azimuth = pulse.beam_azimuth * kDegree;
-  const Eigen::Matrix3d attitude = Turn<double>(2, pulse.heading * kDegree) *
-                                   Turn<double>(1, pulse.pitch * kDegree) *
+  const Eigen::Matrix3d attitude = Turn<double>(2, pulse.heading * kDegree) * Turn<double>(1, pulse.pitch * kDegree) *
                                    Turn<double>(0, pulse.roll * kDegree);
   // The direction in the scanner, without errors.
   const Eigen::Vector3d u0(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
@@ -84,8 +83,7 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   const Eigen::Matrix<T, 3, 3> by_angles = Turn<T>(2, T(pulse.heading * kDegree) + errors[kHeading]) *
                                            Turn<T>(1, T(pulse.pitch * kDegree) + errors[kPitch]) *
                                            Turn<T>(0, T(pulse.roll * kDegree) + errors[kRoll]) * spin;
-  const Vector3<T> lever =
-      pulse.lever_arm.cast<T>() + Vector3<T>(errors[kLeverX], errors[kLeverY], errors[kLeverZ]);
+  const Vector3<T> lever = pulse.lever_arm.cast<T>() + Vector3<T>(errors[kLeverX], errors[kLeverY], errors[kLeverZ]);
   Vector3<T> sensor = by_angles * lever + pulse.velocity.cast<T>() * t;
   sensor += Vector3<T>(errors[kNorth], errors[kEast], errors[kDown]);
   const Vector3<T> u = by_angles * (boresight * in_aircraft);

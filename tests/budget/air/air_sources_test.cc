@@ -75,9 +75,8 @@ Jacobian ByDifferences(const AirPulse& pulse, bool given, const Unknowns& sigma)
     const double step = is_angle ? 1e-5 : 1e-3;
     Unknowns there = Unknowns::Zero();
     there[i] = step;
-    columns.col(i) =
-        (ReportedPoint<double>(pulse, given, there) - ReportedPoint<double>(pulse, given, -there)) /
-        (2 * step) * sigma[i];
+    columns.col(i) = (ReportedPoint<double>(pulse, given, there) - ReportedPoint<double>(pulse, given, -there)) /
+                     (2 * step) * sigma[i];
   }
   return columns;
 }
@@ -88,8 +87,7 @@ Jacobian ByAutomaticDifferentiation(const AirPulse& pulse, bool given, const Unk
   for (int i = 0; i < kAirUnknowns; ++i) errors[i] = Scalar(0, kAirUnknowns, i);
   const testing::Vector3<Scalar> point = ReportedPoint<Scalar>(pulse, given, errors);
   Jacobian columns;
-  for (int row = 0; row < 3; ++row)
-    columns.row(row) = point[row].derivatives().cwiseProduct(sigma).transpose();
+  for (int row = 0; row < 3; ++row) columns.row(row) = point[row].derivatives().cwiseProduct(sigma).transpose();
   return columns;
 }
 
@@ -108,8 +106,7 @@ TEST(AirSources, AreTheDerivativesOfTheReportedPoint) {
     const AirPulse pulse = RandomPulse(random);
     for (const bool given : {false, true}) {
       const Jacobian ours = Ours(pulse, given ? SurfaceLocation::kLevel : SurfaceLocation::kPulse, kOracle);
-      Jacobian exact = ByAutomaticDifferentiation(pulse, given, sigma),
-               near = ByDifferences(pulse, given, sigma);
+      Jacobian exact = ByAutomaticDifferentiation(pulse, given, sigma), near = ByDifferences(pulse, given, sigma);
       // A lever arm errs alike on all axes of the aircraft: its three columns are those of the aircraft's axes.
       ASSERT_LT(Difference(ours, exact), 1e-9) << i << " " << given;
       ASSERT_LT(Difference(ours, near), 1e-6) << i << " " << given;
@@ -124,8 +121,7 @@ TEST(AirSources, AgreeWithDrawnErrors) {
   for (int i = 0; i < 20; ++i) {
     const AirPulse pulse = RandomPulse(random);
     const bool given = i % 2 == 1;
-    const Matrix3d covariance =
-        Covariance(pulse, given ? SurfaceLocation::kLevel : SurfaceLocation::kPulse, kOracle);
+    const Matrix3d covariance = Covariance(pulse, given ? SurfaceLocation::kLevel : SurfaceLocation::kPulse, kOracle);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> ellipse(covariance.topLeftCorner<2, 2>());
     const double radius = RadiusFactor95(std::sqrt(ellipse.eigenvalues()[0] / ellipse.eigenvalues()[1])) * 2 *
                           std::sqrt(ellipse.eigenvalues().sum());

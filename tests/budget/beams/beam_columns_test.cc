@@ -18,8 +18,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kRadians = kPi / 180,
-                 kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPi = std::numbers::pi, kRadians = kPi / 180, kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Point {
   double east, north, height, depth, convergence;
@@ -43,15 +42,13 @@ Beam PlainBeam(const Point& p, double index) {
 
 std::vector<Point> RandomPoints(std::size_t count) {
   std::mt19937_64 random(1);
-  const auto draw = [&random](double low, double high) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
+  const auto draw = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   std::vector<Point> points;
   for (std::size_t i = 0; i < count; ++i) {
     const double height = draw(30, 1000), distance = height * std::tan(draw(0, 60) * kRadians);
     const double direction = draw(0, 2 * kPi);
-    points.push_back({distance * std::cos(direction), distance * std::sin(direction), height, draw(-20, 70),
-                      draw(-0.05, 0.05)});
+    points.push_back(
+        {distance * std::cos(direction), distance * std::sin(direction), height, draw(-20, 70), draw(-0.05, 0.05)});
   }
   return points;
 }
@@ -67,12 +64,9 @@ std::vector<Beam> Compute(std::span<const Point> points, double index) {
                             convergence = column_of(&Point::convergence);
   const std::size_t size = points.size();
   std::vector<double> incidence(size), azimuth(size), slant_range(size), water_path(size);
-  ComputeBeams({east, north, height, depth, convergence}, index,
-               {incidence, azimuth, slant_range, water_path});
+  ComputeBeams({east, north, height, depth, convergence}, index, {incidence, azimuth, slant_range, water_path});
   std::vector<Beam> beams;
-  for (std::size_t i = 0; i < size; ++i) {
-    beams.push_back({incidence[i], azimuth[i], slant_range[i], water_path[i]});
-  }
+  for (std::size_t i = 0; i < size; ++i) beams.push_back({incidence[i], azimuth[i], slant_range[i], water_path[i]});
   return beams;
 }
 

@@ -23,9 +23,7 @@ using Column = std::vector<double>;
 // One point in ten has something extreme.
 void DrawPoints(std::span<Column> columns, std::size_t count) {
   std::mt19937_64 random(7);
-  const auto draw = [&random](double low, double high) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
+  const auto draw = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < count; ++i) {
     double height = draw(30, 1000), depth = draw(-20, 70), direction = draw(0, 2 * std::numbers::pi);
@@ -62,8 +60,7 @@ void DrawPoints(std::span<Column> columns, std::size_t count) {
       default:
         break;
     }
-    const double point[] = {distance * std::sin(direction), distance * std::cos(direction), height, depth,
-                            convergence};
+    const double point[] = {distance * std::sin(direction), distance * std::cos(direction), height, depth, convergence};
     for (std::size_t k = 0; k < 5; ++k) columns[k].push_back(point[k]);
   }
 }
@@ -91,6 +88,5 @@ int main(int argc, char** argv) {
     std::cerr << "usage: albtpu_random_beams COUNT INDEX FILE\n";
     return 2;
   }
-  return albtpu::WriteBeams(std::strtoull(argv[1], nullptr, 10), std::strtod(argv[2], nullptr), argv[3]) ? 0
-                                                                                                         : 1;
+  return albtpu::WriteBeams(std::strtoull(argv[1], nullptr, 10), std::strtod(argv[2], nullptr), argv[3]) ? 0 : 1;
 }

@@ -49,8 +49,7 @@ double SimulatedSea::Elevation(const Eigen::Vector2d& x, double time) const {
 
 Eigen::Vector2d SimulatedSea::Slope(const Eigen::Vector2d& x, double time) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Wave& w : waves_)
-    sum -= w.k * (w.amplitude * std::sin(w.k.dot(x) - w.frequency * time + w.phase));
+  for (const Wave& w : waves_) sum -= w.k * (w.amplitude * std::sin(w.k.dot(x) - w.frequency * time + w.phase));
   return sum;
 }
 
@@ -62,8 +61,7 @@ SimulatedFlight::SimulatedFlight(const FlightPlan& plan) : plan_(plan) {
   for (auto& axis : motion_) {
     for (int i = 0; i < 8; ++i) {
       const double period = 4 * std::pow(10.0, (i + uniform(random)) / 8);
-      axis.push_back(
-          {plan.wander * 1.0 * std::pow(period / 20, 1.5), kTurn / period, kTurn * uniform(random)});
+      axis.push_back({plan.wander * 1.0 * std::pow(period / 20, 1.5), kTurn / period, kTurn * uniform(random)});
     }
   }
   for (auto& axis : attitude_)
@@ -73,8 +71,8 @@ SimulatedFlight::SimulatedFlight(const FlightPlan& plan) : plan_(plan) {
 
 Eigen::Vector3d SimulatedFlight::Position(double time) const {
   const double since = time - plan_.start;
-  Eigen::Vector3d position(plan_.speed * since * std::sin(plan_.course),
-                           plan_.speed * since * std::cos(plan_.course), plan_.water_height + plan_.height);
+  Eigen::Vector3d position(plan_.speed * since * std::sin(plan_.course), plan_.speed * since * std::cos(plan_.course),
+                           plan_.water_height + plan_.height);
   for (int axis = 0; axis < 3; ++axis)
     for (const Swing& swing : motion_[static_cast<std::size_t>(axis)])
       position[axis] += swing.amplitude * std::sin(swing.frequency * since + swing.phase);
@@ -99,8 +97,7 @@ Eigen::Vector3d SimulatedFlight::Beam(double time) const {
     }
     case Scanner::kEllipse: {
       const double turn = kTurn * 30 * time;
-      body = {std::tan(RadiansOfDegrees(14)) * std::cos(turn),
-              std::tan(RadiansOfDegrees(20)) * std::sin(turn), 1};
+      body = {std::tan(RadiansOfDegrees(14)) * std::cos(turn), std::tan(RadiansOfDegrees(20)) * std::sin(turn), 1};
       break;
     }
     case Scanner::kRaster: {
@@ -111,10 +108,9 @@ Eigen::Vector3d SimulatedFlight::Beam(double time) const {
     }
   }
   const Eigen::Vector3d angles = Attitude(time);
-  const Eigen::Vector3d north_east_down =
-      Eigen::AngleAxisd(plan_.course + angles.z(), Eigen::Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-      Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) * body.normalized();
+  const Eigen::Vector3d north_east_down = Eigen::AngleAxisd(plan_.course + angles.z(), Eigen::Vector3d::UnitZ()) *
+                                          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                                          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) * body.normalized();
   return {north_east_down.y(), north_east_down.x(), -north_east_down.z()};
 }
 
@@ -136,8 +132,7 @@ std::vector<SimulatedRay> SimulatedFlight::Rays() const {
     Eigen::Vector3d surface = mean_point;
     for (int step = 0; step < 3; ++step)
       surface = at_height(plan_.water_height + sea.Elevation(surface.head<2>(), time));
-    const Eigen::Vector3d in_water =
-        Refract(beam, NormalOfSlope(sea.Slope(surface.head<2>(), time)), kSeaWaterIndex);
+    const Eigen::Vector3d in_water = Refract(beam, NormalOfSlope(sea.Slope(surface.head<2>(), time)), kSeaWaterIndex);
     // A sandy bottom of 4 to 14 m, and a return of the water above it.
     const double depth = 9 + 5 * std::sin(surface.x() / 70 + surface.y() / 110);
     const double upper_depth = 0.6 + (depth - 2.6) * uniform(random);

@@ -23,9 +23,8 @@ Residuals Draw(const RayNoise& noise, std::size_t count) {
   Residuals drawn;
   for (std::size_t i = 0; i < count; ++i) {
     drawn.separations.push_back(1 + 9 * uniform(random));
-    const double sigma = uniform(random) < noise.outlier_share
-                             ? noise.outlier_sigma
-                             : std::sqrt(noise.Variance(drawn.separations.back()));
+    const double sigma = uniform(random) < noise.outlier_share ? noise.outlier_sigma
+                                                               : std::sqrt(noise.Variance(drawn.separations.back()));
     const double x = sigma * normal(random), y = sigma * normal(random);
     drawn.squares.push_back(x * x + y * y);
   }
@@ -45,8 +44,7 @@ TEST(RayNoise, TellsSlopesFromErrorsOfPointsAndFromOutliers) {
 }
 
 TEST(RayNoise, FindsNoSlopesInFlatWater) {
-  const Residuals drawn =
-      Draw({.slopes = 0, .points = 0.05, .outlier_share = 0, .outlier_sigma = 0.3}, 20000);
+  const Residuals drawn = Draw({.slopes = 0, .points = 0.05, .outlier_share = 0, .outlier_sigma = 0.3}, 20000);
   const RayNoise found =
       FitRayNoise(drawn.squares, drawn.separations, RobustRayNoise(drawn.squares, drawn.separations), 200);
   EXPECT_LT(found.slopes, 0.002);  // Less than the errors of points at 10 m, 0.005, by far.
@@ -66,8 +64,7 @@ TEST(RayNoise, WeighsByTheLikelihood) {
     const RayWeight at = WeightOf(noise, kSeparation, x * x);
     const auto f = [&](double dx, double dy) { return log_likelihood(x + dx, dy); };
     const double gradient = (f(kStep, 0) - f(-kStep, 0)) / (2 * kStep);
-    const double laplacian =
-        (f(kStep, 0) + f(-kStep, 0) + f(0, kStep) + f(0, -kStep) - 4 * f(0, 0)) / (kStep * kStep);
+    const double laplacian = (f(kStep, 0) + f(-kStep, 0) + f(0, kStep) + f(0, -kStep) - 4 * f(0, 0)) / (kStep * kStep);
     EXPECT_NEAR(-gradient / x, at.weight, 1e-4 * at.weight) << x;
     // Rounding of 1e-15 over the square of the step.
     EXPECT_NEAR(-laplacian / 2, at.response, 1e-3 * (1 / good)) << x;

@@ -85,8 +85,7 @@ TEST(RayTrack, OverFlatWaterIsWithinThreeHundredthsOfADegree) {
 }
 
 TEST(RayTrack, OverWavesIsWithinAQuarterOfADegree) {
-  const Errors errors =
-      FlyMany(30, {.duration = 20, .pairs_per_second = 500, .significant_wave_height = 0.3});
+  const Errors errors = FlyMany(30, {.duration = 20, .pairs_per_second = 500, .significant_wave_height = 0.3});
   EXPECT_LT(errors.Rms(), 0.25);
   EXPECT_EQ(errors.uncertain, 0);
 }
@@ -104,9 +103,7 @@ TEST(RayTrack, GetsBetterWithMorePairs) {
           FlyMany(18, {.duration = 20, .pairs_per_second = rate, .significant_wave_height = 0.3 * sea});
       const double silent = static_cast<double>(errors.uncertain) / (errors.uncertain + errors.windows);
       std::printf("   %.3f %.3f  %.3f %5.1f %%", errors.Rms(), errors.worst, errors.Sigma(), 100 * silent);
-      if (rate > 10) {
-        EXPECT_LT(errors.Rms(), before[sea].Rms() / 1.5) << rate;
-      }
+      if (rate > 10) EXPECT_LT(errors.Rms(), before[sea].Rms() / 1.5) << rate;
       before[sea] = errors;
     }
     std::printf("\n");
@@ -122,8 +119,7 @@ TEST(RayTrack, ItsSigmaCoversTheTrueErrorOverFlatWater) {
 }
 
 TEST(RayTrack, ItsSigmaCoversTheTrueErrorOverWaves) {
-  const Errors errors =
-      FlyMany(75, {.duration = 30, .pairs_per_second = 150, .significant_wave_height = 0.3});
+  const Errors errors = FlyMany(75, {.duration = 30, .pairs_per_second = 150, .significant_wave_height = 0.3});
   std::printf("waves: %d windows, %.1f %% within 1.96 sigma\n", errors.windows, 100 * errors.Coverage());
   EXPECT_GE(errors.windows, 1000);
   EXPECT_NEAR(errors.Coverage(), 0.95, 0.03);
@@ -220,8 +216,7 @@ TEST(RayTrack, SaysWhereItIsUncertain) {
 }
 
 TEST(RayTrack, DoesNotBelieveInWhatIsNoAircraft) {
-  for (const FlightPlan& plan :
-       {FlightPlan{.height = 12, .duration = 5}, FlightPlan{.speed = 260, .duration = 5}}) {
+  for (const FlightPlan& plan : {FlightPlan{.height = 12, .duration = 5}, FlightPlan{.speed = 260, .duration = 5}}) {
     const SimulatedFlight flight(plan);
     const RayTrack track = FitTrack(RaysOf(flight.Rays()));
     const std::vector<double> times{1002.5};
@@ -261,8 +256,7 @@ TEST(IncidenceSigma, AgreesWithDifferencesOfTheIncidence) {
     const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
     gradient[axis] = (IncidenceOf(sensor + step, water) - IncidenceOf(sensor - step, water)) / (2 * kStep);
   }
-  EXPECT_NEAR(IncidenceSigma(covariance, sensor, water), std::sqrt(gradient.dot(covariance * gradient)),
-              1e-9);
+  EXPECT_NEAR(IncidenceSigma(covariance, sensor, water), std::sqrt(gradient.dot(covariance * gradient)), 1e-9);
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ double DistanceByBisection(long double distance, long double height, long double
 }
 
 // The same by halving the tangent of the incidence, where both sines are too near to 1 to be compared.
-double DistanceByBisectionOfTangents(long double distance, long double height, long double depth,
-                                     long double index) {
+double DistanceByBisectionOfTangents(long double distance, long double height, long double depth, long double index) {
   long double low = 0, high = distance / height;
   for (;;) {
     const long double t = (low + high) / 2;

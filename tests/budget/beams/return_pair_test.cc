@@ -18,10 +18,9 @@ TEST(RayOfPair, RecoversTheBeamThroughStillWater) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int i = 0; i < 1000; ++i) {
-    const double incidence = 0.8 * uniform(random), azimuth = 6.28 * uniform(random),
-                 level = 40 * uniform(random);
-    const Eigen::Vector3d beam(std::sin(incidence) * std::cos(azimuth),
-                               std::sin(incidence) * std::sin(azimuth), -std::cos(incidence));
+    const double incidence = 0.8 * uniform(random), azimuth = 6.28 * uniform(random), level = 40 * uniform(random);
+    const Eigen::Vector3d beam(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
+                               -std::cos(incidence));
     const Eigen::Vector3d in_water = Refract(beam, Eigen::Vector3d::UnitZ(), kN);
     const Eigen::Vector3d water(300 * uniform(random), -200 * uniform(random), level);
     const double near = 0.1 + uniform(random), separation = 1.01 + 10 * uniform(random);

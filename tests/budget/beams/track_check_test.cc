@@ -51,8 +51,7 @@ class TrackCheckOf : public ::testing::TestWithParam<std::tuple<Scanner, double>
 };
 
 INSTANTIATE_TEST_SUITE_P(Flights, TrackCheckOf,
-                         ::testing::Combine(::testing::Values(Scanner::kPalmer, Scanner::kEllipse,
-                                                              Scanner::kRaster),
+                         ::testing::Combine(::testing::Values(Scanner::kPalmer, Scanner::kEllipse, Scanner::kRaster),
                                             ::testing::Values(0.0, 0.3)));
 
 TEST_P(TrackCheckOf, ARightTrackAgrees) {
@@ -90,8 +89,7 @@ TEST_P(TrackCheckOf, AMissingGeoidSeparationIsNamed) {
 }
 
 TEST_P(TrackCheckOf, UtcAndAMissingGeoidSeparationAreBothNamed) {
-  const TrackCheck check =
-      Check([&](double t) -> Vector3d { return flight_.Position(t + 18) + Vector3d(0, 0, 25); });
+  const TrackCheck check = Check([&](double t) -> Vector3d { return flight_.Position(t + 18) + Vector3d(0, 0, 25); });
   EXPECT_EQ(check.verdict, TrackVerdict::kTimeOffset) << Describe(check);
   EXPECT_NEAR(check.up_with_time, -25, 2);
 }
@@ -124,21 +122,16 @@ TEST_P(TrackCheckOf, AVerticalLeverArmIsNamedWhereItMatters) {
   const TrackCheck check = Moved(0, 0, 5);
   EXPECT_NEAR(check.up.value, -5, 2);
   const double change = 5 / check.range * std::sin(check.median_incidence);
-  if (change > RadiansOfDegrees(0.31)) {
-    EXPECT_EQ(check.verdict, TrackVerdict::kHeightOffset) << Describe(check);
-  }
-  if (change < RadiansOfDegrees(0.25)) {
-    EXPECT_EQ(check.verdict, TrackVerdict::kAgrees) << Describe(check);
-  }
+  if (change > RadiansOfDegrees(0.31)) EXPECT_EQ(check.verdict, TrackVerdict::kHeightOffset) << Describe(check);
+  if (change < RadiansOfDegrees(0.25)) EXPECT_EQ(check.verdict, TrackVerdict::kAgrees) << Describe(check);
 }
 
 TEST_P(TrackCheckOf, AnotherFlightIsNamed) {
   const SimulatedFlight crossing({.height = 250, .course = 1.2, .seed = 99});
   const SimulatedFlight parallel({.height = 250, .seed = 98});
-  for (const auto& check :
-       {Check([&](double t) { return crossing.Position(t); }),
-        Check([&](double t) -> Vector3d { return parallel.Position(t) + Vector3d(300, 0, 0); }),
-        Check([&](double t) -> Vector3d { return flight_.Position(t) + Vector3d(3e4, -2e4, 0); })})
+  for (const auto& check : {Check([&](double t) { return crossing.Position(t); }),
+                            Check([&](double t) -> Vector3d { return parallel.Position(t) + Vector3d(300, 0, 0); }),
+                            Check([&](double t) -> Vector3d { return flight_.Position(t) + Vector3d(3e4, -2e4, 0); })})
     EXPECT_EQ(check.verdict, TrackVerdict::kUnrelated) << Describe(check);
 }
 
@@ -172,8 +165,7 @@ TEST(TrackCheck, NeverRefusesARightTrack) {
                                   .significant_wave_height = (i / 3) % 2 ? 0.3 : 0,
                                   .outliers = 0.075 * (i % 5),
                                   .seed = static_cast<std::uint64_t>(i + 1)});
-    const TrackCheck check =
-        CheckTrack(RaysOf(flight.Rays()), Columns([&](double t) { return flight.Position(t); }));
+    const TrackCheck check = CheckTrack(RaysOf(flight.Rays()), Columns([&](double t) { return flight.Position(t); }));
     EXPECT_FALSE(Disagrees(check.verdict)) << i << ": " << Describe(check);
     told += check.verdict == TrackVerdict::kAgrees;
   }
@@ -188,8 +180,7 @@ TEST(TrackCheck, SaysWhenItCannotTell) {
   };
   EXPECT_EQ(CheckTrack(rays, unknown).verdict, TrackVerdict::kTooFewRays);
   rays.resize(20);
-  EXPECT_EQ(CheckTrack(rays, Columns([&](double t) { return flight.Position(t); })).verdict,
-            TrackVerdict::kTooFewRays);
+  EXPECT_EQ(CheckTrack(rays, Columns([&](double t) { return flight.Position(t); })).verdict, TrackVerdict::kTooFewRays);
   EXPECT_EQ(CheckTrack({}, unknown).verdict, TrackVerdict::kTooFewRays);
 }
 

@@ -42,8 +42,7 @@ TEST(TrackSpline, ReproducesACubic) {
     const double a = times.TimeOf(at.first), b = times.TimeOf(at.first + 1);
     const std::array<double, 4> states{cubic(a), rate(a), cubic(b), rate(b)};
     double position = 0, velocity = 0;
-    for (std::size_t j = 0; j < 4; ++j)
-      position += at.position[j] * states[j], velocity += at.rate[j] * states[j];
+    for (std::size_t j = 0; j < 4; ++j) position += at.position[j] * states[j], velocity += at.rate[j] * states[j];
     EXPECT_NEAR(position, cubic(t), 1e-11);
     EXPECT_NEAR(velocity, rate(t), 1e-11);
   }
@@ -90,8 +89,7 @@ TEST(TrackSpline, MeasuresTheRoughnessOfItsOwnPrior) {
   std::normal_distribution<double> normal;
   std::vector<KnotState> states{KnotState::Zero()};
   // The Cholesky factor of [h^3/3 h^2/2; h^2/2 h].
-  const double a = std::sqrt(kStep * kStep * kStep / 3), b = kStep * kStep / 2 / a,
-               c = std::sqrt(kStep - b * b);
+  const double a = std::sqrt(kStep * kStep * kStep / 3), b = kStep * kStep / 2 / a, c = std::sqrt(kStep - b * b);
   for (std::size_t k = 1; k < kKnots; ++k) {
     KnotState next = states.back();
     next.head<3>() += kStep * next.tail<3>();
@@ -102,9 +100,8 @@ TEST(TrackSpline, MeasuresTheRoughnessOfItsOwnPrior) {
     }
     states.push_back(next);
   }
-  const KnotSolution certain{{},
-                             std::vector<KnotMatrix>(kKnots, KnotMatrix::Zero()),
-                             std::vector<KnotMatrix>(kKnots - 1, KnotMatrix::Zero())};
+  const KnotSolution certain{
+      {}, std::vector<KnotMatrix>(kKnots, KnotMatrix::Zero()), std::vector<KnotMatrix>(kKnots - 1, KnotMatrix::Zero())};
   const double freedom = 6.0 * (kKnots - 1);
   // Chi-squared: its relative standard error is sqrt(2 / freedom) = 0.4 %; positions of 1e6 m cost 1e-9 of each.
   EXPECT_NEAR(MotionRoughness(kStep, states, certain) / (freedom * kDensity), 1, 4 * std::sqrt(2 / freedom));

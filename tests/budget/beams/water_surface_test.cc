@@ -39,11 +39,9 @@ std::optional<double> MedianAt(const Returns& returns, double x, double y, doubl
     return number >= middle - half && number < middle + half;
   };
   std::vector<float> heights;
-  for (const Return& r : returns) {
-    if (within(r.x, x0, 10) && within(r.y, y0, 10) && within(r.time, time0, 60)) {
+  for (const Return& r : returns)
+    if (within(r.x, x0, 10) && within(r.y, y0, 10) && within(r.time, time0, 60))
       heights.push_back(static_cast<float>(r.height));
-    }
-  }
   if (heights.size() < 3) return std::nullopt;
   std::sort(heights.begin(), heights.end());
   const std::size_t middle = heights.size() / 2;
@@ -55,9 +53,7 @@ std::optional<double> MedianAt(const Returns& returns, double x, double y, doubl
 // rises by 1 m in an hour.
 Returns Waves(std::size_t count, double side, double duration, double outliers = 0) {
   std::mt19937_64 random(1);
-  const auto draw = [&random](double low, double high) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
+  const auto draw = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   Returns returns;
   for (std::size_t i = 0; i < count; ++i) {
     const double x = draw(-side / 2, side / 2), y = draw(-side / 2, side / 2), time = 3e8 + draw(0, duration);
@@ -72,9 +68,8 @@ Returns Waves(std::size_t count, double side, double duration, double outliers =
 TEST(LocalWaterSurface, IsTheMedianOfAllReturnsWhereThereAreFew) {
   const Returns returns = Waves(2000, 200, 300);  // On average, a return in 4 cells and slots.
   std::map<std::tuple<double, double, double>, int> in_cell;
-  for (const Return& r : returns) {
+  for (const Return& r : returns)
     ASSERT_LE(++in_cell[std::tuple(std::floor(r.x / 5), std::floor(r.y / 5), std::floor(r.time / 60))], 8);
-  }
   const LocalWaterSurface surface = SurfaceOf(returns);
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> place(-130, 130), time(-100, 400);
@@ -129,8 +124,7 @@ TEST(LocalWaterSurface, IgnoresOutliers) {
   for (double x = -80; x <= 80; x += 16) {
     // A tenth of outliers, most of them above, moves the median from the 50th percentile to at most the 56th, 0.15
     // standard deviations of 0.12 m; and the samples differ.
-    EXPECT_NEAR(*surface.HeightAt(x, x, 3e8), *clean.HeightAt(x, x, 3e8),
-                0.15 * 0.12 + 4 * std::sqrt(2) * 0.0133);
+    EXPECT_NEAR(*surface.HeightAt(x, x, 3e8), *clean.HeightAt(x, x, 3e8), 0.15 * 0.12 + 4 * std::sqrt(2) * 0.0133);
   }
 }
 
@@ -167,11 +161,8 @@ TEST(LocalWaterSurface, IsAbsentWhereNoReturnsAre) {
 TEST(LocalWaterSurface, IgnoresReturnsWithoutANumber) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   SurfaceReturns returns;
-  for (const double bad : {nan, infinity, -infinity, 1e300}) {
-    for (int i = 0; i < 4; ++i) {
-      returns.Add(i == 0 ? bad : 0, i == 1 ? bad : 0, i == 2 ? bad : 0, i == 3 ? bad : 0);
-    }
-  }
+  for (const double bad : {nan, infinity, -infinity, 1e300})
+    for (int i = 0; i < 4; ++i) returns.Add(i == 0 ? bad : 0, i == 1 ? bad : 0, i == 2 ? bad : 0, i == 3 ? bad : 0);
   EXPECT_EQ(returns.bytes(), 0);
   const LocalWaterSurface surface = returns.Finish();
   for (const double bad : {nan, infinity, 1e300}) EXPECT_EQ(surface.HeightAt(0, bad, 0), std::nullopt);
@@ -190,11 +181,9 @@ TEST(LocalWaterSurface, DependsNeitherOnTheOrderNorOnThePartsOfTheReturns) {
   SurfaceReturns merged;
   for (SurfaceReturns& part : parts) merged.Merge(std::move(part));
   const LocalWaterSurface surface = merged.Finish();
-  for (double x = -80; x <= 80; x += 2.5) {
-    for (double time = 0; time < 120; time += 25) {
+  for (double x = -80; x <= 80; x += 2.5)
+    for (double time = 0; time < 120; time += 25)
       EXPECT_EQ(surface.HeightAt(x, -x / 2, 3e8 + time), whole.HeightAt(x, -x / 2, 3e8 + time));
-    }
-  }
 }
 
 TEST(SurfaceReturns, TakeMemoryForTheAreaNotForTheirNumber) {

@@ -34,8 +34,7 @@ inline BudgetPulseMemory RandomBudgetPulses(std::size_t count, unsigned seed = 1
   pulses.size = count;
   const auto draw = [&](std::vector<float>& column, float least, float most) {
     for (std::size_t i = 0; i < count; ++i)
-      column.push_back(least +
-                       (most - least) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24));
+      column.push_back(least + (most - least) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24));
   };
   constexpr std::array<std::array<float, 2>, kAxisCount> kAxisRanges = {
       {{3, 10}, {1000, 100000}, {0, 25}, {-180, 180}, {0.25f, 2}, {0, 20}}};
@@ -44,11 +43,10 @@ inline BudgetPulseMemory RandomBudgetPulses(std::size_t count, unsigned seed = 1
   draw(pulses[kAltitude], 100, 800);
   for (const BudgetInput angle : {kBeamAzimuth, kHeading}) draw(pulses[angle], -180, 360);
   for (const BudgetInput angle : {kRoll, kPitch}) draw(pulses[angle], -20, 20);
-  for (const BudgetInput velocity : {kVelocityNorth, kVelocityEast, kVelocityDown})
-    draw(pulses[velocity], -80, 80);
+  for (const BudgetInput velocity : {kVelocityNorth, kVelocityEast, kVelocityDown}) draw(pulses[velocity], -80, 80);
   for (const BudgetInput rate : {kRollRate, kPitchRate, kYawRate}) draw(pulses[rate], -6, 6);
-  for (const BudgetInput sigma : {kPositionSigmaNorth, kPositionSigmaEast, kPositionSigmaDown, kRollSigma,
-                                  kPitchSigma, kHeadingSigma, kWaveHeight})
+  for (const BudgetInput sigma : {kPositionSigmaNorth, kPositionSigmaEast, kPositionSigmaDown, kRollSigma, kPitchSigma,
+                                  kHeadingSigma, kWaveHeight})
     draw(pulses[sigma], 0.001f, 0.1f);
   return pulses;
 }
@@ -71,8 +69,7 @@ inline BudgetOptions UsualOptions() {
 }
 
 struct BudgetMemory {
-  explicit BudgetMemory(std::size_t size)
-      : outcomes(size, 255), outcome_axes(size, 255), best_s44_orders(size, 255) {
+  explicit BudgetMemory(std::size_t size) : outcomes(size, 255), outcome_axes(size, 255), best_s44_orders(size, 255) {
     numbers.fill(std::vector<float>(size, -1));
   }
 

@@ -27,8 +27,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 class BudgetQueries : public ::testing::Test {
  protected:
-  BudgetMemory Ask(const BudgetPulseMemory& pulses,
-                   const BudgetOptions& options = testing::UsualOptions()) const {
+  BudgetMemory Ask(const BudgetPulseMemory& pulses, const BudgetOptions& options = testing::UsualOptions()) const {
     const BudgetPulses columns = pulses.columns();
     EXPECT_TRUE(CheckQuery(kSeaSurface, columns, options).ok()) << CheckQuery(kSeaSurface, columns, options);
     BudgetMemory answers(columns.pulses.size);
@@ -39,9 +38,7 @@ class BudgetQueries : public ::testing::Test {
   const ColumnInterpolator interpolator_{testing::SyntheticTable()};
 };
 
-std::vector<int> Outcomes(const BudgetMemory& answers) {
-  return {answers.outcomes.begin(), answers.outcomes.end()};
-}
+std::vector<int> Outcomes(const BudgetMemory& answers) { return {answers.outcomes.begin(), answers.outcomes.end()}; }
 
 TEST_F(BudgetQueries, AddTheShareOfTheTableToThoseOfTheAircraft) {
   const BudgetPulseMemory pulses = testing::RandomBudgetPulses(1000);
@@ -130,8 +127,7 @@ TEST_F(BudgetQueries, KeepTheOutcomeOfTheTableWhereItHasNoAnswer) {
   EXPECT_EQ(Outcomes(answers), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(answers.outcome_axes[1], static_cast<int>(Index(AxisId::kDepth)) + 1);
   EXPECT_EQ(answers.outcome_axes[2], static_cast<int>(Index(AxisId::kDepth)) + 1);
-  for (const std::vector<float>& column : answers.numbers)
-    EXPECT_TRUE(std::isnan(column[1]) && std::isnan(column[2]));
+  for (const std::vector<float>& column : answers.numbers) EXPECT_TRUE(std::isnan(column[1]) && std::isnan(column[2]));
 }
 
 TEST_F(BudgetQueries, CompareWithS44WithoutABiasThatTheTableLacks) {
@@ -163,9 +159,8 @@ TEST_F(BudgetQueries, AreFiniteAtTheGreatestNumbers) {
   options.lever_arm = {1e6, -1e6, 1e6};
   options.datum = 1e6;
   const BudgetMemory answers = Ask(pulses, options);
-  for (const std::vector<float>& column : answers.numbers) {
+  for (const std::vector<float>& column : answers.numbers)
     for (const float number : column) EXPECT_TRUE(std::isfinite(number));
-  }
 }
 
 TEST_F(BudgetQueries, AreRefusedWithOptionsOutOfRange) {
@@ -179,8 +174,7 @@ TEST_F(BudgetQueries, AreRefusedWithOptionsOutOfRange) {
   EXPECT_THAT(message([](auto& o) { o.errors.scan = NAN; }), HasSubstr("errors.scan is nan"));
   EXPECT_THAT(message([](auto& o) { o.errors.index = INFINITY; }), HasSubstr("errors.index is inf"));
   EXPECT_THAT(message([](auto& o) { o.lever_arm[1] = NAN; }), HasSubstr("lever_arm.right is nan"));
-  EXPECT_THAT(message([](auto& o) { o.index = 0.99; }),
-              HasSubstr("refractive_index is 0.99: expected 1 to 2"));
+  EXPECT_THAT(message([](auto& o) { o.index = 0.99; }), HasSubstr("refractive_index is 0.99: expected 1 to 2"));
   EXPECT_THAT(message([](auto& o) { o.index = NAN; }), HasSubstr("refractive_index is nan"));
   EXPECT_THAT(message([](auto& o) { o.datum = -0.1; }), HasSubstr("datum is -0.1"));
   EXPECT_EQ(message([](auto& o) { o.index = 2; }), "");

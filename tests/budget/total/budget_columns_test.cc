@@ -88,8 +88,7 @@ AirPulse PulseAt(const Pulses& pulses, std::size_t i, const BudgetOptions& optio
           .roll = at(BudgetInput::kRoll),
           .pitch = at(BudgetInput::kPitch),
           .heading = at(BudgetInput::kHeading),
-          .velocity = {at(BudgetInput::kVelocityNorth), at(BudgetInput::kVelocityEast),
-                       at(BudgetInput::kVelocityDown)},
+          .velocity = {at(BudgetInput::kVelocityNorth), at(BudgetInput::kVelocityEast), at(BudgetInput::kVelocityDown)},
           .rates = {at(BudgetInput::kRollRate), at(BudgetInput::kPitchRate), at(BudgetInput::kYawRate)},
           .lever_arm = Vector3d(options.lever_arm.data()),
           .index = options.index};
@@ -109,8 +108,7 @@ Matrix3d SeaShare(const Pulses& pulses, std::size_t i, const BudgetOptions& opti
       Eigen::Matrix2d::Identity() + (1 / (1 - sine * sine) - 1) * in_sea * in_sea.transpose();
   Eigen::Vector2d variances(along * along, cross * cross);
   variances *= std::pow(at(BudgetInput::kSeaThu) / 2, 2) / variances.sum();
-  const Eigen::Vector2d slopes =
-      response.cwiseAbs2().partialPivLu().solve(variances).cwiseMax(Eigen::Vector2d::Zero());
+  const Eigen::Vector2d slopes = response.cwiseAbs2().partialPivLu().solve(variances).cwiseMax(Eigen::Vector2d::Zero());
   Eigen::Matrix2d on_axes = response * slopes.asDiagonal() * response.transpose();
   on_axes.diagonal() = variances;
   const Eigen::Matrix2d horizontal = axes * on_axes * axes.transpose();
@@ -136,8 +134,8 @@ struct Answers {
                           .tvu_sea = numbers[5],
                           .best_orders = orders};
     std::size_t next = 6;
-    for (CovarianceColumns* columns : {&outputs.air, &outputs.sea, &outputs.total, &outputs.groups[0],
-                                       &outputs.groups[1], &outputs.groups[2]})
+    for (CovarianceColumns* columns :
+         {&outputs.air, &outputs.sea, &outputs.total, &outputs.groups[0], &outputs.groups[1], &outputs.groups[2]})
       for (std::span<float>& column : *columns) column = numbers[next++];
     return outputs;
   }
@@ -155,17 +153,14 @@ struct Answers {
 void ExpectSame(const Matrix3d& ours, const Matrix3d& twin, const char* what) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      ASSERT_NEAR(ours(row, column), twin(row, column),
-                  1e-5 * std::sqrt(twin(row, row) * twin(column, column)) + 1e-12)
+      ASSERT_NEAR(ours(row, column), twin(row, column), 1e-5 * std::sqrt(twin(row, row) * twin(column, column)) + 1e-12)
           << what << " " << row << column;
 }
 
 TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
   const Pulses pulses = RandomPulses(1003, 1);
-  for (const SurfaceLocation located :
-       {SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel}) {
-    const BudgetOptions options = {
-        .errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5}, .datum = 0.08};
+  for (const SurfaceLocation located : {SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel}) {
+    const BudgetOptions options = {.errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5}, .datum = 0.08};
     Answers answers(1003);
     ComputeBudget(pulses.inputs(), options, answers.outputs());
     for (std::size_t i = 0; i < 1003; ++i) {
@@ -179,20 +174,16 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
       ExpectSame(answers.Covariance(0, i), air, "air");
       ExpectSame(answers.Covariance(1, i), sea, "sea");
       ExpectSame(answers.Covariance(2, i), total, "total");
-      for (std::size_t g = 0; g < kErrorGroups; ++g)
-        ExpectSame(answers.Covariance(3 + g, i), groups[g], "group");
+      for (std::size_t g = 0; g < kErrorGroups; ++g) ExpectSame(answers.Covariance(3 + g, i), groups[g], "group");
       // The groups add up to the total.
-      ExpectSame(answers.Covariance(3, i) + answers.Covariance(4, i) + answers.Covariance(5, i), total,
-                 "groups");
-      ASSERT_NEAR(answers.numbers[0][i], 2 * std::sqrt(total(0, 0) + total(1, 1)),
-                  1e-5 * answers.numbers[0][i]);
+      ExpectSame(answers.Covariance(3, i) + answers.Covariance(4, i) + answers.Covariance(5, i), total, "groups");
+      ASSERT_NEAR(answers.numbers[0][i], 2 * std::sqrt(total(0, 0) + total(1, 1)), 1e-5 * answers.numbers[0][i]);
       ASSERT_NEAR(answers.numbers[1][i], 2 * std::sqrt(total(2, 2)), 1e-5 * answers.numbers[1][i]);
       const HorizontalEllipse ellipse = EllipseOf(total(0, 0), total(1, 1), total(0, 1));
       const double thu95 = RadiusFactor95(ellipse.semi_minor / ellipse.semi_major) * answers.numbers[0][i];
-      ASSERT_EQ(
-          answers.orders[i],
-          BestOrderMet(thu95, kFactor95 * answers.numbers[1][i], pulses.at(BudgetInput::kBiasAlongBeam, i),
-                       pulses.at(BudgetInput::kBiasVertical, i), pulses.at(BudgetInput::kDepth, i)));
+      ASSERT_EQ(answers.orders[i],
+                BestOrderMet(thu95, kFactor95 * answers.numbers[1][i], pulses.at(BudgetInput::kBiasAlongBeam, i),
+                             pulses.at(BudgetInput::kBiasVertical, i), pulses.at(BudgetInput::kDepth, i)));
     }
   }
 }

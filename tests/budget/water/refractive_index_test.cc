@@ -19,10 +19,9 @@ TEST(SeaWaterIndex, DelaysAsItsPhaseChangesWithWavelength) {
   for (const double wavelength : {450.0, 532.0, 650.0}) {
     const double step = 0.01;
     const double slope =
-        (SeaWaterIndex(12, 30, wavelength + step).phase - SeaWaterIndex(12, 30, wavelength - step).phase) /
-        (2 * step);
-    EXPECT_NEAR(SeaWaterIndex(12, 30, wavelength).group,
-                SeaWaterIndex(12, 30, wavelength).phase - wavelength * slope, 1e-8);
+        (SeaWaterIndex(12, 30, wavelength + step).phase - SeaWaterIndex(12, 30, wavelength - step).phase) / (2 * step);
+    EXPECT_NEAR(SeaWaterIndex(12, 30, wavelength).group, SeaWaterIndex(12, 30, wavelength).phase - wavelength * slope,
+                1e-8);
   }
 }
 
@@ -43,8 +42,8 @@ TEST(BiasOfIndex, IsThatOfARayTracedTwice) {
       const double reported_depth = reported_ray * std::cos(reported_angle);
       const IndexBias bias = BiasOfIndex(incidence, water, used);
       EXPECT_NEAR(bias.vertical * reported_depth, 10 - reported_depth, 1e-12);
-      EXPECT_NEAR(bias.along * reported_depth,
-                  reported_ray * std::sin(reported_angle) - ray * std::sin(refracted), 1e-12);
+      EXPECT_NEAR(bias.along * reported_depth, reported_ray * std::sin(reported_angle) - ray * std::sin(refracted),
+                  1e-12);
     }
   }
   EXPECT_NEAR(10 * BiasOfIndex(0, SeaWaterIndex(15, 35), 1.33).vertical, -0.2515, 1e-4);

@@ -35,11 +35,10 @@ TEST(OpticsOf, SpreadsTheAlbedoByItsLogit) {
       OpticsOf({.kd = 0.2, .kd_kind = KdKind::kDiffuse532, .omega0 = 0.8, .omega0_sigma = 0.1});
   EXPECT_NEAR(optics->scattering_over_absorption, 4, 1e-12);
   EXPECT_NEAR(optics->ratio_log_sigma, 0.1 / 0.16, 1e-12);
-  EXPECT_NEAR(OpticsOf({.kd = 0.2, .kd_kind = KdKind::kDiffuse532, .kd_sigma = 0.03})->attenuation_log_sigma,
-              0.15, 1e-12);
-  EXPECT_NEAR(
-      OpticsOf({.kd = 0.2, .kd_kind = KdKind::kSatellite490, .kd_sigma = 0.03})->attenuation_log_sigma,
-      0.681 * 0.03 / (0.0536 + 0.681 * 0.1776), 1e-12);
+  EXPECT_NEAR(OpticsOf({.kd = 0.2, .kd_kind = KdKind::kDiffuse532, .kd_sigma = 0.03})->attenuation_log_sigma, 0.15,
+              1e-12);
+  EXPECT_NEAR(OpticsOf({.kd = 0.2, .kd_kind = KdKind::kSatellite490, .kd_sigma = 0.03})->attenuation_log_sigma,
+              0.681 * 0.03 / (0.0536 + 0.681 * 0.1776), 1e-12);
 }
 
 TEST(OpticsOf, LeavesNoLessAbsorptionThanPureWaterHas) {
@@ -55,8 +54,7 @@ TEST(OpticsOf, LeavesNoLessAbsorptionThanPureWaterHas) {
 TEST(OpticsOf, RefusesWhatIsNoWater) {
   EXPECT_THAT(ProblemOf({}), HasSubstr("nothing says"));
   EXPECT_THAT(ProblemOf({.kd = 0.1}), HasSubstr("kd_kind"));
-  EXPECT_THAT(ProblemOf({.kd = 0.1, .kd_kind = KdKind::kDiffuse532, .secchi = 5.0}),
-              HasSubstr("several ways"));
+  EXPECT_THAT(ProblemOf({.kd = 0.1, .kd_kind = KdKind::kDiffuse532, .secchi = 5.0}), HasSubstr("several ways"));
   EXPECT_THAT(ProblemOf({.absorption = 0.1}), HasSubstr("give both"));
   EXPECT_THAT(ProblemOf({.absorption = 0.1, .scattering = 0.2, .omega0 = 0.5}), HasSubstr("omega0"));
   EXPECT_THAT(ProblemOf({.kd = 0.05, .kd_kind = KdKind::kDiffuse532}), HasSubstr("clearer than pure water"));

@@ -62,13 +62,13 @@ struct Twin {
       while (ratio < 1 || ratio > 19) ratio = 4 * std::exp(0.625 * normal(random));
       ratio = std::min(ratio, WaterOptics::MaxRatio(attenuation, fraction));
       const double tau = attenuation * depth;
-      const WaterAnswer answer = *Shipped()
-                                      .Of(fraction, ratio)
-                                      .At({.incidence = incidence,
-                                           .optical_depth = std::min(tau, last),
-                                           .field_of_view = receiver.field_of_view / depth,
-                                           .pulse_length = 0.299792458 * receiver.pulse_length /
-                                                           (2 * receiver.group_index * depth)});
+      const WaterAnswer answer =
+          *Shipped()
+               .Of(fraction, ratio)
+               .At({.incidence = incidence,
+                    .optical_depth = std::min(tau, last),
+                    .field_of_view = receiver.field_of_view / depth,
+                    .pulse_length = 0.299792458 * receiver.pulse_length / (2 * receiver.group_index * depth)});
       if (answer[Index(WaterQuantity::kEnergy)] < kMinEchoEnergy) continue;
       const double scale = depth * std::max(1.0, tau / last) *
                            std::min(1.0, ratio / Shipped().Range(WaterAxis::kScatteringOverAbsorption).first);
@@ -223,22 +223,18 @@ TEST(WaterShare, RefusesWhatItCannotCompute) {
   };
   EXPECT_THAT(problem({.detector = EchoDetector::kPeak, .field_of_view = 3, .pulse_length = 0}, {}),
               HasSubstr("pulse_length"));
-  EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kVendor, .residual_fraction = 2}),
-              HasSubstr("0 (nothing"));
-  EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kCalibrated, .calibration_depth = 100}),
-              HasSubstr("beyond"));
+  EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kVendor, .residual_fraction = 2}), HasSubstr("0 (nothing"));
+  EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kCalibrated, .calibration_depth = 100}), HasSubstr("beyond"));
   WaterOptics bright = Coastal();
   bright.scattering_over_absorption = 50;
-  EXPECT_THAT(WaterShare::Create(Shipped(), bright, kWide, {}).status().message(),
-              HasSubstr("albedo of 0.96"));
+  EXPECT_THAT(WaterShare::Create(Shipped(), bright, kWide, {}).status().message(), HasSubstr("albedo of 0.96"));
   WaterOptics fine = Coastal();
   fine.least_fraction = 0.002;
   EXPECT_THAT(WaterShare::Create(Shipped(), fine, kWide, {}).status().message(), HasSubstr("0.01 to 0.03"));
   WaterReceiver half = kNarrow;
   half.detector = EchoDetector::kHalf;
   EXPECT_THAT(
-      problem(half,
-              {.handling = BiasHandling::kCalibrated, .calibration_depth = 15, .calibration_offset = 0.01}),
+      problem(half, {.handling = BiasHandling::kCalibrated, .calibration_depth = 15, .calibration_offset = 0.01}),
       HasSubstr("passes through zero"));
 }
 

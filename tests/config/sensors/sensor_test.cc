@@ -41,8 +41,7 @@ std::string ErrorOf(const std::string& text) {
 // The number `key` of a sensor, from line 2 on.
 std::string Number(const std::string& key, const std::string& value, const std::string& unit,
                    const std::string& more = "") {
-  return "title = \"a\"\n[" + key + "]\nvalue = " + value + "\nunit = \"" + unit + "\"\nsource = \"b\"\n" +
-         more;
+  return "title = \"a\"\n[" + key + "]\nvalue = " + value + "\nunit = \"" + unit + "\"\nsource = \"b\"\n" + more;
 }
 
 TEST(Sensor, HasNumbersWithTheirSources) {
@@ -71,19 +70,18 @@ TEST(Sensor, LacksWhatNoSourceGives) {
 TEST(Sensor, ReadsEachNumberIntoItsOwnPlace) {
   for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
     const ErrorSource& source = kErrorSources[i];
-    const std::string text = Number(std::string(source.name), source.size() == 1 ? "0.0625" : "[1, 2, 3.5]",
-                                    std::string(source.unit));
+    const std::string text =
+        Number(std::string(source.name), source.size() == 1 ? "0.0625" : "[1, 2, 3.5]", std::string(source.unit));
     if (!source.of_sensor) {
       EXPECT_THAT(ErrorOf(text), HasSubstr("is no key of a sensor file"));
       continue;
     }
     const Sensor sensor = ParseSensor(text).value();
     for (std::size_t k = 0; k < kErrorSourceCount; ++k) EXPECT_EQ(sensor.errors.stated[k], k == i);
-    if (source.size() == 1) {
+    if (source.size() == 1)
       EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(0.0625)) << source.name;
-    } else {
+    else
       EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(1, 2, 3.5)) << source.name;
-    }
   }
 }
 
@@ -101,16 +99,14 @@ TEST(Sensor, NeedsTheSourceAndTheUnitOfEachNumber) {
   EXPECT_THAT(ErrorOf("title = 'a'\n[divergence]\nvalue = 1\nunit = 'mrad'\n"),
               StartsWith("line 2: [divergence] source is missing"));
   for (const char* blank : {"''", "' '", "5", "true", "['b']"}) {
-    EXPECT_THAT(
-        ErrorOf("title = 'a'\n[scan]\nvalue = 1\nunit = 'degree'\nsource = " + std::string(blank) + "\n"),
-        StartsWith("line 5: 'scan.source' is "))
+    EXPECT_THAT(ErrorOf("title = 'a'\n[scan]\nvalue = 1\nunit = 'degree'\nsource = " + std::string(blank) + "\n"),
+                StartsWith("line 5: 'scan.source' is "))
         << blank;
   }
 }
 
 TEST(Sensor, RefusesEachWrongNumber) {
-  const std::vector<std::string> wrong = {"-0.1", "0",   "0.0",  "nan", "inf",
-                                          "1e9",  "'1'", "true", "[1]", "{}"};
+  const std::vector<std::string> wrong = {"-0.1", "0", "0.0", "nan", "inf", "1e9", "'1'", "true", "[1]", "{}"};
   const std::vector<std::string> wrong_triples = {"1",           "[]",          "[1, 1]",    "[1, 1, 1, 1]",
                                                   "[1, 1, -1]",  "[1, nan, 1]", "[1, 1, 0]", "[inf, 1, 1]",
                                                   "['1', 1, 1]", "[1, 1, 1e9]"};
@@ -128,8 +124,7 @@ TEST(Sensor, RefusesEachWrongNumber) {
 }
 
 TEST(Sensor, RefusesAnotherUnit) {
-  EXPECT_THAT(ErrorOf(Number("scan", "1", "rad")),
-              StartsWith("line 4: 'scan.unit' is 'rad' (expected degree); "));
+  EXPECT_THAT(ErrorOf(Number("scan", "1", "rad")), StartsWith("line 4: 'scan.unit' is 'rad' (expected degree); "));
   EXPECT_THAT(ErrorOf(Number("bottom_range", "1", "cm")), HasSubstr("(expected m)"));
   EXPECT_THAT(ErrorOf(Number("divergence", "1", "degree")), HasSubstr("(expected mrad)"));
   EXPECT_THAT(ErrorOf(Number("time", "1", "ms")), HasSubstr("(expected s)"));
@@ -146,8 +141,7 @@ TEST(Sensor, RefusesRadians) {
 
 TEST(Sensor, HasTheDivergenceWithinItsLimits) {
   for (const char* limits : {"least = 0.5\n", "greatest = 3\n"})
-    EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)),
-                HasSubstr("has one of least and greatest"));
+    EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)), HasSubstr("has one of least and greatest"));
   for (const char* limits : {"least = 2\ngreatest = 3\n", "least = 0.1\ngreatest = 0.9\n",
                              "least = 3\ngreatest = 0.5\n", "least = 1\ngreatest = 1\n"})
     EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)), HasSubstr("give them in order"));
@@ -160,8 +154,7 @@ TEST(Sensor, NamesTheKeyThatIsMeant) {
             "line 2: 'scann' is no key of a sensor file; did you mean scan?");
   EXPECT_EQ(ErrorOf("title = 'a'\n[scan]\nvalu = 1\nunit = 'degree'\nsource = 'b'\n"),
             "line 3: 'scan.valu' is no key of a sensor file; did you mean value?");
-  EXPECT_THAT(ErrorOf(Number("scan", "1", "degree", "least = 0.5\n")),
-              StartsWith("line 6: 'scan.least' is no key"));
+  EXPECT_THAT(ErrorOf(Number("scan", "1", "degree", "least = 0.5\n")), StartsWith("line 6: 'scan.least' is no key"));
   EXPECT_THAT(ErrorOf("title = 'a'\nunknown = ['scan']\n"), StartsWith("line 2: 'unknown' is no key"));
   EXPECT_THAT(ErrorOf("title = 'a'\nscan = 0.02\n"), HasSubstr("begin it with [scan]"));
   EXPECT_THAT(ErrorOf("title = 5\n"), StartsWith("line 1: 'title' is 5"));
@@ -181,11 +174,9 @@ TEST(Sensor, MayBeCutAnywhere) {
 TEST(ReadSensor, NamesTheFile) {
   const albtpu::testing::TemporaryFolder folder;
   const std::filesystem::path path = folder / "mine.toml";
-  EXPECT_THAT(std::string(ReadSensor(path).status().message()),
-              StartsWith(path.string() + ": does not exist"));
+  EXPECT_THAT(std::string(ReadSensor(path).status().message()), StartsWith(path.string() + ": does not exist"));
   std::ofstream(path) << "title = 5\n";
-  EXPECT_THAT(std::string(ReadSensor(path).status().message()),
-              StartsWith(path.string() + ": line 1: 'title'"));
+  EXPECT_THAT(std::string(ReadSensor(path).status().message()), StartsWith(path.string() + ": line 1: 'title'"));
   std::ofstream(path) << kWhole;
   EXPECT_EQ(ReadSensor(path).value().name, "mine");
   EXPECT_EQ(ReadSensor(path).value().path, path.string());

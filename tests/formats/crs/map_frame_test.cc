@@ -49,12 +49,10 @@ void ExpectTrueDirections(const MapFrame& frame, const GeographicPosition& posit
     const double north = 50 * std::cos(azimuth) / meridian, east = 50 * std::sin(azimuth) / parallel;
     const MapPosition ahead = frame.Project({position.latitude + north, position.longitude + east});
     const MapPosition behind = frame.Project({position.latitude - north, position.longitude - east});
-    const double x = (ahead.x - behind.x) * metric.metres_per_x,
-                 y = (ahead.y - behind.y) * metric.metres_per_y;
+    const double x = (ahead.x - behind.x) * metric.metres_per_x, y = (ahead.y - behind.y) * metric.metres_per_y;
     // Third derivatives: (50 m / R)^2 = 6e-11 of it, times 10 for tangents; rounding: 1e-9 m of 100 m.
     EXPECT_NEAR(std::hypot(x, y), 100, 1e-6);
-    EXPECT_NEAR(std::remainder(std::atan2(x, y) + metric.convergence - azimuth, 2 * std::numbers::pi), 0,
-                1e-8)
+    EXPECT_NEAR(std::remainder(std::atan2(x, y) + metric.convergence - azimuth, 2 * std::numbers::pi), 0, 1e-8)
         << azimuth;
   }
 }
@@ -122,8 +120,7 @@ TEST(MapFrame, ProjectsIntoFeet) {
   // Their false eastings are 656 166.667 feet and 200 000 m.
   EXPECT_NEAR((feet->Project(position).x - 656166.667) * kUsFoot, metres->Project(position).x - 200000, 1e-6);
   EXPECT_NEAR(feet->Project(position).y * kUsFoot, metres->Project(position).y, 1e-6);
-  EXPECT_NEAR(feet->MetricAt(position).metres_per_x, kUsFoot * metres->MetricAt(position).metres_per_x,
-              1e-10);
+  EXPECT_NEAR(feet->MetricAt(position).metres_per_x, kUsFoot * metres->MetricAt(position).metres_per_x, 1e-10);
 }
 
 TEST(MapFrame, KeepsGeographicCoordinates) {
@@ -187,8 +184,7 @@ TEST(MapFrame, ReadsGeoKeys) {
   EXPECT_NEAR(frame->Project(At(0, -81)).x * kUsFoot, 500000, 1e-6);
   EXPECT_NEAR(frame->MetricAt(At(0, -81)).metres_per_x, kUsFoot / 0.9996, 1e-8);
   EXPECT_EQ(frame->metres_per_height_unit(), 1.0);
-  EXPECT_NEAR(Frame({.projected = 26917, .vertical = 6360})->metres_per_height_unit().value(), kUsFoot,
-              1e-12);
+  EXPECT_NEAR(Frame({.projected = 26917, .vertical = 6360})->metres_per_height_unit().value(), kUsFoot, 1e-12);
   EXPECT_TRUE(Frame({.geographic = 4269})->is_geographic());
   EXPECT_THAT(Refusal({.projected = 60000}), HasSubstr("in.las: its coordinate system cannot be used"));
 }
@@ -226,8 +222,7 @@ TEST(MapFrame, FindsTheWayBackFromTheMap) {
 TEST(MapFrame, FindsTheWayBackFromFeetThatGeoKeysState) {
   const auto frame = Frame({.projected = 26917, .linear_unit = 9003});
   const MapPosition metres = UserFrame("EPSG:26917")->Project(At(26, -81.8));
-  const std::optional<GeographicPosition> back =
-      frame->GeographicAt({metres.x / kUsFoot, metres.y / kUsFoot});
+  const std::optional<GeographicPosition> back = frame->GeographicAt({metres.x / kUsFoot, metres.y / kUsFoot});
   ASSERT_TRUE(back.has_value());
   EXPECT_NEAR(back->latitude, 26 * kDegree, 2e-12);
   EXPECT_NEAR(back->longitude, -81.8 * kDegree, 2e-12);
@@ -246,9 +241,8 @@ TEST(MapFrame, HasNoWayBackFromOutsideOfTheMap) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const char* crs : {"EPSG:32617", "EPSG:2236", "EPSG:2154", "EPSG:4269"}) {
     const auto frame = UserFrame(crs);
-    for (const double far : {1e12, 1e300, infinity, std::nan("")}) {
+    for (const double far : {1e12, 1e300, infinity, std::nan("")})
       EXPECT_FALSE(frame->GeographicAt({500000, far}).has_value()) << crs << " " << far;
-    }
   }
   EXPECT_FALSE(UserFrame("EPSG:4269")->GeographicAt({-81.5, 91}).has_value());
   // A point that was refused leaves nothing behind.

@@ -38,8 +38,7 @@ absl::StatusOr<std::vector<OwnRecord>> Read(const std::string& text) {
       next = in_block.Next(record);
       if (!next.ok()) return next.status();
       if (!*next) break;
-      OwnRecord own{
-          std::string(record.text), std::string(record.line_ending), record.line, {}, record.blank()};
+      OwnRecord own{std::string(record.text), std::string(record.line_ending), record.line, {}, record.blank()};
       for (std::size_t i = 0; i < record.cell_count(); ++i) own.cells.push_back(record.Cell(i));
       records.push_back(own);
     }
@@ -91,17 +90,15 @@ TEST(CsvReader, RecognizesBlankLines) {
 
 TEST(CsvReader, ReturnsCompleteRecordsInManyBlocks) {
   std::string text = "a,b\n";
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < 300000; ++i)
     absl::StrAppend(&text, i, i % 1000 == 0 ? ",\"two\nlines, \"\"quoted\"\"\"\r\n" : ",plain\n");
-  }
   const std::vector<OwnRecord> records = ReadAll(text);
   ASSERT_EQ(records.size(), 300001u);
   std::size_t line = 2;
   for (int i = 0; i < 300000; ++i) {
     const OwnRecord& record = records[i + 1];
     ASSERT_EQ(record.line, line);
-    ASSERT_THAT(record.cells,
-                ElementsAre(std::to_string(i), i % 1000 == 0 ? "two\nlines, \"quoted\"" : "plain"));
+    ASSERT_THAT(record.cells, ElementsAre(std::to_string(i), i % 1000 == 0 ? "two\nlines, \"quoted\"" : "plain"));
     line += i % 1000 == 0 ? 2 : 1;
   }
 }

@@ -34,8 +34,7 @@ Outcome Double(int count, int bad_read, int bad_work, int bad_write) {
                                         return absl::OkStatus();
                                       },
                                       [&](Number& number) {
-                                        if (number.value == 2 * bad_write)
-                                          return absl::ResourceExhaustedError("write");
+                                        if (number.value == 2 * bad_write) return absl::ResourceExhaustedError("write");
                                         outcome.written.push_back(number.value);
                                         return absl::OkStatus();
                                       });
@@ -65,16 +64,16 @@ TEST(OrderedPipeline, ReturnsTheFirstFailureInTheFile) {
 
 TEST(OrderedPipeline, KeepsOnlyAFewChunksInMemory) {
   std::atomic<int> read = 0, written = 0, most = 0;
-  const absl::Status status = RunOrderedPipeline(
-      [] { return Number(); }, [&](Number&) -> absl::StatusOr<bool> { return ++read <= 1000; },
-      [&](Number&) {
-        most = std::max(most.load(), read.load() - written.load());
-        return absl::OkStatus();
-      },
-      [&](Number&) {
-        ++written;
-        return absl::OkStatus();
-      });
+  const absl::Status status =
+      RunOrderedPipeline([] { return Number(); }, [&](Number&) -> absl::StatusOr<bool> { return ++read <= 1000; },
+                         [&](Number&) {
+                           most = std::max(most.load(), read.load() - written.load());
+                           return absl::OkStatus();
+                         },
+                         [&](Number&) {
+                           ++written;
+                           return absl::OkStatus();
+                         });
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(written, 1000);
   EXPECT_LE(most, kMaxWorkers + 3);

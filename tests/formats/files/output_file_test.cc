@@ -75,10 +75,8 @@ TEST(OutputFile, ReplacesAFileOnlyWhenComplete) {
 TEST(OutputFile, DoesNotReplaceFoldersOrDevices) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
-  for (const std::filesystem::path& path : {folder / "out", std::filesystem::path("/dev/null")}) {
-    EXPECT_EQ(OutputFile::Create(path, Existing::kReplace).status().code(),
-              absl::StatusCode::kFailedPrecondition);
-  }
+  for (const std::filesystem::path& path : {folder / "out", std::filesystem::path("/dev/null")})
+    EXPECT_EQ(OutputFile::Create(path, Existing::kReplace).status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
 TEST(OutputFile, SaysThatTheFolderIsMissing) {

@@ -20,11 +20,10 @@ std::string Vlr(const LasRecord& record, bool extended) {
   std::string bytes(extended ? 60 : 54, '\0');
   PutText(bytes, 2, record.user_id);
   Put<std::uint16_t>(bytes, 18, record.record_id);
-  if (extended) {
+  if (extended)
     Put<std::uint64_t>(bytes, 20, record.data.size());
-  } else {
+  else
     Put<std::uint16_t>(bytes, 20, static_cast<std::uint16_t>(record.data.size()));
-  }
   PutText(bytes, extended ? 28 : 22, "made by a test");
   return bytes + record.data;
 }
@@ -50,9 +49,8 @@ std::string PointRecord(const LasSpec& spec, std::size_t index) {
   }
   const bool has_gps_time = spec.point_format != 0 && spec.point_format != 2;
   if (has_gps_time) Put<double>(bytes, spec.point_format < 6 ? 20 : 22, point.gps_time);
-  if (point.point_source_id >= 0) {
+  if (point.point_source_id >= 0)
     Put(bytes, spec.point_format < 6 ? 18 : 20, static_cast<std::uint16_t>(point.point_source_id));
-  }
   return bytes;
 }
 
@@ -96,8 +94,8 @@ std::string BuildLas(const LasSpec& spec) {
   // Bit 4: the coordinate system is well-known text, as formats 6-10 require. Bit 1: waveforms are in the file. Bit 0:
   // the form of GPS times.
   Put<std::uint16_t>(header, 6,
-                     static_cast<std::uint16_t>((spec.point_format >= 6 ? 0x10 : 0) |
-                                                (waveform_inside ? 0x2 : 0) | (spec.adjusted_time ? 1 : 0)));
+                     static_cast<std::uint16_t>((spec.point_format >= 6 ? 0x10 : 0) | (waveform_inside ? 0x2 : 0) |
+                                                (spec.adjusted_time ? 1 : 0)));
   Put<std::uint8_t>(header, 24, 1);
   Put<std::uint8_t>(header, 25, static_cast<std::uint8_t>(spec.version_minor));
   PutText(header, 26, "SIMULATION");
@@ -108,8 +106,7 @@ std::string BuildLas(const LasSpec& spec) {
   Put<std::uint32_t>(header, 96, static_cast<std::uint32_t>(offset_to_points));
   Put<std::uint32_t>(header, 100, static_cast<std::uint32_t>(spec.vlrs.size()));
   Put<std::uint8_t>(header, 104, static_cast<std::uint8_t>(spec.point_format));
-  Put<std::uint16_t>(header, 105,
-                     static_cast<std::uint16_t>(PointSize(spec.point_format) + spec.extra_bytes));
+  Put<std::uint16_t>(header, 105, static_cast<std::uint16_t>(PointSize(spec.point_format) + spec.extra_bytes));
   const bool legacy_count = spec.point_format < 6;
   const auto count = static_cast<std::uint32_t>(spec.points.size());
   Put<std::uint32_t>(header, 107, legacy_count ? count : 0);
@@ -119,11 +116,7 @@ std::string BuildLas(const LasSpec& spec) {
     Put<double>(header, 155 + 8 * axis, spec.offset[axis]);
     double least = 0, greatest = 0;
     for (const LasPoint& point : spec.points) {
-      const double value = (axis == 0   ? point.x
-                            : axis == 1 ? point.y
-                                        : point.z) *
-                               spec.scale +
-                           spec.offset[axis];
+      const double value = (axis == 0 ? point.x : axis == 1 ? point.y : point.z) * spec.scale + spec.offset[axis];
       least = &point == &spec.points[0] ? value : std::fmin(least, value);
       greatest = &point == &spec.points[0] ? value : std::fmax(greatest, value);
     }

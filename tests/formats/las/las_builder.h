@@ -29,7 +29,7 @@ struct LasSpec {
   int version_minor = 4;
   int point_format = 6;
   std::vector<LasPoint> points;
-  std::size_t extra_bytes = 0;  // In each record, after the fields of its format; filled with a pattern.
+  std::size_t extra_bytes = 0;         // In each record, after the fields of its format; filled with a pattern.
   std::vector<LasRecord> vlrs, evlrs;  // EVLRs only in 1.4.
   std::string header_tail;             // Bytes after the fields of the header, counted in its size.
   std::string gap;                     // Bytes between the VLRs and the points.

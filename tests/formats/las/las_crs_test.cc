@@ -31,9 +31,8 @@ TEST(LasCrs, FindsFeetInWellKnownText) {
            "PROJCS[\"x\",UNIT (\"some name\", 0.3048)]",
            "VERT_CS[\"x\",UNIT[\"ft\"]]",
            "VERT_CS[\"x\",Unit[\"British feet\",0.30480061]]",
-       }) {
+       })
     EXPECT_TRUE(FindFeetInWkt(wkt).has_value()) << wkt;
-  }
 }
 
 TEST(LasCrs, SearchesALongTextQuickly) {
@@ -43,10 +42,9 @@ TEST(LasCrs, SearchesALongTextQuickly) {
 }
 
 TEST(LasCrs, FindsNoFeetInMetres) {
-  for (const char* wkt : {albtpu::testing::kMetricWkt, "", "UNIT[\"degree\",0.0174532925199433]",
-                          "UNIT[\"metre", "UNIT[", "UNITED STATES FOOT", "LENGTHUNIT[\"kilometre\",1000]"}) {
+  for (const char* wkt : {albtpu::testing::kMetricWkt, "", "UNIT[\"degree\",0.0174532925199433]", "UNIT[\"metre",
+                          "UNIT[", "UNITED STATES FOOT", "LENGTHUNIT[\"kilometre\",1000]"})
     EXPECT_FALSE(FindFeetInWkt(wkt).has_value()) << wkt;
-  }
 }
 
 TEST(LasCrs, FindsFeetInGeoKeys) {
@@ -76,8 +74,8 @@ TEST(LasCrs, SearchesVlrsAndEvlrs) {
 }
 
 TEST(LasCrs, DescribesGeoKeys) {
-  const CrsDescription description = DescribeGeoKeys(
-      GeoKeys({{1024, 1}, {3072, 26917}, {2048, 4269}, {3076, 9003}, {4096, 5703}, {4099, 9001}}));
+  const CrsDescription description =
+      DescribeGeoKeys(GeoKeys({{1024, 1}, {3072, 26917}, {2048, 4269}, {3076, 9003}, {4096, 5703}, {4099, 9001}}));
   EXPECT_EQ(description.projected, 26917);
   EXPECT_EQ(description.geographic, 4269);
   EXPECT_EQ(description.linear_unit, 9003);
@@ -91,9 +89,7 @@ TEST(LasCrs, DescribesWhatTheRecordsState) {
   const albtpu::testing::TemporaryFolder folder;
   albtpu::testing::LasSpec spec;
   spec.points.resize(1);
-  const auto describe = [&] {
-    return DescribeCrs(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value();
-  };
+  const auto describe = [&] { return DescribeCrs(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value(); };
   EXPECT_TRUE(describe().empty());
   const std::string wkt = albtpu::testing::kMetricWkt;
   spec.vlrs.push_back({"LASF_Projection", 2112, wkt + std::string(3, '\0')});

@@ -21,15 +21,9 @@ std::string Describe(const std::string& described, std::size_t extra_bytes) {
   return record.ok() ? record->record : std::string(record.status().message());
 }
 
-std::string NameOf(const std::string& record, std::size_t entry) {
-  return record.substr(192 * entry + 4, 32).c_str();
-}
-int TypeOf(const std::string& record, std::size_t entry) {
-  return Load<std::uint8_t>(record, 192 * entry + 2);
-}
-int OptionsOf(const std::string& record, std::size_t entry) {
-  return Load<std::uint8_t>(record, 192 * entry + 3);
-}
+std::string NameOf(const std::string& record, std::size_t entry) { return record.substr(192 * entry + 4, 32).c_str(); }
+int TypeOf(const std::string& record, std::size_t entry) { return Load<std::uint8_t>(record, 192 * entry + 2); }
+int OptionsOf(const std::string& record, std::size_t entry) { return Load<std::uint8_t>(record, 192 * entry + 3); }
 
 TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
   const std::string record = Describe("", 0);
@@ -45,8 +39,7 @@ TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
 }
 
 TEST(LasExtraBytes, StatesTheCoverage) {
-  const auto record =
-      DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
+  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
   EXPECT_STREQ(record->record.substr(160, 32).c_str(), "sea surface only, 95 %, m");
 }
 
@@ -127,8 +120,7 @@ TEST(LasExtraBytes, ReplacesFloatsAndDoublesOfTheSameNames) {
 
 TEST(LasExtraBytes, ReplacesNothingThatHoldsNoNumberOfOurs) {
   const auto replace = [](const std::string& described, std::size_t bytes) {
-    return std::string(
-        DescribeAppended("in.las", described, bytes, AppendedFloats({}), true).status().message());
+    return std::string(DescribeAppended("in.las", described, bytes, AppendedFloats({}), true).status().message());
   };
   EXPECT_THAT(replace(ExtraBytesEntry(3, 0, "sea_thu"), 2), HasSubstr("has sea_thu as type 3"));
   EXPECT_THAT(replace(ExtraBytesEntry(9, 0, "sea_thu") + ExtraBytesEntry(9, 0, "sea_thu"), 8),

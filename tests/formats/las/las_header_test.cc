@@ -24,9 +24,7 @@ LasSpec Spec(int version_minor = 4, int point_format = 6) {
   return spec;
 }
 
-absl::StatusOr<LasHeader> Parse(const std::string& file) {
-  return ParseLasHeader("in.las", file, file.size());
-}
+absl::StatusOr<LasHeader> Parse(const std::string& file) { return ParseLasHeader("in.las", file, file.size()); }
 
 std::string ErrorOf(const std::string& file) { return std::string(Parse(file).status().message()); }
 
@@ -59,10 +57,8 @@ TEST(LasHeader, RejectsOtherFiles) {
 }
 
 TEST(LasHeader, RejectsOtherVersions) {
-  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 5)),
-              HasSubstr("is LAS 1.5"));
-  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMajor, 2)),
-              HasSubstr("is LAS 2.4"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 5)), HasSubstr("is LAS 1.5"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMajor, 2)), HasSubstr("is LAS 2.4"));
 }
 
 TEST(LasHeader, TakesThePointsOfLazForCompressed) {
@@ -78,9 +74,9 @@ TEST(LasHeader, TakesThePointsOfLazForCompressed) {
 
 TEST(LasHeader, SuggestsADecompressorForTheFirstLaszip) {
   for (const int bits : {0x40, 0xC0}) {
-    EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kPointFormat,
-                                           static_cast<std::uint8_t>(6 | bits))),
-                HasSubstr("from before 2.0 (2011); decompress it first, by `laszip -i"));
+    EXPECT_THAT(
+        ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kPointFormat, static_cast<std::uint8_t>(6 | bits))),
+        HasSubstr("from before 2.0 (2011); decompress it first, by `laszip -i"));
   }
 }
 
@@ -93,9 +89,8 @@ TEST(LasHeader, RejectsPointFormatsThatTheVersionDoesNotDefine) {
 
 TEST(LasHeader, DetectsTruncationAtEveryLength) {
   const std::string file = BuildLas(Spec());
-  for (std::size_t size = 4; size < file.size(); ++size) {
+  for (std::size_t size = 4; size < file.size(); ++size)
     ASSERT_EQ(Parse(file.substr(0, size)).status().code(), absl::StatusCode::kDataLoss) << size;
-  }
 }
 
 TEST(LasHeader, RejectsPointCountsThatDisagreeWithTheFile) {
@@ -122,8 +117,7 @@ TEST(LasHeader, RejectsOverlappingOffsets) {
               HasSubstr("begin at byte 4294967295"));
   EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 29)),
               HasSubstr("records of 29 bytes; point format 6 needs 30 or more"));
-  EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 0)),
-              HasSubstr("records of 0 bytes"));
+  EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 0)), HasSubstr("records of 0 bytes"));
 }
 
 TEST(LasHeader, RejectsEvlrsThatAreNotAfterThePoints) {
@@ -131,12 +125,10 @@ TEST(LasHeader, RejectsEvlrsThatAreNotAfterThePoints) {
   spec.evlrs.push_back({"someone", 1, "data"});
   const std::string file = BuildLas(spec);
   ASSERT_TRUE(Parse(file).ok());
-  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 400)),
-              HasSubstr("begin at byte 400"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 400)), HasSubstr("begin at byte 400"));
   EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, file.size() + 1)),
               HasSubstr("extended variable length records begin at byte"));
-  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 0)),
-              HasSubstr("but not where they begin"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 0)), HasSubstr("but not where they begin"));
 }
 
 TEST(LasHeader, RejectsScalesAndOffsetsThatAreNotFinite) {

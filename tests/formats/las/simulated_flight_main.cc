@@ -51,8 +51,7 @@ LasSpec SimulateFlight(int version_minor, int point_format) {
   const auto add = [&](double x, double y, double z, int classification, double scan_angle) {
     spec.points.push_back({static_cast<std::int32_t>(std::lround((kEast + x) / kScale)),
                            static_cast<std::int32_t>(std::lround((kNorth + y) / kScale)),
-                           static_cast<std::int32_t>(std::lround(z / kScale)), classification, scan_angle,
-                           time});
+                           static_cast<std::int32_t>(std::lround(z / kScale)), classification, scan_angle, time});
   };
   for (int line = 0; line < kLines; ++line) {
     for (int pulse = 0; pulse < kPulsesPerLine; ++pulse) {

@@ -128,8 +128,7 @@ class BusySurvey {
       flight.x = far ? static_cast<std::int32_t>(random_.Bits()) : Moved(flight.x, 40 + random_.Step(9));
       flight.y = far ? static_cast<std::int32_t>(random_.Bits()) : Moved(flight.y, random_.Step(16));
     }
-    if (!Stays(5))
-      flight.z = far ? static_cast<std::int32_t>(random_.Bits()) : Moved(flight.z, random_.Step(12));
+    if (!Stays(5)) flight.z = far ? static_cast<std::int32_t>(random_.Bits()) : Moved(flight.z, random_.Step(12));
     point_.x = flight.x;
     point_.y = flight.y;
     point_.z = flight.z;
@@ -146,8 +145,7 @@ class BusySurvey {
       point_.scan_angle = static_cast<std::int16_t>(std::clamp(steps, -20000, 20000));
     }
     if (random_.OneIn(5)) point_.user_data = static_cast<std::uint8_t>(random_.OneIn(2) ? random_.Bits() : 7);
-    if (random_.OneIn(50))
-      point_.source = static_cast<std::uint16_t>(random_.OneIn(2) ? random_.Bits() : 1 + flight_);
+    if (random_.OneIn(50)) point_.source = static_cast<std::uint16_t>(random_.OneIn(2) ? random_.Bits() : 1 + flight_);
   }
 
   void ChangeColours() {
@@ -168,8 +166,7 @@ class BusySurvey {
         change_bytes(red);
         break;
       case 3:
-        for (auto* colour : {&red, &green, &blue})
-          *colour = static_cast<std::uint16_t>(*colour + random_.Step(16));
+        for (auto* colour : {&red, &green, &blue}) *colour = static_cast<std::uint16_t>(*colour + random_.Step(16));
         break;
       case 4:
         change_bytes(green);
@@ -214,8 +211,7 @@ class BusySurvey {
 
 class CalmFlightLine {
  public:
-  explicit CalmFlightLine(std::uint64_t seed)
-      : random_(seed), first_x_(static_cast<std::int32_t>(seed % 1000)) {
+  explicit CalmFlightLine(std::uint64_t seed) : random_(seed), first_x_(static_cast<std::int32_t>(seed % 1000)) {
     point_.return_number = point_.return_count = 0;
     point_.source = 12;
     point_.wave_packet = {.descriptor = 1, .offset = 60, .size = 0, .direction = {1e-4f, 2e-4f, -0.15f}};
@@ -229,16 +225,14 @@ class CalmFlightLine {
     point_.intensity = static_cast<std::uint16_t>(last ? 300 + random_.Below(40) : 80 + random_.Below(30));
     point_.classification = last ? 2 : 5;
     const auto grey = static_cast<std::uint16_t>(256 * (100 + random_.Below(12)));
-    point_.colours = {grey, static_cast<std::uint16_t>(grey + 512), static_cast<std::uint16_t>(grey - 256),
-                      30720};
+    point_.colours = {grey, static_cast<std::uint16_t>(grey + 512), static_cast<std::uint16_t>(grey - 256), 30720};
     point_.wave_packet.return_location = 1000.0f + 350.0f * static_cast<float>(point_.return_number);
     return point_;
   }
 
   void AppendExtraBytes(std::size_t count, std::string& records) {
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
       records.push_back(static_cast<char>(i % 2 == 0 ? i : 40 + random_.Below(4)));
-    }
   }
 
  private:
@@ -279,9 +273,7 @@ std::string Records(Source source, const RecordLayout& layout, std::size_t count
 
 }  // namespace
 
-std::size_t RecordLength(const RecordLayout& layout) {
-  return PointSize(layout.point_format) + layout.extra_bytes;
-}
+std::size_t RecordLength(const RecordLayout& layout) { return PointSize(layout.point_format) + layout.extra_bytes; }
 
 std::string BusyRecords(const RecordLayout& layout, std::size_t count, std::uint64_t seed) {
   return Records(BusySurvey(seed), layout, count);

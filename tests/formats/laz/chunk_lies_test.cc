@@ -55,11 +55,10 @@ absl::Status Decode(const LaszipRecord& record, const std::string& bytes, std::u
   }
   if (status.ok()) status = decoder->End(exact);
   EXPECT_LT(testing::MostAllocated(), bytes.size() + kMargin);
-  if (status.ok()) {
+  if (status.ok())
     EXPECT_LE(decoder->position(), bytes.size());
-  } else {
+  else
     EXPECT_TRUE(absl::IsDataLoss(status)) << status;
-  }
   return status;
 }
 
@@ -85,8 +84,7 @@ TEST_P(ChunkLies, AreNotInTheTruth) {
 TEST_P(ChunkLies, OfChunksThatAreCutAnywhereAreNoticed) {
   for (std::size_t size = 0; size < chunk_.bytes.size(); ++size) {
     SCOPED_TRACE(size);
-    for (const bool exact : {false, true})
-      EXPECT_NE(Message(chunk_.bytes.substr(0, size), kPoints, exact), "");
+    for (const bool exact : {false, true}) EXPECT_NE(Message(chunk_.bytes.substr(0, size), kPoints, exact), "");
   }
 }
 
@@ -99,9 +97,8 @@ TEST_P(ChunkLies, OfBytesBehindTheirEndAreNoticedWhereItIsKnown) {
 }
 
 TEST_P(ChunkLies, OfTooManyPointsAreNoticed) {
-  for (const std::uint64_t points :
-       {std::uint64_t{kPoints + 1000}, std::uint64_t{50000}, std::uint64_t{0xFFFFFFFF},
-        std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + kPoints}) {
+  for (const std::uint64_t points : {std::uint64_t{kPoints + 1000}, std::uint64_t{50000}, std::uint64_t{0xFFFFFFFF},
+                                     std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + kPoints}) {
     SCOPED_TRACE(points);
     EXPECT_NE(Message(chunk_.bytes, points), "");
   }
@@ -125,8 +122,7 @@ TEST_P(ChunkLies, OfTheSizesOfLayersAreNoticed) {
     std::uint32_t size;
     std::memcpy(&size, chunk_.bytes.data() + at, sizeof size);
     for (const std::uint32_t lie : {size + 1, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu}) {
-      SCOPED_TRACE(::testing::Message()
-                   << "layer " << layer << " of " << lie << " bytes instead of " << size);
+      SCOPED_TRACE(::testing::Message() << "layer " << layer << " of " << lie << " bytes instead of " << size);
       std::string bytes = chunk_.bytes;
       std::memcpy(bytes.data() + at, &lie, sizeof lie);
       EXPECT_THAT(Message(bytes), HasSubstr("layer"));
@@ -134,9 +130,8 @@ TEST_P(ChunkLies, OfTheSizesOfLayersAreNoticed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ChunkLies, ::testing::Range(0, 11), [](const auto& point_format) {
-  return "Format" + std::to_string(point_format.param);
-});
+INSTANTIATE_TEST_SUITE_P(Formats, ChunkLies, ::testing::Range(0, 11),
+                         [](const auto& point_format) { return "Format" + std::to_string(point_format.param); });
 
 }  // namespace
 }  // namespace albtpu::laz

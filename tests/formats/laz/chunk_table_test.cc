@@ -23,8 +23,7 @@ LaszipRecord RecordWith(std::uint32_t chunk_size) { return RecordFor(1, kRecordL
 
 // A file with `chunks`, which get their offsets, and their table.
 struct TableFile {
-  explicit TableFile(const LaszipRecord& laszip_record, std::vector<Chunk> all)
-      : record(laszip_record), chunks(all) {
+  explicit TableFile(const LaszipRecord& laszip_record, std::vector<Chunk> all) : record(laszip_record), chunks(all) {
     bytes.assign(kPointsBegin + kTableOffsetSize, 'p');
     for (Chunk& chunk : chunks) {
       chunk.offset = bytes.size();
@@ -88,17 +87,14 @@ TEST(ChunkTable, OfNoPointsHasNoChunks) {
 }
 
 TEST(ChunkTable, OfOtherProgramsIsReadAndWrittenAgainByteForByte) {
-  for (const char* name :
-       {"1815.laz", "1_4_w_evlr.laz", "append-bug.laz", "autzen_trim.laz", "extrabytes.laz", "plane.laz",
-        "point-color.las.laz", "simple.copc.laz", "simple.laz"}) {
+  for (const char* name : {"1815.laz", "1_4_w_evlr.laz", "append-bug.laz", "autzen_trim.laz", "extrabytes.laz",
+                           "plane.laz", "point-color.las.laz", "simple.copc.laz", "simple.laz"}) {
     const std::string file = albtpu::testing::SampleBytes(name);
     if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
     const auto extent = albtpu::testing::ExtentOf(file);
-    const auto table =
-        ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
+    const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
     EXPECT_EQ(table->chunks.back().offset + table->chunks.back().bytes, table->begin) << name;
-    EXPECT_EQ(ChunkTableBytes(extent->record, table->chunks),
-              file.substr(table->begin, table->end - table->begin))
+    EXPECT_EQ(ChunkTableBytes(extent->record, table->chunks), file.substr(table->begin, table->end - table->begin))
         << name;
   }
 }

@@ -35,8 +35,7 @@ class LazDamage : public ::testing::TestWithParam<const char*> {
     file_ = SampleBytes(GetParam());
     if (file_.empty()) GTEST_SKIP() << "no sample files (" << GetParam() << ")";
     extent_ = ExtentOf(file_).value();
-    table_ = laz::ReadChunkTable(laz::MemorySource(file_), extent_.record, extent_.points_begin,
-                                 extent_.point_count)
+    table_ = laz::ReadChunkTable(laz::MemorySource(file_), extent_.record, extent_.points_begin, extent_.point_count)
                  .value();
     decoder_ = laz::ChunkDecoder::For(extent_.record);
   }
@@ -65,11 +64,10 @@ class LazDamage : public ::testing::TestWithParam<const char*> {
       std::string bytes = file_.substr(chunk.offset, chunk.bytes);
       const std::uint64_t bit = random() % (8 * bytes.size());
       bytes[bit / 8] ^= static_cast<char>(1 << bit % 8);
-      if (!Decode(bytes, chunk.points, records).ok()) {
+      if (!Decode(bytes, chunk.points, records).ok())
         ++outcomes.refused;
-      } else {
+      else
         ++(records == truths[number] ? outcomes.same_points : outcomes.other_points);
-      }
     }
     return outcomes;
   }
@@ -86,12 +84,10 @@ TEST_P(LazDamage, OfOneBitIsMostlyNoticedInLongChunks) {
   const std::uint64_t points = extent_.point_count / table_.chunks.size();
   const int flips = static_cast<int>(std::min<std::uint64_t>(kFlips, 1 + kFlippedPoints / points));
   const Outcomes outcomes = Flip(flips);
-  std::cout << GetParam() << ": " << points << " points a chunk; of " << flips << " flips "
-            << outcomes.refused << " refused, " << outcomes.other_points << " other points, "
-            << outcomes.same_points << " the same points\n";
-  if (points >= kLongChunk) {
-    EXPECT_GE(outcomes.refused, flips * 97 / 100);
-  }
+  std::cout << GetParam() << ": " << points << " points a chunk; of " << flips << " flips " << outcomes.refused
+            << " refused, " << outcomes.other_points << " other points, " << outcomes.same_points
+            << " the same points\n";
+  if (points >= kLongChunk) EXPECT_GE(outcomes.refused, flips * 97 / 100);
 }
 
 // A flipped bit of the table is refused, or the chunks that it states cannot be decoded, or it changes nothing.
@@ -106,15 +102,14 @@ TEST_P(LazDamage, OfTheChunkTableChangesNoPoint) {
     if (!parts.ok()) continue;
     EXPECT_TRUE(parts->points == truth->points) << "bit " << bit - 8 * table_.begin;
   }
-  std::cout << GetParam() << ": of " << refused + harmless << " flips in the table " << refused
-            << " refused, " << harmless << " harmless\n";
+  std::cout << GetParam() << ": of " << refused + harmless << " flips in the table " << refused << " refused, "
+            << harmless << " harmless\n";
   EXPECT_GT(refused, harmless);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, LazDamage,
                          ::testing::Values("1815.laz", "extrabytes.laz", "plane.laz", "point10.las.laz",
-                                           "autzen_trim.laz", "1_4_w_evlr.laz", "append-bug.laz",
-                                           "simple.copc.laz"),
+                                           "autzen_trim.laz", "1_4_w_evlr.laz", "append-bug.laz", "simple.copc.laz"),
                          [](const auto& sample) {
                            std::string name = sample.param;
                            std::ranges::replace_if(

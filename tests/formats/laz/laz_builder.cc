@@ -11,8 +11,8 @@ namespace albtpu::testing {
 
 LazParts CompressPoints(int point_format, std::size_t record_length, const std::string& records,
                         const std::vector<std::size_t>& chunk_points) {
-  const bool constant = std::adjacent_find(chunk_points.begin(), chunk_points.end(), std::not_equal_to<>()) ==
-                        chunk_points.end();
+  const bool constant =
+      std::adjacent_find(chunk_points.begin(), chunk_points.end(), std::not_equal_to<>()) == chunk_points.end();
   LazParts parts;
   parts.record = laz::RecordFor(point_format, record_length,
                                 !constant              ? laz::kVariableChunks

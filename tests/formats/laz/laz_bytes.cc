@@ -19,16 +19,14 @@ void Put(std::string& bytes, std::size_t offset, Number number) {
 }
 
 // Where the specification has the fields of the header.
-constexpr std::size_t kVersionMinor = 25, kHeaderSize = 94, kOffsetToPoints = 96, kVlrCount = 100,
-                      kPointFormat = 104, kRecordLength = 105, kLegacyCount = 107, kWaveforms = 227,
-                      kEvlrs = 235, kEvlrCount = 243, kPointCount = 247;
+constexpr std::size_t kVersionMinor = 25, kHeaderSize = 94, kOffsetToPoints = 96, kVlrCount = 100, kPointFormat = 104,
+                      kRecordLength = 105, kLegacyCount = 107, kWaveforms = 227, kEvlrs = 235, kEvlrCount = 243,
+                      kPointCount = 247;
 constexpr std::size_t kVlrHeader = 54;
 
 int VersionMinor(std::string_view header) { return Load<std::uint8_t>(header, kVersionMinor); }
 
-bool IsCompressed(std::string_view header) {
-  return Load<std::uint8_t>(header, kPointFormat) & laz::kCompressedFlag;
-}
+bool IsCompressed(std::string_view header) { return Load<std::uint8_t>(header, kPointFormat) & laz::kCompressedFlag; }
 
 // Takes the VLRs over, all but the LASzip record, whose data it gives: empty if there is none.
 std::string TakeVlrs(std::string_view file, LasParts& parts) {
@@ -84,8 +82,7 @@ void FindInTail(std::uint64_t tail_begin, LasParts& parts) {
     return offset - tail_begin;
   };
   if (VersionMinor(parts.header) >= 3) parts.waveforms = find(kWaveforms);
-  if (VersionMinor(parts.header) >= 4 && Load<std::uint32_t>(parts.header, kEvlrCount) > 0)
-    parts.evlrs = find(kEvlrs);
+  if (VersionMinor(parts.header) >= 4 && Load<std::uint32_t>(parts.header, kEvlrCount) > 0) parts.evlrs = find(kEvlrs);
 }
 
 // The header and all else before points that begin there.
@@ -94,8 +91,7 @@ std::string Head(const LasParts& parts, bool compressed, const std::string& lasz
   const std::size_t begin = header.size() + parts.vlrs.size() + laszip_vlr.size() + parts.gap.size();
   Put(header, kOffsetToPoints, static_cast<std::uint32_t>(begin));
   Put(header, kVlrCount, parts.vlr_count + (compressed ? 1 : 0));
-  Put(header, kPointFormat,
-      static_cast<std::uint8_t>(parts.point_format() | (compressed ? laz::kCompressedFlag : 0)));
+  Put(header, kPointFormat, static_cast<std::uint8_t>(parts.point_format() | (compressed ? laz::kCompressedFlag : 0)));
   return header + parts.vlrs + laszip_vlr + parts.gap;
 }
 

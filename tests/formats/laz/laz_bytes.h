@@ -38,8 +38,7 @@ enum class TableForm {
 };
 
 struct LazForm {
-  std::uint32_t chunk_size =
-      laz::kCommonChunkSize;  // Points; kVariableChunks: some of few points, some of many.
+  std::uint32_t chunk_size = laz::kCommonChunkSize;  // Points; kVariableChunks: some of few points, some of many.
   TableForm table = TableForm::kInFront;
 };
 

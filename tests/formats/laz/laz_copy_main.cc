@@ -55,8 +55,7 @@ int main(int argc, char** argv) {
   } else {
     const char* end = chunk_size.data() + chunk_size.size();
     if (std::from_chars(chunk_size.data(), end, form.chunk_size).ptr != end || form.chunk_size == 0) {
-      std::fprintf(stderr, "--chunk-size is %s (expected a number above 0, or variable)\n",
-                   chunk_size.c_str());
+      std::fprintf(stderr, "--chunk-size is %s (expected a number above 0, or variable)\n", chunk_size.c_str());
       return 2;
     }
   }

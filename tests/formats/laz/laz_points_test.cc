@@ -61,23 +61,20 @@ struct File {
 
 File InChunksOf(std::uint32_t size, const std::string& records) {
   std::vector<std::size_t> sizes;
-  for (std::size_t left = records.size() / kLength; left > 0; left -= sizes.back()) {
+  for (std::size_t left = records.size() / kLength; left > 0; left -= sizes.back())
     sizes.push_back(std::min<std::size_t>(size, left));
-  }
   return File(records, sizes, size);
 }
 
 // Reads to the end in pieces of `points`.
-absl::StatusOr<std::string> ReadAll(const ByteSource& source, const LazExtent& extent, int threads,
-                                    std::size_t points, std::uint64_t* end = nullptr,
-                                    std::uint64_t* tail_end = nullptr) {
+absl::StatusOr<std::string> ReadAll(const ByteSource& source, const LazExtent& extent, int threads, std::size_t points,
+                                    std::uint64_t* end = nullptr, std::uint64_t* tail_end = nullptr) {
   const absl::StatusOr<std::unique_ptr<LazPoints>> reader = LazPoints::Open(source, extent, threads);
   if (!reader.ok()) return reader.status();
   std::string records(extent.point_count * kLength, '\0');
   for (std::size_t at = 0; at < records.size();) {
     const std::size_t size = std::min(points * kLength, records.size() - at);
-    if (absl::Status status = (*reader)->Read(std::span(records).subspan(at, size)); !status.ok())
-      return status;
+    if (absl::Status status = (*reader)->Read(std::span(records).subspan(at, size)); !status.ok()) return status;
     at += size;
   }
   if (end != nullptr) *end = (*reader)->end();
@@ -105,8 +102,7 @@ TEST(LazPoints, ReadsChunksOfMoreThanABatchAheadInBatches) {
   for (const std::uint32_t size : {420'000u, 130'000u}) {
     const File file = InChunksOf(size, records);
     for (const int threads : {1, 2, 5}) {
-      const absl::StatusOr<std::string> read =
-          ReadAll(MemorySource(file.bytes), file.extent, threads, 70'001);
+      const absl::StatusOr<std::string> read = ReadAll(MemorySource(file.bytes), file.extent, threads, 70'001);
       EXPECT_TRUE(*read == records);
     }
   }
@@ -158,10 +154,8 @@ TEST(LazPoints, ReportsTheFirstFailureOfTheFile) {
       EXPECT_TRUE((*reader)->Read(std::span(read).first(sound)).ok());
       EXPECT_EQ(read.substr(0, sound), records.substr(0, sound));
       const std::string expected = "chunk " + std::to_string(broken + 1) + " of 20: a broken disk";
-      for (int i = 0; i < 2; ++i) {  // Reading does not go on.
-        EXPECT_THAT(std::string((*reader)->Read(std::span(read).subspan(sound)).message()),
-                    HasSubstr(expected));
-      }
+      for (int i = 0; i < 2; ++i)  // Reading does not go on.
+        EXPECT_THAT(std::string((*reader)->Read(std::span(read).subspan(sound)).message()), HasSubstr(expected));
     }
   }
 }
@@ -209,7 +203,7 @@ TEST(LazPoints, DecodesNoFurtherAheadThanTwoBatchesAThread) {
   const File file = InChunksOf(50, Records(5000));
   const CountingSource source(file.bytes);
   std::uint64_t most = file.bytes.size() - file.table + 2 * kTableOffsetSize + 16;  // The table.
-  for (std::size_t i = 0; i < 1 + 2 * 2 + 2; ++i) most += file.chunks[i].bytes;  // And two chunks were begun.
+  for (std::size_t i = 0; i < 1 + 2 * 2 + 2; ++i) most += file.chunks[i].bytes;     // And two chunks were begun.
   {
     const absl::StatusOr<std::unique_ptr<LazPoints>> reader = LazPoints::Open(source, file.extent, 2);
     std::string read(kLength, '\0');

@@ -14,9 +14,8 @@ std::string SampleBytes(const std::string& name) {
   std::string bytes;
   if (!file) return bytes;
   std::vector<char> piece(1 << 20);
-  for (int size = 0; (size = gzread(file.get(), piece.data(), 1 << 20)) > 0;) {
+  for (int size = 0; (size = gzread(file.get(), piece.data(), 1 << 20)) > 0;)
     bytes.append(piece.data(), static_cast<std::size_t>(size));
-  }
   return bytes;
 }
 

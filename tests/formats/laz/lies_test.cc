@@ -34,22 +34,18 @@ std::string Records(int point_format, int count) {
   testing::LasSpec spec;
   spec.point_format = point_format;
   spec.extra_bytes = 2;
-  for (int i = 0; i < count; ++i)
-    spec.points.push_back({.x = 30 * i, .y = i * i, .z = i % 5, .gps_time = i / 2 * 0.1});
+  for (int i = 0; i < count; ++i) spec.points.push_back({.x = 30 * i, .y = i * i, .z = i % 5, .gps_time = i / 2 * 0.1});
   const std::string file = testing::BuildLas(spec);
   return file.substr(file.size() - static_cast<std::size_t>(count) * (testing::PointSize(point_format) + 2));
 }
 
 // 40 points in chunks of 10, or of any number.
 LazParts Truth(int point_format, bool variable) {
-  return testing::CompressPoints(
-      point_format, testing::PointSize(point_format) + 2, Records(point_format, 40),
-      variable ? std::vector<std::size_t>{10, 5, 20, 5} : std::vector<std::size_t>(4, 10));
+  return testing::CompressPoints(point_format, testing::PointSize(point_format) + 2, Records(point_format, 40),
+                                 variable ? std::vector<std::size_t>{10, 5, 20, 5} : std::vector<std::size_t>(4, 10));
 }
 
-std::string File(const LazParts& parts) {
-  return std::string(kBegin, '\0') + testing::PointsSection(parts, kBegin);
-}
+std::string File(const LazParts& parts) { return std::string(kBegin, '\0') + testing::PointsSection(parts, kBegin); }
 
 absl::Status ReadAll(const std::string& file, const LazExtent& extent, std::string* records = nullptr) {
   const MemorySource source(file);
@@ -68,10 +64,8 @@ absl::Status ReadAll(const std::string& file, const LazExtent& extent, std::stri
 }
 
 LazExtent Extent(const LazParts& parts, const std::string& file) {
-  return {.record = parts.record,
-          .points_begin = kBegin,
-          .point_count = parts.point_count(),
-          .points_end = file.size()};
+  return {
+      .record = parts.record, .points_begin = kBegin, .point_count = parts.point_count(), .points_end = file.size()};
 }
 
 struct Kind {
@@ -133,9 +127,9 @@ TEST_P(Lies, AreNotInTheTruth) {
 }
 
 TEST_P(Lies, OfTheOffsetOfTheTableAreNoticed) {
-  for (const std::uint64_t offset : {std::uint64_t{1}, kBegin - 1, kBegin + 1, kBegin + 7, kBegin + 8,
-                                     table_ - 1, table_ + 1, file_.size() - 7, file_.size() - 1, file_.size(),
-                                     file_.size() + 1, std::uint64_t{1} << 63, ~std::uint64_t{1}}) {
+  for (const std::uint64_t offset :
+       {std::uint64_t{1}, kBegin - 1, kBegin + 1, kBegin + 7, kBegin + 8, table_ - 1, table_ + 1, file_.size() - 7,
+        file_.size() - 1, file_.size(), file_.size() + 1, std::uint64_t{1} << 63, ~std::uint64_t{1}}) {
     SCOPED_TRACE(offset);
     SetTableOffset(offset);
     EXPECT_THAT(Message(), HasSubstr("chunk"));
@@ -288,8 +282,7 @@ std::string Name(const ::testing::TestParamInfo<Kind>& info) {
   return "Format" + std::to_string(info.param.point_format) + (info.param.variable ? "AnyLength" : "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Lies, Values(Kind{1, false}, Kind{3, true}, Kind{6, false}, Kind{8, true}),
-                         Name);
+INSTANTIATE_TEST_SUITE_P(Files, Lies, Values(Kind{1, false}, Kind{3, true}, Kind{6, false}, Kind{8, true}), Name);
 
 }  // namespace
 }  // namespace albtpu::laz

@@ -17,9 +17,8 @@ void Append(Number number, std::string& bytes) {
 void AppendByte(std::uint32_t byte, std::string& bytes) { bytes.push_back(static_cast<char>(byte)); }
 
 void AppendLegacyCore(const PointFields& point, std::string& bytes) {
-  AppendByte(
-      (point.return_number & 7) | (point.return_count & 7) << 3 | point.scan_direction << 6 | point.edge << 7,
-      bytes);
+  AppendByte((point.return_number & 7) | (point.return_count & 7) << 3 | point.scan_direction << 6 | point.edge << 7,
+             bytes);
   AppendByte((point.classification & 31) | (point.flags & 7) << 5, bytes);
   AppendByte(static_cast<std::uint8_t>(std::lround(point.scan_angle * 0.006)), bytes);
   AppendByte(point.user_data, bytes);
@@ -28,8 +27,7 @@ void AppendLegacyCore(const PointFields& point, std::string& bytes) {
 
 void AppendCore(const PointFields& point, std::string& bytes) {
   AppendByte((point.return_number & 15) | (point.return_count & 15) << 4, bytes);
-  AppendByte((point.flags & 15) | (point.channel & 3) << 4 | point.scan_direction << 6 | point.edge << 7,
-             bytes);
+  AppendByte((point.flags & 15) | (point.channel & 3) << 4 | point.scan_direction << 6 | point.edge << 7, bytes);
   AppendByte(point.classification, bytes);
   AppendByte(point.user_data, bytes);
   Append(point.scan_angle, bytes);
@@ -57,8 +55,7 @@ void AppendFields(const PointFields& point, int point_format, std::string& recor
                           point_format == 8 || point_format == 10;
   const bool has_infrared = point_format == 8 || point_format == 10;
   for (int i = 0; i < (has_infrared ? 4 : has_colour ? 3 : 0); ++i) Append(point.colours[i], records);
-  const bool has_wave_packet =
-      point_format == 4 || point_format == 5 || point_format == 9 || point_format == 10;
+  const bool has_wave_packet = point_format == 4 || point_format == 5 || point_format == 9 || point_format == 10;
   if (has_wave_packet) AppendWavePacket(point.wave_packet, records);
 }
 

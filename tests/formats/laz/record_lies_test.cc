@@ -23,9 +23,8 @@ constexpr std::size_t kChunkSize = 12, kItems = 34, kItemSize = 6;  // Offsets, 
 std::set<std::uint16_t> TellingNumbers() {
   std::set<std::uint16_t> numbers;
   for (std::uint16_t i = 0; i < 300; ++i) numbers.insert(i);
-  for (int bit = 8; bit < 16; ++bit) {
+  for (int bit = 8; bit < 16; ++bit)
     for (int by = -1; by <= 1; ++by) numbers.insert(static_cast<std::uint16_t>((1 << bit) + by));
-  }
   numbers.insert(0xFFFF);
   return numbers;
 }
@@ -88,8 +87,7 @@ TEST_P(RecordLies, ThatAreCutOrTooLongAreRefused) {
 
 TEST_P(RecordLies, OfOtherPointsAreRefused) {
   for (int point_format = 0; point_format <= 10; ++point_format) {
-    for (const std::size_t length :
-         {std::size_t{0}, length_ - 1, length_, length_ + 1, std::size_t{0xFFFF}}) {
+    for (const std::size_t length : {std::size_t{0}, length_ - 1, length_, length_ + 1, std::size_t{0xFFFF}}) {
       if (point_format == GetParam() && length == length_) continue;
       SCOPED_TRACE(::testing::Message() << "point format " << point_format << ", " << length << " bytes");
       EXPECT_FALSE(ParseLaszipRecord(data_, point_format, length).ok());
@@ -97,9 +95,8 @@ TEST_P(RecordLies, OfOtherPointsAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, RecordLies, ::testing::Range(0, 11), [](const auto& point_format) {
-  return "Format" + std::to_string(point_format.param);
-});
+INSTANTIATE_TEST_SUITE_P(Formats, RecordLies, ::testing::Range(0, 11),
+                         [](const auto& point_format) { return "Format" + std::to_string(point_format.param); });
 
 }  // namespace
 }  // namespace albtpu::laz

@@ -24,9 +24,7 @@ void ExpectComesBack(const LasParts& parts, const LazForm& form = {}) {
 
 class RoundTrip : public ::testing::TestWithParam<std::tuple<int, int>> {
  protected:
-  RecordLayout layout() const {
-    return {std::get<0>(GetParam()), static_cast<std::size_t>(std::get<1>(GetParam()))};
-  }
+  RecordLayout layout() const { return {std::get<0>(GetParam()), static_cast<std::size_t>(std::get<1>(GetParam()))}; }
 };
 
 TEST_P(RoundTrip, KeepsBusyPoints) {
@@ -60,8 +58,7 @@ TEST_P(RoundTrip, KeepsPointsWhereverTheTableIs) {
   ExpectComesBack(parts, {.chunk_size = 1000, .table = TableForm::kNone});
 }
 
-INSTANTIATE_TEST_SUITE_P(, RoundTrip,
-                         ::testing::Combine(::testing::Range(0, 11), ::testing::Values(0, 1, 4, 27)),
+INSTANTIATE_TEST_SUITE_P(, RoundTrip, ::testing::Combine(::testing::Range(0, 11), ::testing::Values(0, 1, 4, 27)),
                          [](const auto& parameter) {
                            return "Format" + std::to_string(std::get<0>(parameter.param)) + "And" +
                                   std::to_string(std::get<1>(parameter.param)) + "ExtraBytes";

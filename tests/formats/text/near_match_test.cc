@@ -19,9 +19,8 @@ TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
 }
 
 TEST(EditDistance, IsTheSameInBothDirections) {
-  for (const std::string& a : kCommands) {
+  for (const std::string& a : kCommands)
     for (const std::string& b : kCommands) EXPECT_EQ(EditDistance(a, b), EditDistance(b, a)) << a << " " << b;
-  }
 }
 
 TEST(NearMatch, FindsAMisspeltWord) {

@@ -64,8 +64,7 @@ void ExpectLine(const AsciiTrajectory& trajectory, std::size_t record, const Fli
   EXPECT_FLOAT_EQ(static_cast<float>(sigma.down), static_cast<float>(line.sigma_z));
   EXPECT_FLOAT_EQ(static_cast<float>(sigma.roll), static_cast<float>(RadiansOfDegrees(line.sigma_roll)));
   EXPECT_FLOAT_EQ(static_cast<float>(sigma.pitch), static_cast<float>(RadiansOfDegrees(line.sigma_pitch)));
-  EXPECT_FLOAT_EQ(static_cast<float>(sigma.heading),
-                  static_cast<float>(RadiansOfDegrees(line.sigma_heading)));
+  EXPECT_FLOAT_EQ(static_cast<float>(sigma.heading), static_cast<float>(RadiansOfDegrees(line.sigma_heading)));
   EXPECT_NEAR(trajectory.GridPositionAt(record)->x, line.x, 1e-9);  // A double of 540000 is off by 6e-11.
   EXPECT_NEAR(trajectory.GridPositionAt(record)->y, line.y, 1e-9);
 }
@@ -121,9 +120,7 @@ TEST(AsciiTrajectory, TakesBlanksTabsAndCommas) {
 
 TEST(AsciiTrajectory, SkipsAHeaderThatAgreesWithTheColumns) {
   EXPECT_EQ(
-      Read(FlightText(
-               {.header =
-                    "time lon lat X Y Z roll pitch heading stdX stdY stdZ stdroll stdpitch stdheading\n"}))
+      Read(FlightText({.header = "time lon lat X Y Z roll pitch heading stdX stdY stdZ stdroll stdpitch stdheading\n"}))
           ->size(),
       200u);
   EXPECT_EQ(Read(FlightText({.header = "# a flight\n\n# of May\n"}))->size(), 200u);
@@ -137,16 +134,13 @@ TEST(AsciiTrajectory, RefusesAHeaderThatContradictsTheColumns) {
   EXPECT_THAT(ErrorOf(FlightText({.columns = 20, .header = arc_minutes})),
               HasSubstr("units other than 'orientation angles and SD in Degrees'"));
   const std::string omega = absl::StrReplaceAll(kExportHeader, {{"ROLL, PITCH", "PITCH, ROLL"}});
-  EXPECT_THAT(ErrorOf(FlightText({.columns = 20, .header = omega})),
-              HasSubstr("column 9 is 'pitch', not roll"));
+  EXPECT_THAT(ErrorOf(FlightText({.columns = 20, .header = omega})), HasSubstr("column 9 is 'pitch', not roll"));
 }
 
 TEST(AsciiTrajectory, NamesLineAndColumn) {
   const std::string text = FlightText({.header = "a flight\n"});
-  EXPECT_THAT(ErrorOf(WithLine(text, 4, "1 2 3")),
-              HasSubstr("flight.txt line 4: ends after 3 of 15 columns"));
-  EXPECT_THAT(ErrorOf(text + "x\n"),
-              HasSubstr("flight.txt line 202, column 1 'time': 'x' is not a finite number"));
+  EXPECT_THAT(ErrorOf(WithLine(text, 4, "1 2 3")), HasSubstr("flight.txt line 4: ends after 3 of 15 columns"));
+  EXPECT_THAT(ErrorOf(text + "x\n"), HasSubstr("flight.txt line 202, column 1 'time': 'x' is not a finite number"));
   const std::string line = "313200.5 -80.6 25.1 5 6 400 1 2 345 1 1 1 1 1 1";
   const auto with = [&](const char* from, const char* to) {
     return ErrorOf(WithLine(text, 27, absl::StrReplaceAll(line, {{from, to}})));
@@ -157,14 +151,12 @@ TEST(AsciiTrajectory, NamesLineAndColumn) {
   EXPECT_THAT(with("400", "1e999"), HasSubstr("'1e999' is not a finite number"));
   EXPECT_THAT(with("400", "0x1p3"), HasSubstr("'0x1p3' is not a finite number"));
   EXPECT_THAT(with("400", "99999"), HasSubstr("column 6 'Z': 99999 m is outside -1000 to 30000"));
-  EXPECT_THAT(with("25.1", "125.1"),
-              HasSubstr("column 3 'latitude': 125.1 degree is outside -90 to 90; exchange"));
+  EXPECT_THAT(with("25.1", "125.1"), HasSubstr("column 3 'latitude': 125.1 degree is outside -90 to 90; exchange"));
   EXPECT_THAT(with("345 1", "345 -1"), HasSubstr("column 10 'sigma X': -1 m is outside 0 to"));
   EXPECT_THAT(with("400", "400 9"), HasSubstr("line 27: has 16 columns, not 15"));
   EXPECT_THAT(with(" 400", ",,400"), HasSubstr("column 6 'Z': '' is not a finite number"));
-  EXPECT_THAT(
-      with("313200.5", "313200.1"),
-      HasSubstr("line 27, column 1 'time': 313200.100000 s follows 313200.480000 s: times must increase"));
+  EXPECT_THAT(with("313200.5", "313200.1"),
+              HasSubstr("line 27, column 1 'time': 313200.100000 s follows 313200.480000 s: times must increase"));
 }
 
 TEST(AsciiTrajectory, RefusesWhatIsNoTrajectory) {
@@ -201,10 +193,9 @@ TEST(AsciiTrajectory, HasNoGridPositionOrSigmaWhereAllAreZero) {
 }
 
 TEST(AsciiTrajectory, CrossesTheLongitudeOf180Degrees) {
-  const auto trajectory =
-      Read(FlightText({.longitude = 179.9999, .course = 90, .change = [](FlightLine& line) {
-                         if (line.longitude > 180) line.longitude -= 360;
-                       }}));
+  const auto trajectory = Read(FlightText({.longitude = 179.9999, .course = 90, .change = [](FlightLine& line) {
+                                             if (line.longitude > 180) line.longitude -= 360;
+                                           }}));
   EXPECT_LT(trajectory->Record(199).longitude, 0);
   EXPECT_NEAR(Read(FlightText({.longitude = 279.4}))->Record(0).longitude, RadiansOfDegrees(-80.6), kPrinted);
 }
@@ -212,18 +203,15 @@ TEST(AsciiTrajectory, CrossesTheLongitudeOf180Degrees) {
 TEST(AsciiTrajectory, IsReadFromAFile) {
   const TemporaryFolder folder;
   EXPECT_EQ((*AsciiTrajectory::Open(folder.Write("flight.txt", FlightText({}))))->size(), 200u);
-  EXPECT_THAT(std::string(AsciiTrajectory::Open(folder / "no").status().message()),
-              HasSubstr("No such file"));
+  EXPECT_THAT(std::string(AsciiTrajectory::Open(folder / "no").status().message()), HasSubstr("No such file"));
   EXPECT_THAT(std::string(AsciiTrajectory::Open(folder.path()).status().message()), HasSubstr("is a folder"));
 }
 
 TEST(AsciiMotion, TakesAFlightInEveryDirection) {
   for (int course = 0; course < 360; course += 5) {
     SCOPED_TRACE(course);
-    for (const std::size_t columns : {15, 20}) {
-      Read(FlightText(
-          {.latitude = -35, .course = static_cast<double>(course), .speed = 70, .columns = columns}));
-    }
+    for (const std::size_t columns : {15, 20})
+      Read(FlightText({.latitude = -35, .course = static_cast<double>(course), .speed = 70, .columns = columns}));
   }
 }
 
@@ -246,14 +234,12 @@ TEST(AsciiMotion, NamesRadians) {
               }),
               HasSubstr("flight.txt: latitude and longitude are in radians; write degrees"));
   EXPECT_THAT(ErrorOf(FlightText(
-                  {.course = 200,
-                   .change = [](FlightLine& line) { line.heading = RadiansOfDegrees(line.heading); }})),
+                  {.course = 200, .change = [](FlightLine& line) { line.heading = RadiansOfDegrees(line.heading); }})),
               HasSubstr("headings are in radians; write degrees"));
 }
 
 TEST(AsciiMotion, NamesExchangedXAndY) {
-  EXPECT_THAT(ErrorAfter([](FlightLine& line) { std::swap(line.x, line.y); }),
-              HasSubstr("X and Y are exchanged"));
+  EXPECT_THAT(ErrorAfter([](FlightLine& line) { std::swap(line.x, line.y); }), HasSubstr("X and Y are exchanged"));
 }
 
 TEST(AsciiMotion, NamesAForeignHeading) {
@@ -269,9 +255,8 @@ TEST(AsciiMotion, NamesAnImpossibleSpeed) {
 }
 
 TEST(AsciiMotion, NamesVelocitiesThatDisagree) {
-  EXPECT_THAT(
-      ErrorOf(FlightText({.columns = 20, .change = [](FlightLine& line) { line.velocity_east += 2; }})),
-      HasSubstr("its velocities differ from differences of its positions by 2.0 m/s rms"));
+  EXPECT_THAT(ErrorOf(FlightText({.columns = 20, .change = [](FlightLine& line) { line.velocity_east += 2; }})),
+              HasSubstr("its velocities differ from differences of its positions by 2.0 m/s rms"));
 }
 
 TEST(AsciiMotion, LetsAnAircraftWaitOnTheGround) {

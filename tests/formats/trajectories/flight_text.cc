@@ -42,16 +42,13 @@ std::string FlightText(const FlightSpec& spec) {
   for (std::size_t i = 0; i < spec.lines; ++i) {
     FlightLine l = LineOf(spec, i);
     spec.change(l);
-    std::vector<double> values = {l.time,   l.longitude, l.latitude, l.x,      l.y,
-                                  l.height, l.roll,      l.pitch,    l.heading};
+    std::vector<double> values = {l.time, l.longitude, l.latitude, l.x, l.y, l.height, l.roll, l.pitch, l.heading};
     if (spec.columns == 20) {
       values = {l.time,   0,      l.x,     l.y,       l.height - 1,    l.latitude,       l.longitude,
                 l.height, l.roll, l.pitch, l.heading, l.velocity_east, l.velocity_north, l.velocity_up};
     }
-    for (const double sigma :
-         {l.sigma_x, l.sigma_y, l.sigma_z, l.sigma_roll, l.sigma_pitch, l.sigma_heading}) {
+    for (const double sigma : {l.sigma_x, l.sigma_y, l.sigma_z, l.sigma_roll, l.sigma_pitch, l.sigma_heading})
       values.push_back(sigma);
-    }
     std::vector<std::string> cells;
     for (const double value : values) cells.push_back(absl::StrFormat("%.*f", spec.decimals, value));
     absl::StrAppend(&text, absl::StrJoin(cells, spec.separator), "\n");
@@ -73,9 +70,9 @@ std::string SbetBytes(const FlightSpec& spec) {
     spec.change(l);
     const double x = l.velocity_north * std::cos(kWander) - l.velocity_east * std::sin(kWander);
     const double y = -l.velocity_north * std::sin(kWander) - l.velocity_east * std::cos(kWander);
-    bytes += Bytes({l.time, RadiansOfDegrees(l.latitude), RadiansOfDegrees(l.longitude), l.height, x, y,
-                    l.velocity_up, RadiansOfDegrees(l.roll), RadiansOfDegrees(l.pitch),
-                    RadiansOfDegrees(l.heading) + kWander, kWander, 0, 0, -9.8, 0, 0, 0});
+    bytes += Bytes({l.time, RadiansOfDegrees(l.latitude), RadiansOfDegrees(l.longitude), l.height, x, y, l.velocity_up,
+                    RadiansOfDegrees(l.roll), RadiansOfDegrees(l.pitch), RadiansOfDegrees(l.heading) + kWander, kWander,
+                    0, 0, -9.8, 0, 0, 0});
   }
   return bytes;
 }
@@ -84,9 +81,7 @@ std::string SmrmsgBytes(double start, std::size_t records) {
   std::string bytes;
   for (std::size_t i = 0; i < records; ++i) {
     bytes += Bytes({start + static_cast<double>(i)});
-    for (int field = 1; field < 10; ++field) {
-      bytes += Bytes({0.01 * (field + 1) * (1 + static_cast<double>(i) / 10)});
-    }
+    for (int field = 1; field < 10; ++field) bytes += Bytes({0.01 * (field + 1) * (1 + static_cast<double>(i) / 10)});
   }
   return bytes;
 }

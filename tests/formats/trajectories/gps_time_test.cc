@@ -15,9 +15,8 @@ TEST(GpsTime, IsAheadOfUtcByTheLeapSeconds) {
 
 // Every 11 hours and some seconds until 2040: both directions, by the calendar of the standard library.
 TEST(GpsTime, AndItsTextAreTheSameInstant) {
-  for (double time = 0; time < 60 * 365.25 * 86400; time += 40001) {
+  for (double time = 0; time < 60 * 365.25 * 86400; time += 40001)
     ASSERT_EQ(ParseUtc(UtcText(time)), time) << UtcText(time);
-  }
 }
 
 TEST(GpsTime, WritesALeapSecondAsTheSecondAfterIt) {

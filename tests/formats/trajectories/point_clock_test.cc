@@ -18,8 +18,7 @@ double Gps(const char* text) { return ParseUtc(text).value(); }
 TimeSpan Span(const char* first, const char* last) { return {Utc(first), Utc(last)}; }
 
 PointTimes Adjusted(const char* first, const char* last) {
-  return {{Gps(first) - kAdjustedGpsOffset, Gps(last) - kAdjustedGpsOffset},
-          PointTimeForm::kAdjustedStandard};
+  return {{Gps(first) - kAdjustedGpsOffset, Gps(last) - kAdjustedGpsOffset}, PointTimeForm::kAdjustedStandard};
 }
 
 PointTimes OfWeek(double first, double last) { return {{first, last}, PointTimeForm::kWeekSeconds}; }
@@ -42,13 +41,11 @@ TEST(UtcOfPoints, TakesLeapSecondsAwayFromStandardTimes) {
 TEST(UtcOfPoints, FindsTheWeekThatSecondsOfTheWeekLeaveOpen) {
   // 2020-06-08 is a Monday; the week began on the 7th. UTC is 18 s behind GPS.
   const double offset =
-      UtcOffset("in.las", OfWeek(86418, 90018), Span("2020-06-07T12:00Z", "2020-06-09T12:00Z"), "sea.csv")
-          .value();
+      UtcOffset("in.las", OfWeek(86418, 90018), Span("2020-06-07T12:00Z", "2020-06-09T12:00Z"), "sea.csv").value();
   EXPECT_EQ(offset + 86418, Utc("2020-06-08T00:00:00Z"));
   // A series from one week into the next that has the points of only one.
   EXPECT_EQ(
-      UtcOffset("in.las", OfWeek(86418, 90018), Span("2020-06-03T00:00Z", "2020-06-09T12:00Z"), "sea.csv")
-          .value(),
+      UtcOffset("in.las", OfWeek(86418, 90018), Span("2020-06-03T00:00Z", "2020-06-09T12:00Z"), "sea.csv").value(),
       offset);
 }
 
@@ -57,8 +54,7 @@ TEST(UtcOfPoints, AreNotGuessed) {
               HasSubstr("the sea has more than one week of them"));
   EXPECT_THAT(ErrorOf(OfWeek(10, 604790), Span("2020-06-07T12:00Z", "2020-06-09T12:00Z")),
               HasSubstr("they begin again from 0"));
-  EXPECT_THAT(ErrorOf(OfWeek(0, 0), Span("2020-06-07T12:00Z", "2020-06-09T12:00Z")),
-              HasSubstr("are no times"));
+  EXPECT_THAT(ErrorOf(OfWeek(0, 0), Span("2020-06-07T12:00Z", "2020-06-09T12:00Z")), HasSubstr("are no times"));
 }
 
 TEST(UtcOfPoints, LieOutsideOfWhatIsKnown) {

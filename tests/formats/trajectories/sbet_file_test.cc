@@ -25,9 +25,7 @@ class SbetFileTest : public ::testing::Test {
   absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::string& bytes) {
     return SbetFile::Open(folder_.Write(std::to_string(++files_) + ".sbet", bytes));
   }
-  absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::vector<SbetRow>& rows) {
-    return Open(SbetBytes(rows));
-  }
+  absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::vector<SbetRow>& rows) { return Open(SbetBytes(rows)); }
   std::string Refusal(const std::string& bytes) { return std::string(Open(bytes).status().message()); }
   std::string Refusal(const std::vector<SbetRow>& rows) { return Refusal(SbetBytes(rows)); }
   std::string RefusalOf(const std::function<void(SbetRow&)>& mistake) {
@@ -65,8 +63,7 @@ TEST_F(SbetFileTest, StatesVelocitiesThatAgreeWithPositions) {
 
 TEST_F(SbetFileTest, AcceptsTheEndOfTheWeek) {
   const std::vector<SbetRow> beyond = Fly({.start = 604770});
-  const auto restarted =
-      Open(Changed(beyond, [](SbetRow& row) { row[kTime] -= row[kTime] >= 604800 ? 604800 : 0; }));
+  const auto restarted = Open(Changed(beyond, [](SbetRow& row) { row[kTime] -= row[kTime] >= 604800 ? 604800 : 0; }));
   const auto continued = Open(beyond);
   for (const std::size_t i : {0, 5999, 6000, 6001, 12000}) {
     EXPECT_DOUBLE_EQ((*restarted)->TimeAt(i), (*continued)->TimeAt(i)) << i;
@@ -93,8 +90,7 @@ TEST_F(SbetFileTest, AcceptsFlightsOfEveryKind) {
     EXPECT_TRUE(file.ok()) << name << ": " << file.status();
   }
   // Longitudes from 0 to 360 degrees.
-  EXPECT_TRUE(
-      Open(Changed(Fly(Flight()), [](SbetRow& row) { row[kLongitude] += 2 * std::numbers::pi; })).ok());
+  EXPECT_TRUE(Open(Changed(Fly(Flight()), [](SbetRow& row) { row[kLongitude] += 2 * std::numbers::pi; })).ok());
   // Crab of 17 degrees on the way out and of -17 degrees on the way back.
   std::vector<SbetRow> rows = Fly({.course = 0, .crab = 17});
   for (const SbetRow& row : Fly({.start = 300100, .course = 180, .crab = -17})) rows.push_back(row);
@@ -111,14 +107,12 @@ TEST_F(SbetFileTest, RefusesDamagedFiles) {
   const std::vector<SbetRow> rows = Fly({.duration = 1});
   EXPECT_THAT(Refusal(""), HasSubstr("has 0 records, but a trajectory needs 2 or more"));
   EXPECT_THAT(Refusal(SbetBytes({rows[0]})), HasSubstr("has 1 record, but"));
-  EXPECT_THAT(Refusal(SbetBytes(rows).substr(0, 1000)),
-              HasSubstr("1000 bytes, which is not a multiple of 136"));
+  EXPECT_THAT(Refusal(SbetBytes(rows).substr(0, 1000)), HasSubstr("1000 bytes, which is not a multiple of 136"));
   EXPECT_THAT(Refusal(std::string(3 * 80, '\1')), HasSubstr("its size fits an SMRMSG"));
   EXPECT_FALSE(SbetFile::Open(folder_ / "absent").ok());
   EXPECT_FALSE(SbetFile::Open(folder_.path()).ok());
   for (int field = 0; field < kSbetFields; ++field) {
-    for (const double number :
-         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       std::vector<SbetRow> damaged = rows;
       damaged[100][static_cast<std::size_t>(field)] = number;
       EXPECT_THAT(Refusal(damaged), HasSubstr("record 101 of 201 has a number that is not finite")) << field;
@@ -135,8 +129,7 @@ TEST_F(SbetFileTest, RefusesDamagedFiles) {
   EXPECT_THAT(with(kHeight, 1e6), HasSubstr("height 1e+06 m"));
   EXPECT_THAT(with(kRoll, 2), HasSubstr("roll"));
   EXPECT_THAT(with(kPitch, -2), HasSubstr("pitch"));
-  EXPECT_THAT(with(kTime, 300000),
-              HasSubstr("record 101 of 201 is at 300000.000000 s, not after the one before"));
+  EXPECT_THAT(with(kTime, 300000), HasSubstr("record 101 of 201 is at 300000.000000 s, not after the one before"));
   std::vector<SbetRow> disordered = rows;
   std::swap(disordered[50], disordered[51]);
   EXPECT_THAT(Refusal(disordered), HasSubstr("times must increase"));
@@ -175,8 +168,7 @@ TEST_F(SbetFileTest, NamesExchangedCoordinates) {
 TEST_F(SbetFileTest, NamesAWanderAngleThatWasLost) {
   EXPECT_THAT(RefusalOf([](SbetRow& row) { row[kWander] = 0; }), HasSubstr("turned by -20.0 degrees"));
   EXPECT_THAT(RefusalOf([](SbetRow& row) { row[kWander] = -row[kWander]; }), HasSubstr("wrong sign"));
-  EXPECT_THAT(RefusalOf([](SbetRow& row) { row[kWander] /= kDegree; }),
-              HasSubstr("wander angle is in degrees"));
+  EXPECT_THAT(RefusalOf([](SbetRow& row) { row[kWander] /= kDegree; }), HasSubstr("wander angle is in degrees"));
   EXPECT_THAT(Refusal(Changed(Fly({.wander = 0}), [](SbetRow& row) { row[kWander] = 20 * kDegree; })),
               HasSubstr("along north and west already"));
 }

@@ -25,10 +25,9 @@ SbetRow RowAt(const Flight& flight, double time) {
   const double aside_rate = flight.weave * omega * std::cos(omega * time);
   const double climb_omega = 2 * kPi / 20;
 
-  const double latitude =
-      latitude_0 + per_north * (flight.speed * time * std::cos(course) - aside * std::sin(course));
-  const double longitude = flight.longitude * kDegree +
-                           per_east * (flight.speed * time * std::sin(course) + aside * std::cos(course));
+  const double latitude = latitude_0 + per_north * (flight.speed * time * std::cos(course) - aside * std::sin(course));
+  const double longitude =
+      flight.longitude * kDegree + per_east * (flight.speed * time * std::sin(course) + aside * std::cos(course));
   const double height = flight.height + flight.climb * std::sin(climb_omega * time);
   const double latitude_rate = per_north * (flight.speed * std::cos(course) - aside_rate * std::sin(course));
   const double longitude_rate = per_east * (flight.speed * std::sin(course) + aside_rate * std::cos(course));

@@ -78,8 +78,7 @@ TEST(Smrmsg, GoesOnWhereTheWeekEnds) {
 
 TEST(Smrmsg, RefusesWhatIsNoSmrmsg) {
   EXPECT_THAT(ErrorOf(""), HasSubstr("errors.out: is empty"));
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 3).substr(0, 3 * 80 - 1)),
-              HasSubstr("239 bytes are not a multiple of 80"));
+  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 3).substr(0, 3 * 80 - 1)), HasSubstr("239 bytes are not a multiple of 80"));
   EXPECT_THAT(ErrorOf(std::string(3 * 136, '\1')), HasSubstr("its size fits an SBET"));
   EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 3) + SmrmsgBytes(101, 1)),
               HasSubstr("record 4: time 101.000000 s follows 102.000000 s: times must increase"));
@@ -100,19 +99,16 @@ TEST(Smrmsg, IsReadFromAFile) {
   EXPECT_THAT(std::string(SmrmsgFile::Open(folder / "no").status().message()), HasSubstr("No such file"));
   EXPECT_THAT(std::string(SmrmsgFile::Open(folder.path()).status().message()),
               HasSubstr("is a folder; give an SMRMSG"));
-  EXPECT_THAT(std::string(SmrmsgFile::Open(folder.Write("empty", "")).status().message()),
-              HasSubstr("is empty"));
+  EXPECT_THAT(std::string(SmrmsgFile::Open(folder.Write("empty", "")).status().message()), HasSubstr("is empty"));
 }
 
 TEST(Smrmsg, IsToldFromOtherFormats) {
   EXPECT_TRUE(SmrmsgFile::Recognizes(SmrmsgBytes(100, 30)));
-  EXPECT_TRUE(SmrmsgFile::Recognizes(
-      SmrmsgBytes(100, 30).substr(0, 30 * 80 - 11)));  // To report that it is cut short.
+  EXPECT_TRUE(SmrmsgFile::Recognizes(SmrmsgBytes(100, 30).substr(0, 30 * 80 - 11)));  // To report that it is cut short.
   EXPECT_FALSE(SmrmsgFile::Recognizes(std::string(800, '1')));
   std::string sbet;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 20; ++i)
     sbet += Bytes({100 + i / 200.0, 0.43, -1.4, 400, 50, 1, 0, 0.01, 0.01, 1, 0.2, 0, 0, 0, 0, 0, 0});
-  }
   EXPECT_FALSE(SmrmsgFile::Recognizes(sbet));
 }
 

@@ -19,10 +19,9 @@ std::string Sbet() { return albtpu::testing::SbetBytes(albtpu::testing::Fly({.du
 
 TEST(TrajectorySet, LoadsTheTrajectoriesOfAFolderByName) {
   const albtpu::testing::TemporaryFolder folder;
-  for (const char* name : {"b.OUT", "a.sbet", "c.Sbt", "sbet_mission_2.out", "smrmsg_mission.out",
-                           "vnav_rms.out", "report.txt", "notes.pdf"}) {
+  for (const char* name : {"b.OUT", "a.sbet", "c.Sbt", "sbet_mission_2.out", "smrmsg_mission.out", "vnav_rms.out",
+                           "report.txt", "notes.pdf"})
     folder.Write(name, Sbet());
-  }
   const auto files = Load(folder.path());
   std::vector<std::string> names;
   for (const auto& file : *files) names.push_back(std::filesystem::path(file->name()).filename().string());

@@ -18,8 +18,7 @@ double Offset(TimeSpan trajectory, const PointTimes& points, TrajectoryClock clo
   EXPECT_TRUE(offset.ok()) << offset.status();
   return offset.value_or(-1);
 }
-std::string Refusal(TimeSpan trajectory, const PointTimes& points,
-                    TrajectoryClock clock = TrajectoryClock::kGps) {
+std::string Refusal(TimeSpan trajectory, const PointTimes& points, TrajectoryClock clock = TrajectoryClock::kGps) {
   return std::string(TimeOffset("flight.sbet", trajectory, clock, points).status().message());
 }
 
@@ -30,13 +29,10 @@ TEST(TrajectoryTime, OverlapIsNegativeBetweenIntervalsApart) {
 }
 
 TEST(TrajectoryTime, FindsTheWeekOfAdjustedTimes) {
-  EXPECT_EQ(Offset({300000, 310000}, Adjusted(kBeginOfWeek1896 + 305000, kBeginOfWeek1896 + 305100)),
-            kBeginOfWeek1896);
+  EXPECT_EQ(Offset({300000, 310000}, Adjusted(kBeginOfWeek1896 + 305000, kBeginOfWeek1896 + 305100)), kBeginOfWeek1896);
 }
 
-TEST(TrajectoryTime, TakesWeekSecondsAsTheyAre) {
-  EXPECT_EQ(Offset({300000, 310000}, WeekSeconds(305000, 305100)), 0);
-}
+TEST(TrajectoryTime, TakesWeekSecondsAsTheyAre) { EXPECT_EQ(Offset({300000, 310000}, WeekSeconds(305000, 305100)), 0); }
 
 TEST(TrajectoryTime, FollowsAFlightAcrossTheEndOfTheWeek) {
   const TimeSpan flight = {604000, 605500};
@@ -70,10 +66,10 @@ TEST(TrajectoryTime, AcceptsAbsoluteTimes) {
 }
 
 TEST(TrajectoryTime, NamesBothRangesAndAnotherFlight) {
-  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(kBeginOfWeek1896 + 405000, kBeginOfWeek1896 + 405100)),
-              ::testing::AllOf(HasSubstr("300000.0 to 310000.0 s"),
-                               HasSubstr("405000.0 to 405100.0 s of GPS week 1896 (2016-05-12)"),
-                               HasSubstr("another flight")));
+  EXPECT_THAT(
+      Refusal({300000, 310000}, Adjusted(kBeginOfWeek1896 + 405000, kBeginOfWeek1896 + 405100)),
+      ::testing::AllOf(HasSubstr("300000.0 to 310000.0 s"),
+                       HasSubstr("405000.0 to 405100.0 s of GPS week 1896 (2016-05-12)"), HasSubstr("another flight")));
 }
 
 TEST(TrajectoryTime, NamesAnotherWeek) {
@@ -92,8 +88,7 @@ TEST(TrajectoryTime, NamesAnotherWeek) {
 TEST(TrajectoryTime, RefusesToGuessAWeek) {
   const double first = kBeginOfWeek1896 + 305000;
   EXPECT_THAT(Refusal({300000, 310000}, Adjusted(first, first + 9 * 86400)), HasSubstr("more than one week"));
-  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(first, first + 90 * 86400)),
-              HasSubstr("which last 90.0 days"));
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(first, first + 90 * 86400)), HasSubstr("which last 90.0 days"));
   EXPECT_EQ(Offset({200000, 210000}, Adjusted(first, first + 6 * 86400)), kBeginOfWeek1896 + kWeek);
 }
 
@@ -105,8 +100,7 @@ TEST(TrajectoryTime, NamesPointsWithoutTimes) {
 TEST(TrajectoryTime, NamesTheWrongFormOfPointTimes) {
   EXPECT_THAT(Refusal({300000, 310000}, WeekSeconds(kBeginOfWeek1896 + 305000, kBeginOfWeek1896 + 305100)),
               HasSubstr("set bit 0 of its global encoding"));
-  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(305000, 305100)),
-              HasSubstr("clear bit 0 of its global encoding"));
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(305000, 305100)), HasSubstr("clear bit 0 of its global encoding"));
 }
 
 TEST(TrajectoryTime, NamesTheOtherClockWhereItFits) {

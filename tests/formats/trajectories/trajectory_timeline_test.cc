@@ -25,8 +25,7 @@ class TrajectoryTimelineTest : public ::testing::Test {
     return *std::move(file);
   }
   absl::StatusOr<TrajectoryTimeline> Create(const TrajectoryFiles& files, double first, double last) {
-    return TrajectoryTimeline::Create(files, TrajectoryClock::kGps,
-                                      {{first, last}, PointTimeForm::kWeekSeconds});
+    return TrajectoryTimeline::Create(files, TrajectoryClock::kGps, {{first, last}, PointTimeForm::kWeekSeconds});
   }
   const TemporaryFolder folder_;
 };
@@ -70,8 +69,7 @@ TEST_F(TrajectoryTimelineTest, FollowsTheFlight) {
     EXPECT_NEAR(record->latitude, row[kLatitude], 1e-12);
     EXPECT_NEAR(record->longitude, row[kLongitude], 1e-12);
     EXPECT_NEAR(record->height, row[kHeight], 3e-6);
-    EXPECT_NEAR(std::remainder(record->heading - row[kPlatformHeading] + row[kWander], 2 * std::numbers::pi),
-                0, 1e-7);
+    EXPECT_NEAR(std::remainder(record->heading - row[kPlatformHeading] + row[kWander], 2 * std::numbers::pi), 0, 1e-7);
   }
 }
 
@@ -88,9 +86,7 @@ TEST_F(TrajectoryTimelineTest, KnowsNothingInAGap) {
   EXPECT_FALSE(timeline->RecordAt(300060.001).has_value());
   // Another file fills it.
   const auto filled = Create({Open("a", with_gap), Open("b", Part(rows, 15, 30))}, 300000, 300060);
-  for (double time = 0; time <= 60; time += 0.013) {
-    ASSERT_TRUE(filled->RecordAt(300000 + time).has_value()) << time;
-  }
+  for (double time = 0; time <= 60; time += 0.013) ASSERT_TRUE(filled->RecordAt(300000 + time).has_value()) << time;
 }
 
 TEST_F(TrajectoryTimelineTest, PutsFilesInOrder) {
@@ -114,9 +110,8 @@ TEST_F(TrajectoryTimelineTest, RefusesFilesThatContradictEachOther) {
   const auto first = Open("first", Part(rows, 0, 20));
   EXPECT_TRUE(Create({first, Open("near", shifted(0.1))}, 300000, 300060).ok());
   const auto refused = Create({first, Open("far", shifted(0.7))}, 300000, 300060);
-  EXPECT_THAT(
-      std::string(refused.status().message()),
-      ::testing::AllOf(HasSubstr("far: contradicts "), HasSubstr("/first: "), HasSubstr("0.70 m apart")));
+  EXPECT_THAT(std::string(refused.status().message()),
+              ::testing::AllOf(HasSubstr("far: contradicts "), HasSubstr("/first: "), HasSubstr("0.70 m apart")));
 }
 
 TEST_F(TrajectoryTimelineTest, IgnoresFilesOfOtherTimes) {
@@ -125,8 +120,7 @@ TEST_F(TrajectoryTimelineTest, IgnoresFilesOfOtherTimes) {
   EXPECT_TRUE(Create({here, elsewhere}, 300010, 300020).ok());
   EXPECT_THAT(std::string(Create({elsewhere, elsewhere}, 300010, 300020).status().message()),
               HasSubstr("none of 2 trajectories has records at the times of the points"));
-  EXPECT_THAT(std::string(Create({elsewhere}, 300010, 300020).status().message()),
-              HasSubstr("another flight"));
+  EXPECT_THAT(std::string(Create({elsewhere}, 300010, 300020).status().message()), HasSubstr("another flight"));
 }
 
 TEST_F(TrajectoryTimelineTest, RefusesRecordsThatAreTooFarApart) {

@@ -69,15 +69,12 @@ TEST(WaterLevels, AreTheSameForColumnsOfTimes) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::optional<double> level = series->At(times[i]);
     ASSERT_EQ(std::isnan(levels[i]), !level.has_value()) << times[i];
-    if (level.has_value()) {
-      ASSERT_EQ(levels[i], *level) << times[i];
-    }
+    if (level.has_value()) ASSERT_EQ(levels[i], *level) << times[i];
   }
 }
 
 TEST(WaterLevels, TakeColumnsByName) {
-  const auto series =
-      Parse("station,\"water_level\", time ,note\r\nA,2.5,100,\"a, b\"\r\n\r\nA, 3.5 ,200,\r\n");
+  const auto series = Parse("station,\"water_level\", time ,note\r\nA,2.5,100,\"a, b\"\r\n\r\nA, 3.5 ,200,\r\n");
   EXPECT_EQ(series->At(150), 3);
 }
 
@@ -97,11 +94,10 @@ TEST(WaterLevels, TakeUtcWithItsLeapSeconds) {
 }
 
 TEST(WaterLevels, RefuseOtherDates) {
-  for (const char* text :
-       {"2016-05-11T14:00:00", "2016-05-11", "2016-05-11T14:00:00+02:00", "2016-02-30T00:00:00Z",
-        "2016-13-01T00:00:00Z", "2016-05-11T24:00:00Z", "2016-05-11T14:60:00Z", "2016-05-11T14:00:60Z",
-        "2016-05-11T14:00:nanZ", "2016-05-11T14:00:Z", "11.5.2016 14:00", "2016-05-11T14Z",
-        "2016/05/11 14:00Z", "nan", "inf", "", "1e300", "infinite-future"}) {
+  for (const char* text : {"2016-05-11T14:00:00", "2016-05-11", "2016-05-11T14:00:00+02:00", "2016-02-30T00:00:00Z",
+                           "2016-13-01T00:00:00Z", "2016-05-11T24:00:00Z", "2016-05-11T14:60:00Z",
+                           "2016-05-11T14:00:60Z", "2016-05-11T14:00:nanZ", "2016-05-11T14:00:Z", "11.5.2016 14:00",
+                           "2016-05-11T14Z", "2016/05/11 14:00Z", "nan", "inf", "", "1e300", "infinite-future"}) {
     EXPECT_THAT(ErrorOf(absl::StrCat("time,water_level\n", text, ",1\n")),
                 HasSubstr("tide.csv line 2, column 'time': '"))
         << text;
@@ -114,8 +110,7 @@ TEST(WaterLevels, BecomeSecondsOfTheWeekForPointsThatStateThem) {
   const auto series = Parse(text, kWeekSeconds);
   EXPECT_EQ(series->At(3 * 86400 + 14 * 3600 + 17), 1);
   EXPECT_EQ(series->At(3 * 86400 + 14.5 * 3600 + 17), 1.5);
-  const auto saturday =
-      Parse("time,water_level\n2016-05-14T23:30:00Z,1\n2016-05-15T00:30:00Z,2\n", kWeekSeconds);
+  const auto saturday = Parse("time,water_level\n2016-05-14T23:30:00Z,1\n2016-05-15T00:30:00Z,2\n", kWeekSeconds);
   EXPECT_EQ(saturday->At(7 * 86400 - 1800 + 17), 1);
   EXPECT_EQ(saturday->At(17), 1.5);
   EXPECT_EQ(saturday->At(7 * 86400 + 17), 1.5);
@@ -139,15 +134,13 @@ TEST(WaterLevels, NameWhatIsWrong) {
   EXPECT_THAT(ErrorOf("time,water_level,time\n"), HasSubstr("column 'time': occurs twice"));
   EXPECT_THAT(ErrorOf("time,water_level\n1,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
   EXPECT_THAT(ErrorOf("time,water_level\n5,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,x\n"),
-              HasSubstr("line 2, column 'water_level': 'x' is not a water level"));
+  EXPECT_THAT(ErrorOf("time,water_level\n5,x\n"), HasSubstr("line 2, column 'water_level': 'x' is not a water level"));
   EXPECT_THAT(ErrorOf("time,water_level\n5,nan\n"), HasSubstr("line 2, column 'water_level'"));
   EXPECT_THAT(ErrorOf("time,water_level\n5\n"), HasSubstr("line 2: has 1 cells"));
   EXPECT_THAT(ErrorOf("time,water_level\n5,-2,5\n"), HasSubstr("line 2: has 3 cells"));
   EXPECT_THAT(ErrorOf("time,water_level\n5,-2,5\n"), HasSubstr("a decimal comma"));
   EXPECT_THAT(ErrorOf("time,water_level\n5,1\n2016-05-11T14:00:00Z,1\n"), HasSubstr("line 3, column 'time'"));
-  EXPECT_THAT(ErrorOf("time,water_level\n\"5,1\n"),
-              HasSubstr("line 2: the record that begins here does not end"));
+  EXPECT_THAT(ErrorOf("time,water_level\n\"5,1\n"), HasSubstr("line 2: the record that begins here does not end"));
 }
 
 TEST(WaterLevels, AreReadFromAFile) {

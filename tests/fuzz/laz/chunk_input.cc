@@ -32,12 +32,11 @@ LaszipRecord OfVersion4(LaszipRecord record, int point_format) {
 // The codings of all formats are megabytes of models, of which few stay in a cache: so none is made twice.
 ChunkCoding& CodingFor(int point_format, std::size_t extra, bool version4) {
   static std::array<ChunkCoding, kFormats * std::size(kExtraBytes) * 2> all;
-  ChunkCoding& coding =
-      all[(static_cast<std::size_t>(point_format) * std::size(kExtraBytes) + extra) * 2 + version4];
+  ChunkCoding& coding = all[(static_cast<std::size_t>(point_format) * std::size(kExtraBytes) + extra) * 2 + version4];
   if (coding.decoder == nullptr) {
     coding.point_format = point_format;
-    coding.record = laz::RecordFor(point_format, testing::PointSize(point_format) + kExtraBytes[extra],
-                                   laz::kCommonChunkSize);
+    coding.record =
+        laz::RecordFor(point_format, testing::PointSize(point_format) + kExtraBytes[extra], laz::kCommonChunkSize);
     if (version4) {
       coding.record = OfVersion4(coding.record, point_format);
       coding.encoded = &CodingFor(point_format, extra, false);

@@ -18,7 +18,7 @@ using namespace albtpu;
 using namespace albtpu::fuzz;
 
 constexpr std::size_t kNumberSize = sizeof(std::uint32_t);  // In the head of a layered chunk.
-constexpr unsigned int kRecordsInEvery = 32;  // Mutations: two codings take as long as two inputs.
+constexpr unsigned int kRecordsInEvery = 32;                // Mutations: two codings take as long as two inputs.
 
 void Mutate(std::string& bytes, std::size_t most) {
   const std::size_t size = std::min(bytes.size(), most);
@@ -29,13 +29,12 @@ void Mutate(std::string& bytes, std::size_t most) {
 // The chunk of other records, behind its head. Empty if the input cannot be decoded.
 std::string OtherRecords(std::minstd_rand& random, const ChunkInput& input, std::string head) {
   const std::size_t length = input.record_length();
-  std::string records = DecodeChunk(*input.coding->decoder, input.bytes, length, input.points, input.decoded,
-                                    kMostPoints, input.exact)
-                            .records;
+  std::string records =
+      DecodeChunk(*input.coding->decoder, input.bytes, length, input.points, input.decoded, kMostPoints, input.exact)
+          .records;
   if (records.empty()) return "";
-  for (std::size_t i = 0, changes = 1 + random() % 4; i < changes; ++i) {
+  for (std::size_t i = 0, changes = 1 + random() % 4; i < changes; ++i)
     ChangeRecords(random, input.coding->point_format, length, kMostPoints, records);
-  }
   std::string bytes;
   input.coding->encoded->encoder->Encode(records, bytes);
   return WithPoints(head, records.size() / length) + bytes;
@@ -54,8 +53,7 @@ void ChangeLayer(std::minstd_rand& random, const ChunkInput& input, std::size_t 
   std::size_t begin = sizes + count * kNumberSize;
   for (std::size_t i = 0; i < count; ++i) {
     Part part = {sizes + i * kNumberSize, begin, 0};
-    part.size =
-        std::min<std::size_t>(laz::Load<std::uint32_t>(chunk, part.size_offset), chunk.size() - begin);
+    part.size = std::min<std::size_t>(laz::Load<std::uint32_t>(chunk, part.size_offset), chunk.size() - begin);
     laz::Store(static_cast<std::uint32_t>(part.size), &chunk[part.size_offset]);
     if (i == changed) layer = part;
     if (i == other) copied = part;

@@ -23,9 +23,8 @@ struct Field {
 };
 
 // Of the header (LAS Specification 1.4 R15, table 3): version, sizes, counts, formats and offsets.
-constexpr Field kHeaderFields[] = {{6, 2},   {24, 1},  {25, 1},  {94, 2},  {96, 4},  {100, 4},
-                                   {104, 1}, {104, 1}, {105, 2}, {107, 4}, {107, 4}, {227, 8},
-                                   {235, 8}, {243, 4}, {247, 8}, {247, 8}};
+constexpr Field kHeaderFields[] = {{6, 2},   {24, 1},  {25, 1},  {94, 2},  {96, 4},  {100, 4}, {104, 1}, {104, 1},
+                                   {105, 2}, {107, 4}, {107, 4}, {227, 8}, {235, 8}, {243, 4}, {247, 8}, {247, 8}};
 // Of the LASzip record: compressor, coder, version, options, chunk size, special EVLRs, items; then of the first items.
 constexpr Field kRecordFields[] = {{0, 2},  {0, 2},  {2, 2},  {4, 1},  {8, 4},  {12, 4}, {12, 4}, {12, 4},
                                    {16, 8}, {24, 8}, {32, 2}, {34, 2}, {36, 2}, {38, 2}, {40, 2}, {42, 2},
@@ -140,8 +139,7 @@ class Editor {
   std::optional<laz::ChunkTable> Table(const laz::LaszipRecord& record) const {
     if (PointsBegin() > file_.size()) return std::nullopt;
     const laz::MemorySource source(file_);
-    const absl::StatusOr<laz::ChunkTable> table =
-        laz::ReadChunkTable(source, record, PointsBegin(), PointCount());
+    const absl::StatusOr<laz::ChunkTable> table = laz::ReadChunkTable(source, record, PointsBegin(), PointCount());
     return table.ok() ? std::optional(*table) : std::nullopt;
   }
 
@@ -183,8 +181,7 @@ class Editor {
 
   void ChangeChunkBytes() {
     const std::uint64_t begin = PointsBegin() + laz::kTableOffsetSize;
-    const std::uint64_t end =
-        std::min<std::uint64_t>(Get<std::uint64_t>(PointsBegin()).value_or(0), file_.size());
+    const std::uint64_t end = std::min<std::uint64_t>(Get<std::uint64_t>(PointsBegin()).value_or(0), file_.size());
     if (begin >= end) return;
     std::string bytes = file_.substr(begin, end - begin);
     // Of the same size, so that the table stays true.

@@ -16,8 +16,7 @@ using namespace albtpu::fuzz;
 constexpr std::size_t kComparedInEvery = 8;  // Inputs: each coding takes as long as the first.
 
 DecodedChunk Decode(const ChunkInput& chunk, std::string_view bytes, std::size_t step, bool exact) {
-  return DecodeChunk(*chunk.coding->decoder, bytes, chunk.record_length(), chunk.points, chunk.decoded, step,
-                     exact);
+  return DecodeChunk(*chunk.coding->decoder, bytes, chunk.record_length(), chunk.points, chunk.decoded, step, exact);
 }
 
 // The fields of WantedFields::kReturns are the same in both.
@@ -28,9 +27,8 @@ bool HaveSameReturns(std::string_view one, std::string_view other, std::size_t r
   const auto channel = [](char flags) { return laz::ScannerChannel(static_cast<std::uint8_t>(flags)); };
   for (std::size_t at = 0; at < one.size(); at += record_length) {
     const std::size_t flags = at + laz::kFlagsOffset;
-    if (!same(at + laz::kXOffset, 12) || !same(at + laz::kReturnsOffset, 1) ||
-        !same(at + laz::kClassOffset, 1) || !same(at + laz::kTimeOffset, 8) ||
-        channel(one[flags]) != channel(other[flags]))
+    if (!same(at + laz::kXOffset, 12) || !same(at + laz::kReturnsOffset, 1) || !same(at + laz::kClassOffset, 1) ||
+        !same(at + laz::kTimeOffset, 8) || channel(one[flags]) != channel(other[flags]))
       return false;
   }
   return one.size() == other.size();
@@ -48,9 +46,8 @@ void Compare(const ChunkInput& chunk, const DecodedChunk& whole) {
     ALBTPU_MUST(cut.status.ok() && cut.records == whole.records && cut.position == whole.position);
   }
   if (chunk.coding->returns_decoder != nullptr) {
-    const DecodedChunk returns =
-        DecodeChunk(*chunk.coding->returns_decoder, chunk.bytes, chunk.record_length(), chunk.points,
-                    chunk.decoded, chunk.step, chunk.exact);
+    const DecodedChunk returns = DecodeChunk(*chunk.coding->returns_decoder, chunk.bytes, chunk.record_length(),
+                                             chunk.points, chunk.decoded, chunk.step, chunk.exact);
     ALBTPU_MUST(returns.status.ok() && returns.position == whole.position);
     ALBTPU_MUST(HaveSameReturns(returns.records, whole.records, chunk.record_length()));
   }
@@ -64,11 +61,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   const ChunkInput chunk = ParseChunkInput(input);
   const DecodedChunk whole = Decode(chunk, chunk.bytes, kMostPoints, chunk.exact);
-  if (whole.status.ok()) {
+  if (whole.status.ok())
     ALBTPU_MUST(whole.position == chunk.bytes.size() || !chunk.exact || chunk.decoded < chunk.points);
-  } else {
+  else
     ALBTPU_MUST(absl::IsDataLoss(whole.status) && whole.status.message().size() > 20);
-  }
   if (std::hash<std::string_view>()(input) % kComparedInEvery == 0) Compare(chunk, whole);
   return 0;
 }

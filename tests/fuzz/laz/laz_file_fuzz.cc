@@ -20,11 +20,10 @@ namespace {
 using namespace albtpu;
 using namespace albtpu::client;
 
-constexpr std::uint64_t kMostPoints = 40;    // Read of a file, so that inputs run fast.
-constexpr std::size_t kMostExtraBytes = 64;  // Of files whose points are read: each costs some kilobytes.
-constexpr std::uint64_t kPiece = 7;          // Points that are read at a time.
-constexpr std::size_t kThreadedInEvery =
-    64;  // Inputs: threads and new decoders take longer than all the rest.
+constexpr std::uint64_t kMostPoints = 40;     // Read of a file, so that inputs run fast.
+constexpr std::size_t kMostExtraBytes = 64;   // Of files whose points are read: each costs some kilobytes.
+constexpr std::uint64_t kPiece = 7;           // Points that are read at a time.
+constexpr std::size_t kThreadedInEvery = 64;  // Inputs: threads and new decoders take longer than all the rest.
 
 // The decoders of all inputs: their memory is used again.
 laz::ChunkDecoder& DecoderFor(const laz::LaszipRecord& record) {
@@ -39,8 +38,7 @@ laz::ChunkDecoder& DecoderFor(const laz::LaszipRecord& record) {
 }
 
 // The first points by the chunk table; fewer, if a chunk cannot be decoded.
-std::string RecordsByTable(const laz::ByteSource& file, const laz::LazExtent& extent,
-                           const laz::ChunkTable& table) {
+std::string RecordsByTable(const laz::ByteSource& file, const laz::LazExtent& extent, const laz::ChunkTable& table) {
   laz::ChunkDecoder& decoder = DecoderFor(extent.record);
   std::string records;
   std::uint64_t left = std::min(extent.point_count, kMostPoints);

@@ -11,7 +11,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < kChunkHeadSize) return 0;
   const ChunkInput input = ParseChunkInput({reinterpret_cast<const char*>(data), size});
   const std::size_t points = std::min(kMostPoints, input.bytes.size() / input.record_length());
-  if (points > 0)
-    MustSurviveCoding(*input.coding->encoded, input.bytes.substr(0, points * input.record_length()));
+  if (points > 0) MustSurviveCoding(*input.coding->encoded, input.bytes.substr(0, points * input.record_length()));
   return 0;
 }

@@ -74,8 +74,7 @@ void ChangeRecords(std::minstd_rand& random, int point_format, std::size_t recor
       for (std::size_t i = at; i < count; ++i) Store(Number(record(i), field) + step, record(i), field);
       return;
     case 3:  // A steady change.
-      for (std::size_t i = at; i < count; ++i)
-        Store(Number(record(at), field) + (i - at) * step, record(i), field);
+      for (std::size_t i = at; i < count; ++i) Store(Number(record(at), field) + (i - at) * step, record(i), field);
       return;
     case 4:  // A value that returns.
       Store(Number(record(random() % count), field), record(at), field);

@@ -18,9 +18,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const std::size_t most = std::min(kMostPoints, (max_size - kChunkHeadSize) / length);
   std::string records(input.bytes.substr(0, std::min(most, input.bytes.size() / length) * length));
   if (records.empty()) return LLVMFuzzerMutate(data, size, max_size);
-  for (std::size_t i = 0, changes = 1 + random() % 4; i < changes; ++i) {
+  for (std::size_t i = 0, changes = 1 + random() % 4; i < changes; ++i)
     ChangeRecords(random, input.coding->point_format, length, most, records);
-  }
   std::memcpy(data + kChunkHeadSize, records.data(), records.size());
   return kChunkHeadSize + records.size();
 }

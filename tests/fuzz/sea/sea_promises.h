@@ -54,11 +54,9 @@ inline void MustBeASea(const absl::StatusOr<SeaSeries>& series, bool describe) {
     const SeaRecord& record = series->records[i];
     ALBTPU_MUST(record.point < series->points.size());
     ALBTPU_MUST(i == 0 || series->records[i - 1].point <= record.point);
-    if (i > 0 && series->records[i - 1].point == record.point)
-      ALBTPU_MUST(series->records[i - 1].time < record.time);
+    if (i > 0 && series->records[i - 1].point == record.point) ALBTPU_MUST(series->records[i - 1].time < record.time);
     ALBTPU_MUST(!record.water_depth || *record.water_depth > 0);
-    ALBTPU_MUST(!record.wind_speed_10m ||
-                (*record.wind_speed_10m >= 0 && std::isfinite(*record.wind_speed_10m)));
+    ALBTPU_MUST(!record.wind_speed_10m || (*record.wind_speed_10m >= 0 && std::isfinite(*record.wind_speed_10m)));
     MustBeWaves(record);
   }
   if (!describe) return;

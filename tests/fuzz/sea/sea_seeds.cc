@@ -46,13 +46,13 @@ Seeds SwanSpectra() {
   const std::string grid =
       "AFREQ\n2\n0.1\n0.2\nNDIR\n8\n0\n45\n90\n135\n180\n225\n270\n315\nQUANT\n1\nVaDens\nm2/Hz/degr\n-99\n";
   const std::string spectrum = "FACTOR\n1E-4\n1 2 3 4 5 6 7 8\n1 2 3 4 5 6 7 8\n";
-  return {"SWAN   1\n$ x\nTIME\n1\nLONLAT\n1\n1 2\n" + grid + "20161011.123000\n" + spectrum +
-              "20161011.133000\nZERO\n",
-          "SWAN 1\nLOCATIONS\n2\n1 2 'a'\n3 4\n" + grid + spectrum + "NODATA\n",
-          "SWAN 1\nLOCATIONS\n1\n1 "
-          "2\nRFREQ\n2\n0.1\n0.2\nCDIR\n8\n0\n45\n90\n135\n180\n225\n270\n315\nQUANT\n1\nEnDens\n"
-          "J/m2/Hz/degr\n-99\n" +
-              spectrum};
+  return {
+      "SWAN   1\n$ x\nTIME\n1\nLONLAT\n1\n1 2\n" + grid + "20161011.123000\n" + spectrum + "20161011.133000\nZERO\n",
+      "SWAN 1\nLOCATIONS\n2\n1 2 'a'\n3 4\n" + grid + spectrum + "NODATA\n",
+      "SWAN 1\nLOCATIONS\n1\n1 "
+      "2\nRFREQ\n2\n0.1\n0.2\nCDIR\n8\n0\n45\n90\n135\n180\n225\n270\n315\nQUANT\n1\nEnDens\n"
+      "J/m2/Hz/degr\n-99\n" +
+          spectrum};
 }
 
 Seeds SeaCsv() {
@@ -64,42 +64,39 @@ Seeds SeaCsv() {
 
 // "hello" and nothing, compressed by gzip -n.
 Seeds Gzip() {
-  return {
-      std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xcb\x48\xcd\xc9\xc9\x07\x00\x86\xa6\x10\x36\x05"
-                  "\x00\x00\x00",
-                  25),
-      std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x03\x00\x00\x00\x00\x00\x00\x00\x00\x00", 20)};
+  return {std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xcb\x48\xcd\xc9\xc9\x07\x00\x86\xa6\x10\x36\x05"
+                      "\x00\x00\x00",
+                      25),
+          std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x03\x00\x00\x00\x00\x00\x00\x00\x00\x00", 20)};
 }
 
 Seeds SurveyDescription() {
   const std::string waves = "[[sea.waves]]\nhs = 0.42\ntp = 2.7\nwaves_from = 225\n";
-  return {
-      "[sea]\nwind_speed = 6.5\nwind_from = 225\nwater_depth = 12\ntail = \"relax\"\ntail_from = 0.95\n" +
-          waves + "gamma = 3.3\nspreading = \"mitsuyasu\"\n" + waves + "spread = 18\n",
-      "[sea]\nfile = \"41010.data_spec\"\ntime = \"2020-06-08T03:50Z\"\nplace = \"28.9,-78.5\"\n"
-      "longest_gap = 6\nanemometer_height = 4\n",
-      "sea = {wind_speed = 0, waves = [{hs = 1, tp = 9, waves_from = 0}]}\n",
-      "[sea]\nwind_speed = \"6 m/s\"\n",
-      "[sea]\ntime = 2020-06-08T03:50:00Z\n",
-      "[sea.waves]\nhs = nan\n",
-      "[see]\n",
-      "[sensor]\nname = \"mine.toml\"\nlever_arm = [0.3, -0.2, 5]\n[trajectory]\nfiles = [\"sbet/\", \"b\"]\n"
-      "errors = [\"smrmsg/\"]\ntime = \"gps\"\n[surface]\nclasses = [41, 9]\nlocated = \"local\"\n",
-      "[trajectory]\nfrom_returns = true\n[surface]\nlocated = \"level\"\nlevel = -23.09\n[water]\nindex = "
-      "1.34\n"
-      "kd = 0.12\ntemperature = 24\nsalinity = 36\ncolumn = \"none\"\n[datum]\nsigma = 0.08\n"
-      "geoid_separation = -25.1\n[output]\nclasses = [40]\ncoverage = \"p95\"\ns44_order = \"1b\"\n"
-      "details = true\n",
-      "[surface]\nlevel = \"level.csv\"\n[sigma]\nposition = [0.02, 0.02, 0.06]\nattitude = [0.005, 0, "
-      "0.008]\n"
-      "boresight = [0.001, 0.001, 0.004]\nlever_arm = 0.02\nscan = 0.02\ntime = 1e-5\nrange_offset = 0.01\n"
-      "bottom_range = 0.025\nsurface_height = 0.05\nindex = 0.001\n"};
+  return {"[sea]\nwind_speed = 6.5\nwind_from = 225\nwater_depth = 12\ntail = \"relax\"\ntail_from = 0.95\n" + waves +
+              "gamma = 3.3\nspreading = \"mitsuyasu\"\n" + waves + "spread = 18\n",
+          "[sea]\nfile = \"41010.data_spec\"\ntime = \"2020-06-08T03:50Z\"\nplace = \"28.9,-78.5\"\n"
+          "longest_gap = 6\nanemometer_height = 4\n",
+          "sea = {wind_speed = 0, waves = [{hs = 1, tp = 9, waves_from = 0}]}\n",
+          "[sea]\nwind_speed = \"6 m/s\"\n",
+          "[sea]\ntime = 2020-06-08T03:50:00Z\n",
+          "[sea.waves]\nhs = nan\n",
+          "[see]\n",
+          "[sensor]\nname = \"mine.toml\"\nlever_arm = [0.3, -0.2, 5]\n[trajectory]\nfiles = [\"sbet/\", \"b\"]\n"
+          "errors = [\"smrmsg/\"]\ntime = \"gps\"\n[surface]\nclasses = [41, 9]\nlocated = \"local\"\n",
+          "[trajectory]\nfrom_returns = true\n[surface]\nlocated = \"level\"\nlevel = -23.09\n[water]\nindex = "
+          "1.34\n"
+          "kd = 0.12\ntemperature = 24\nsalinity = 36\ncolumn = \"none\"\n[datum]\nsigma = 0.08\n"
+          "geoid_separation = -25.1\n[output]\nclasses = [40]\ncoverage = \"p95\"\ns44_order = \"1b\"\n"
+          "details = true\n",
+          "[surface]\nlevel = \"level.csv\"\n[sigma]\nposition = [0.02, 0.02, 0.06]\nattitude = [0.005, 0, "
+          "0.008]\n"
+          "boresight = [0.001, 0.001, 0.004]\nlever_arm = 0.02\nscan = 0.02\ntime = 1e-5\nrange_offset = 0.01\n"
+          "bottom_range = 0.025\nsurface_height = 0.05\nindex = 0.001\n"};
 }
 
 Seeds SensorFile() {
   const std::string end = "unit = \"degree\"\nsource = \"its data sheet\"\n";
-  return {"title = \"Scanner\"\n[scan]\nvalue = 0.02\n" + end +
-              "[attitude]\nvalue = [0.0025, 0.0025, 0.005]\n" + end +
+  return {"title = \"Scanner\"\n[scan]\nvalue = 0.02\n" + end + "[attitude]\nvalue = [0.0025, 0.0025, 0.005]\n" + end +
               "[divergence]\nvalue = 1\nleast = 0.7\ngreatest = 2\nunit = \"mrad\"\nsource = \"b\"\n",
           "title = 'a'\nbottom_range = {value = 0.025, unit = 'm', source = 'b'}\n"
           "[position]\nvalue = [0, 1, 2]\nunit = 'm'\nsource = ' '\n",

@@ -36,8 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                          size);  // A copy: sanitizers see reads beyond it.
   const absl::StatusOr<Specification> specification = ParseSpecification(text);
   if (!specification.ok()) {
-    const std::string_view message(specification.status().message().data(),
-                                   specification.status().message().size());
+    const std::string_view message(specification.status().message().data(), specification.status().message().size());
     ALBTPU_MUST(absl::IsInvalidArgument(specification.status()));
     ALBTPU_MUST(message.find('\n') == message.npos && message.find("; ") != message.npos);
   } else {

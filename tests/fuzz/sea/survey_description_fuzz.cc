@@ -19,8 +19,7 @@ void CheckKey(const Key<Settings>& key, const Settings& settings) {
   } else if (const auto* text = std::get_if<std::optional<std::string> Settings::*>(&key.member)) {
     ALBTPU_MUST(!(settings.**text).has_value() || !(settings.**text)->empty());
   } else if (const auto* classes = std::get_if<std::vector<int> Settings::*>(&key.member)) {
-    for (const int each : settings.**classes)
-      ALBTPU_MUST(each >= kClasses.least && each <= kClasses.greatest);
+    for (const int each : settings.**classes) ALBTPU_MUST(each >= kClasses.least && each <= kClasses.greatest);
   }
 }
 
@@ -52,8 +51,7 @@ void CheckSurvey(const SurveySettings& survey) {
   CheckWaves(survey.sea);
   CheckSigmasAreInRange(survey.sigma);
   const TrajectorySettings& trajectory = survey.trajectory;
-  ALBTPU_MUST(!trajectory.from_returns.value_or(false) ||
-              (trajectory.files.empty() && trajectory.errors.empty()));
+  ALBTPU_MUST(!trajectory.from_returns.value_or(false) || (trajectory.files.empty() && trajectory.errors.empty()));
   ALBTPU_MUST(!survey.surface.level.has_value() || survey.surface.located.value_or("level") == "level");
 }
 

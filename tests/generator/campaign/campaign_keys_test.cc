@@ -32,10 +32,8 @@ Values SmallCampaign() {
 // The keys that go with `sea.file` only; TracedSea tests read the file.
 bool GoesWithASeaFile(const CampaignKey& key) {
   using namespace campaign_keys;
-  for (const CampaignKey& each :
-       {kSeaFile, kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom}) {
+  for (const CampaignKey& each : {kSeaFile, kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom})
     if (FullName(each) == FullName(key)) return true;
-  }
   return false;
 }
 
@@ -51,14 +49,11 @@ std::string ProblemWith(const CampaignKey& key, const std::string& value) {
   return std::string(ParseCampaign(text).status().message());
 }
 
-std::string Toml(double number) {
-  return std::isinf(number) ? (number > 0 ? "inf" : "-inf") : absl::StrCat(number);
-}
+std::string Toml(double number) { return std::isinf(number) ? (number > 0 ? "inf" : "-inf") : absl::StrCat(number); }
 
 TEST(CampaignKeys, HaveNamesOfTheirOwn) {
   std::set<std::string> names;
-  for (const CampaignKey& key : kCampaignKeys)
-    EXPECT_TRUE(names.insert(FullName(key)).second) << FullName(key);
+  for (const CampaignKey& key : kCampaignKeys) EXPECT_TRUE(names.insert(FullName(key)).second) << FullName(key);
 }
 
 TEST(CampaignKeys, AreThoseThatACampaignReads) {
@@ -92,25 +87,20 @@ TEST(CampaignKeys, TakeTheEndsOfTheirRangesAndNothingBeyond) {
     if (const auto* range = std::get_if<NumberRange>(&key.values)) {
       for (const double end : {range->least, range->most}) EXPECT_EQ(ProblemWith(key, Toml(end)), "") << end;
       EXPECT_THAT(ProblemWith(key, Toml(0.99 * range->least)), HasSubstr("(expected "));
-      if (std::isfinite(range->most)) {
-        EXPECT_THAT(ProblemWith(key, Toml(1.01 * range->most)), HasSubstr("(expected "));
-      }
+      if (std::isfinite(range->most)) EXPECT_THAT(ProblemWith(key, Toml(1.01 * range->most)), HasSubstr("(expected "));
     }
     if (const auto* range = std::get_if<WholeRange>(&key.values)) {
       EXPECT_THAT(ProblemWith(key, absl::StrCat(range->least - 1)), HasSubstr("(expected a whole number from "));
       EXPECT_EQ(ProblemWith(key, absl::StrCat(range->most)), "");
-      if (range->most < std::numeric_limits<std::int64_t>::max()) {
-        EXPECT_THAT(ProblemWith(key, absl::StrCat(range->most + 1)),
-                    HasSubstr("(expected a whole number from "));
-      }
+      if (range->most < std::numeric_limits<std::int64_t>::max())
+        EXPECT_THAT(ProblemWith(key, absl::StrCat(range->most + 1)), HasSubstr("(expected a whole number from "));
       // `most_realizations` must not be below the default of `realizations`.
       const bool is_most = FullName(key) == "effort.most_realizations";
       EXPECT_EQ(ProblemWith(key, absl::StrCat(is_most ? 1000 : range->least)), "");
     }
     if (const auto* choice = std::get_if<Choice>(&key.values)) {
-      for (const std::string_view word : choice->words) {
+      for (const std::string_view word : choice->words)
         EXPECT_EQ(ProblemWith(key, absl::StrCat("\"", std::string(word), "\"")), "");
-      }
       EXPECT_THAT(ProblemWith(key, "\"neither\""), HasSubstr("is 'neither' (expected "));
     }
   }
@@ -126,8 +116,7 @@ TEST(CampaignKeys, TakeNodesInTheirRangesOnly) {
     EXPECT_NE(ProblemWith(key, absl::StrCat("[", range->least - 1, end)), "");
     if (std::isinf(range->most)) continue;
     EXPECT_EQ(ProblemWith(key, absl::StrCat("[", range->most, "]")), "");
-    EXPECT_THAT(ProblemWith(key, absl::StrCat("[", range->most + 0.5, "]")),
-                HasSubstr(std::string(range->why_most)));
+    EXPECT_THAT(ProblemWith(key, absl::StrCat("[", range->most + 0.5, "]")), HasSubstr(std::string(range->why_most)));
   }
 }
 
@@ -156,8 +145,7 @@ axes = {wind_speed=[5], fetch=[inf], incidence=[0], azimuth=[0], footprint=[1], 
 
 TEST(CampaignReference, HasARowForEachKey) {
   const std::string page = CampaignReference();
-  for (const CampaignKey& key : kCampaignKeys)
-    EXPECT_THAT(page, HasSubstr("| `" + std::string(key.name) + "`"));
+  for (const CampaignKey& key : kCampaignKeys) EXPECT_THAT(page, HasSubstr("| `" + std::string(key.name) + "`"));
 }
 
 TEST(CampaignReference, ShowsACampaignThatCanBeRead) {

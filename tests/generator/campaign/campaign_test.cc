@@ -123,9 +123,8 @@ TEST(Campaign, NamesAMissingKey) {
 }
 
 TEST(Campaign, NamesAnUnknownKeyAndItsNearMatch) {
-  EXPECT_EQ(
-      ErrorOf(Replaced(kSmall, "realizations", "realisations")),
-      "line 13: 'effort.realisations' is no key of a campaign file; did you mean realizations?");
+  EXPECT_EQ(ErrorOf(Replaced(kSmall, "realizations", "realisations")),
+            "line 13: 'effort.realisations' is no key of a campaign file; did you mean realizations?");
   EXPECT_THAT(ErrorOf(std::string(kSmall) + "color = 2\n"),
               HasSubstr("line 14: 'effort.color' is no key of a campaign file; there are estimator, "));
 }
@@ -154,8 +153,7 @@ TEST(Campaign, RefusesNodesThatAreNotFiniteOrNegative) {
 }
 
 TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[-1, 6]")),
-              HasSubstr("'axes.wind_speed' must be at least 0"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[-1, 6]")), HasSubstr("'axes.wind_speed' must be at least 0"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
 }
 
@@ -185,8 +183,7 @@ TEST(Campaign, BeginsErrorsOfAFileWithItsPath) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "bad.toml";
   std::ofstream(path) << "id = 3\n";
-  EXPECT_THAT(std::string(ReadCampaign(path).status().message()),
-              StartsWith(path.string() + ": line 1: 'id' is 3"));
+  EXPECT_THAT(std::string(ReadCampaign(path).status().message()), StartsWith(path.string() + ": line 1: 'id' is 3"));
   EXPECT_TRUE(absl::IsNotFound(ReadCampaign(folder.path() / "absent.toml").status()));
 }
 

@@ -24,9 +24,8 @@ InterpolationError ThuErrorOf(Campaign campaign) {
   campaign.checked_pulses = 40;
   const absl::StatusOr<UncertaintyTable> table = MakeTable(campaign, [](std::size_t) {});
   std::vector<std::vector<Estimate>> direct;
-  for (std::size_t i = 0; i < campaign.checked_pulses; ++i) {
+  for (std::size_t i = 0; i < campaign.checked_pulses; ++i)
     direct.push_back(ComputeDirectly(campaign, CheckedPulse(campaign, i)));
-  }
   return CompareWithTable(campaign, *table, direct, 2);
 }
 
@@ -61,8 +60,7 @@ TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
 // A pulse at a node: the widest beam of the campaign determines grid and patch for both.
 TEST(InterpolationCheck, ComputesPulsesOnTheSurfacesOfTheNodes) {
   const Campaign campaign = TwoSeas();
-  const Pulse pulse{
-      .wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
+  const Pulse pulse{.wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
   const SeaCase sea_case = SeaCaseOf(campaign, 4);  // the second wind, the first fetch and footprint
   ASSERT_EQ(std::get<WindSea>(sea_case.sea.waves).wind_speed_10m, 6);
   const SeaCaseResult node = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);

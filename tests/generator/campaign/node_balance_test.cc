@@ -18,11 +18,9 @@ TEST(NodeBalance, DoesNotChangeValuesLinearInTheScaleOfEachAxis) {
   const UncertaintyTable::Axes axes = Axes({1, 2, 4, 5}, {0.5, 1, 3});
   std::vector<float> values;
   for (const double wind : axes[0].nodes()) {
-    for (const double footprint : axes[4].nodes()) {
-      for (const double depth : {0.0, 10.0}) {
+    for (const double footprint : axes[4].nodes())
+      for (const double depth : {0.0, 10.0})
         values.push_back(static_cast<float>(20 + 3 * wind - 2 * std::log(footprint) + depth));
-      }
-    }
   }
   std::vector<float> balanced = values;
   BalanceNodes(axes, Quantity::kThu, balanced);
@@ -35,9 +33,8 @@ TEST(NodeBalance, RemovesTheMeanError) {
   const std::vector<double> x = {2, 3, 4, 5, 6, 7};
   const UncertaintyTable::Axes axes = Axes(x, {1});
   std::vector<float> values;
-  for (const double wind : x) {
+  for (const double wind : x)
     for (int depth = 0; depth < 2; ++depth) values.push_back(static_cast<float>(wind * wind));
-  }
   BalanceNodes(axes, Quantity::kThu, values);
   double sum = 0, squares = 0;
   constexpr int kSteps = 1000;

@@ -16,15 +16,15 @@ namespace albtpu {
 namespace {
 
 absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
-  return MakeTable(campaign, [](std::size_t) {});
+  return MakeTable(
+      campaign, [](std::size_t) {});
 }
 
 TEST(TableMaker, HasAtANodeTheResultOfItsSeaCase) {
   const Campaign campaign = TwoSeas();
   const absl::StatusOr<UncertaintyTable> table = Make(campaign);
   const std::size_t index = 7;  // 6 m/s, fully developed, 1 m
-  const SeaCaseResult result =
-      Simulate(SeaCaseOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
+  const SeaCaseResult result = Simulate(SeaCaseOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
   const BeamUncertainty& beam = result.beams[3];  // 20 degrees, across the wind
   const PulseUncertainty interpolated =
       Interpolate(*table, {.wind_speed = 6, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
@@ -45,8 +45,7 @@ TEST(TableMaker, AnswersFromACalmOn) {
   text.insert(text.find("[effort]"), "[sea]\nspectrum = \"elfouhaily\"\n");
   const absl::StatusOr<UncertaintyTable> table = Make(*ParseCampaign(text));
   const auto at = [&](float wind) {
-    return Interpolate(*table,
-                       {.wind_speed = wind, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
+    return Interpolate(*table, {.wind_speed = wind, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
   };
   const PulseUncertainty calm = at(0), light = at(1), wind = at(4);
   ASSERT_EQ(calm.outcome, Outcome::kInterpolated);
@@ -57,8 +56,7 @@ TEST(TableMaker, AnswersFromACalmOn) {
   }
   const Provenance& provenance = table->provenance();
   EXPECT_THAT(std::get<std::string>(provenance.attributes.at("spectrum")), testing::HasSubstr("Elfouhaily"));
-  EXPECT_EQ(std::get<std::vector<double>>(provenance.attributes.at("realizations")),
-            (std::vector<double>{40, 40}));
+  EXPECT_EQ(std::get<std::vector<double>>(provenance.attributes.at("realizations")), (std::vector<double>{40, 40}));
 }
 
 TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {

@@ -55,9 +55,8 @@ TEST_F(TracedSeaTest, IsTheSeaThatIsDescribed) {
   EXPECT_NEAR(DegreesOfRadians(sea->described.x_azimuth), 45, 1e-9);
   EXPECT_EQ(sea->described.wind_speed_10m, 6);
   const HarmonicSpectrum& samples = sea->described.spectrum;
-  for (std::size_t i = 0; i < samples.size(); i += 11) {
+  for (std::size_t i = 0; i < samples.size(); i += 11)
     EXPECT_NEAR((*sea->waves.spectrum)(samples.k[i]), samples.s[i], 1e-9 * samples.s[i]);
-  }
   EXPECT_EQ(std::get<std::string>(sea->attributes.at("sea_file")), "traced_sea.csv");
   EXPECT_EQ(std::get<std::string>(sea->attributes.at("sea_time")), "2020-06-08T03:50Z");
   EXPECT_EQ(std::get<std::string>(sea->attributes.at("tail")), "relax");
@@ -118,10 +117,9 @@ TEST_F(TracedSeaTest, RefractsAsTheResponseTheorySays) {
 
 TEST_F(TracedSeaTest, MakesATableOfOneSea) {
   const auto text = [&](const std::string& azimuth, const std::string& sea) {
-    return absl::StrCat(
-        "id = \"one\"\nversion = \"1\"\ntitle = \"One sea\"\n[axes]\nincidence = [0, 20]\nazimuth = ",
-        azimuth, "\nfootprint = [1]\ndepth = [0, 10]\n[sea]\n", sea,
-        "[effort]\nrealizations = 40\n[interpolation]\nchecked_pulses = 2\n");
+    return absl::StrCat("id = \"one\"\nversion = \"1\"\ntitle = \"One sea\"\n[axes]\nincidence = [0, 20]\nazimuth = ",
+                        azimuth, "\nfootprint = [1]\ndepth = [0, 10]\n[sea]\n", sea,
+                        "[effort]\nrealizations = 40\n[interpolation]\nchecked_pulses = 2\n");
   };
   const std::string file = absl::StrCat("file = \"", path_.string(), "\"\ntime = \"2020-06-08T03:50Z\"\n");
   const absl::StatusOr<Campaign> campaign = ParseCampaign(text("[0, 60, 120, 180]", file));

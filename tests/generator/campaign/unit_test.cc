@@ -25,9 +25,7 @@ std::string Refusal(UnitId unit, const UnitOrigin& origin, const std::string& by
 }
 
 // Expects equal bits, also of zeros and NaN.
-void ExpectSame(double a, double b) {
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b));
-}
+void ExpectSame(double a, double b) { EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)); }
 
 void ExpectSame(const Estimate& a, const Estimate& b) {
   ExpectSame(a.value, b.value);
@@ -63,10 +61,8 @@ TEST(Unit, IsRefusedWhenAnyByteHasChanged) {
 }
 
 TEST(Unit, IsRefusedWhenTruncatedAnywhere) {
-  for (std::size_t size = 0; size < Sealed().size(); ++size) {
-    EXPECT_EQ(OpenUnit(kUnit, kOrigin, Sealed().substr(0, size)).status().code(),
-              absl::StatusCode::kDataLoss);
-  }
+  for (std::size_t size = 0; size < Sealed().size(); ++size)
+    EXPECT_EQ(OpenUnit(kUnit, kOrigin, Sealed().substr(0, size)).status().code(), absl::StatusCode::kDataLoss);
 }
 
 TEST(Unit, IsRefusedWhenItsOriginDiffers) {
@@ -140,9 +136,8 @@ TEST(UnitContent, IsRefusedWithAnotherLength) {
   result.beams.resize(1);
   result.beams[0].thu.resize(3);
   const std::string bytes = EncodeResult(result);
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
+  for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_FALSE(DecodeResult(bytes.substr(0, size)).ok()) << size;
-  }
   EXPECT_FALSE(DecodeResult(bytes + "more").ok());
 }
 

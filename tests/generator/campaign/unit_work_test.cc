@@ -82,19 +82,17 @@ TEST(UnitWork, ComputesEachUnitOnceAndTheSameOnAnyNumberOfRanks) {
 
 TEST(UnitWork, EndsAtTheFirstFailureOfTheSink) {
   int calls = 0;
-  const absl::Status status = ComputeUnits(TwoSeas(), UnitsOf(TwoSeas()), *OneRank(),
-                                           [&](UnitId, const std::string&, const std::string&) {
-                                             ++calls;
-                                             return absl::ResourceExhaustedError("full");
-                                           });
+  const absl::Status status =
+      ComputeUnits(TwoSeas(), UnitsOf(TwoSeas()), *OneRank(), [&](UnitId, const std::string&, const std::string&) {
+        ++calls;
+        return absl::ResourceExhaustedError("full");
+      });
   EXPECT_EQ(status.message(), "full");
   EXPECT_EQ(calls, 1);
 }
 
 TEST(UnitWork, SucceedsWithoutUnits) {
-  const auto never = [](UnitId, const std::string&, const std::string&) {
-    return absl::InternalError("called");
-  };
+  const auto never = [](UnitId, const std::string&, const std::string&) { return absl::InternalError("called"); };
   EXPECT_TRUE(ComputeUnits(TwoSeas(), {}, *OneRank(), never).ok());
 }
 

@@ -13,8 +13,7 @@ namespace {
 
 // A patch of all waves from the length of its side to the spacing of its grid.
 WavePatchModel Patch(int size) {
-  return WavePatchModel(SeaState(5, std::numeric_limits<double>::infinity()), 2.0, size,
-                        CrossFade(1e-9, 2e-9));
+  return WavePatchModel(SeaState(5, std::numeric_limits<double>::infinity()), 2.0, size, CrossFade(1e-9, 2e-9));
 }
 
 std::vector<float> Draw(const FastPatch& patch, const NormalStream& stream) {
@@ -29,11 +28,9 @@ std::vector<double> SlowDraw(const WavePatchModel& patch, int points, const Norm
   const std::vector<double> heights = patch.Draw(stream);
   const int size = patch.size();
   std::vector<double> centred;
-  for (int ix = -(points / 2); ix <= points / 2; ++ix) {
-    for (int iy = -(points / 2); iy <= points / 2; ++iy) {
+  for (int ix = -(points / 2); ix <= points / 2; ++ix)
+    for (int iy = -(points / 2); iy <= points / 2; ++iy)
       centred.push_back(heights[(ix + size) % size * size + (iy + size) % size]);
-    }
-  }
   return centred;
 }
 
@@ -54,11 +51,9 @@ TEST_P(EachFastPatch, EqualsThePatchOfTheDoubleTwin) {
   // of each height: well below 2^-20 in total.
   for (const int size : {4, 6, 10, 18, 48, 60, 90, 100, 128, 250, 270, 360, 512}) {
     const WavePatchModel patch = Patch(size);
-    for (int points : {1, 3, size / 4 * 2 - 1, size - 1}) {
-      if (points < size) {
+    for (int points : {1, 3, size / 4 * 2 - 1, size - 1})
+      if (points < size)
         EXPECT_LT(Distance(patch, points, NormalStream(1, 2, size)), 0x1p-20) << points << " of " << size;
-      }
-    }
   }
 }
 
@@ -71,9 +66,7 @@ TEST_P(EachFastPatch, EqualsThatOfTheUsualInstructionSet) {
   Choose(0);
   const std::vector<float> usual = Draw(fast, NormalStream(1, 2, 3));
   const double standard_deviation = std::sqrt(patch.elevation_variance());
-  for (std::size_t i = 0; i < usual.size(); ++i) {
-    EXPECT_NEAR(heights[i], usual[i], 0x1p-19 * standard_deviation);
-  }
+  for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_NEAR(heights[i], usual[i], 0x1p-19 * standard_deviation);
 }
 
 TEST(FastPatch, DoesNotDependOnEarlierUseOfTheWorkspace) {

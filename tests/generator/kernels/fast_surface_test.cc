@@ -26,9 +26,8 @@ TEST(FastSurface, EqualsTheDoubleTwinUnderAVerticalBeam) {
     surface.Draw(stream, workspace);
     ASSERT_EQ(workspace.heights.size(), twin.heights().size());
     double farthest = 0;
-    for (std::size_t i = 0; i < twin.heights().size(); ++i) {
+    for (std::size_t i = 0; i < twin.heights().size(); ++i)
       farthest = std::max(farthest, std::abs(workspace.heights[i] - twin.heights()[i]));
-    }
     NormalStream again = stream;
     const Eigen::VectorXcd amplitudes = model.long_waves().Draw(again);
     // The error of a sum in single precision is a few roundings of the sum of magnitudes.

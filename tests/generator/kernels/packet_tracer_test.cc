@@ -29,11 +29,9 @@ class Surface {
       : floats_((points + padding) * points, 1e9f),
         view_{nullptr, points, points + padding, static_cast<float>(spacing)},
         field_(Rounded(heights), points, view_.spacing) {
-    for (int ix = 0; ix < points; ++ix) {
-      for (int iy = 0; iy < points; ++iy) {
+    for (int ix = 0; ix < points; ++ix)
+      for (int iy = 0; iy < points; ++iy)
         floats_[ix * view_.stride + iy] = static_cast<float>(heights[ix * points + iy]);
-      }
-    }
     view_.heights = floats_.data();
   }
   const HeightView& view() const { return view_; }
@@ -65,9 +63,8 @@ Surface RoughWater(std::uint32_t realization, double slope = 0.15) {
 
 Surface Plane(const Eigen::Vector2d& slope, double height = 0) {
   std::vector<double> heights;
-  for (int ix = -15; ix <= 15; ++ix) {
+  for (int ix = -15; ix <= 15; ++ix)
     for (int iy = -15; iy <= 15; ++iy) heights.push_back(height + slope.dot(Eigen::Vector2d(ix, iy)) / 16);
-  }
   return Surface(heights, 31, 1.0 / 16);
 }
 
@@ -122,8 +119,8 @@ TEST_P(PacketTracer, EqualsTheDoubleTwinOnRoughWater) {
     const Beam beam({.incidence = incidence * kDegree, .azimuth = 0.7, .footprint = 0.9}, 2000);
     for (std::uint32_t realization = 0; realization < 10; ++realization) {
       const Surface surface = RoughWater(realization, kSlope);
-      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()),
-                  2000, kSlope);
+      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()), 2000,
+                  kSlope);
     }
   }
 }
@@ -135,8 +132,7 @@ TEST_P(PacketTracer, EqualsTheDoubleTwinUnderASea) {
   const Beam beam(options, 2000);
   const HeightField field = SeaSurface(model, NormalStream(1, 2, 3)).SurfaceUnder(beam).heights;
   const Surface surface(field.heights(), field.points(), field.spacing());
-  ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()),
-              2000, 0.3);
+  ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()), 2000, 0.3);
 }
 
 // One ray at a time, so that no errors average out.
@@ -155,8 +151,8 @@ TEST_P(PacketTracer, CountsEveryRayOnce) {
   for (const int rays : {1, 2, 7, 8, 9, 15, 16, 17, 100, 1023, 1024, 1025, 2500}) {
     for (const double incidence : {0.0, 0.3}) {
       const Beam beam({.incidence = incidence, .footprint = 0.5}, rays);
-      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()),
-                  rays, 0.15);
+      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.view()), SlowTwin(beam.Rays(0), surface.field()), rays,
+                  0.15);
     }
   }
 }
@@ -208,8 +204,8 @@ TEST_P(PacketTracer, LosesNoRayOnEdgesAndCorners) {
     for (int twice_x = -20; twice_x <= 20; ++twice_x) {
       std::vector<Ray> rays;
       for (int twice_y = -20; twice_y <= 20; ++twice_y) {
-        rays.push_back({Eigen::Vector3d(tangent, 0, -1).normalized(),
-                        Eigen::Vector2d(twice_x, twice_y) * (kPowerOfTwo / 2)});
+        rays.push_back(
+            {Eigen::Vector3d(tangent, 0, -1).normalized(), Eigen::Vector2d(twice_x, twice_y) * (kPowerOfTwo / 2)});
       }
       const TracedBundle traced = TracePackets(RayBundle(rays, kN), surface.view());
       EXPECT_NEAR(traced.height, SlowTwin(rays, surface.field()).height, kHeightTolerance);
@@ -220,9 +216,8 @@ TEST_P(PacketTracer, LosesNoRayOnEdgesAndCorners) {
 // Facets that nearly turn away from the rays: steps fall short there, and packets do not converge.
 TEST_P(PacketTracer, IntersectsUnsettledRaysOneByOne) {
   std::vector<double> ridges;
-  for (int ix = 0; ix < kPoints; ++ix) {
+  for (int ix = 0; ix < kPoints; ++ix)
     for (int iy = 0; iy < kPoints; ++iy) ridges.push_back(ix % 4 < 2 ? ix % 4 * 0.55 : (4 - ix % 4) * 0.55);
-  }
   for (double& height : ridges) height *= kSpacing;
   const Surface surface(ridges, kPoints, kSpacing);
   const Beam beam({.incidence = 60 * kDegree, .footprint = 0.3}, 1000);

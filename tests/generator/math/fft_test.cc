@@ -38,12 +38,9 @@ void ExpectOneWave(int i, int j) {
   mode(i, j) = {0, 0.5};
   if (j == 0) mode(-i, 0) = {0, -0.5};
   const auto heights = transform(std::move(modes));
-  for (int ix = 0; ix < kSize; ++ix) {
-    for (int iy = 0; iy < kSize; ++iy) {
-      EXPECT_NEAR(heights[ix * kSize + iy], -std::sin(2 * std::numbers::pi * (i * ix + j * iy) / kSize),
-                  1e-14);
-    }
-  }
+  for (int ix = 0; ix < kSize; ++ix)
+    for (int iy = 0; iy < kSize; ++iy)
+      EXPECT_NEAR(heights[ix * kSize + iy], -std::sin(2 * std::numbers::pi * (i * ix + j * iy) / kSize), 1e-14);
 }
 
 TEST(InverseFft, TurnsOneModeIntoOneWave) {
@@ -55,9 +52,8 @@ TEST(InverseFft, TurnsOneModeIntoOneWave) {
 TEST(ForwardFft, EqualsTheDirectSumOverThePoints) {
   constexpr int kSize = 6;
   Eigen::MatrixXd weights(kSize, kSize);
-  for (int i = 0; i < kSize; ++i) {
+  for (int i = 0; i < kSize; ++i)
     for (int j = 0; j < kSize; ++j) weights(i, j) = std::sin(1.0 + 3 * i + 7 * j);
-  }
   const Eigen::MatrixXcd waves = ForwardFft(weights);
   ASSERT_EQ(waves.rows(), kSize);
   ASSERT_EQ(waves.cols(), kSize / 2 + 1);

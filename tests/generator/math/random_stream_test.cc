@@ -53,9 +53,8 @@ TEST(NormalStream, ContinuesAtTheNextMultipleOfFourNumbers) {
 TEST(NormalStream, HasTheMomentsOfTheNormalDistribution) {
   constexpr int kCount = 1000000;
   std::array<double, 5> moment = {};
-  for (const double x : Normals(NormalStream(7, 0, 0), kCount)) {
+  for (const double x : Normals(NormalStream(7, 0, 0), kCount))
     for (int p = 1; p <= 4; ++p) moment[p] += std::pow(x, p) / kCount;
-  }
   // Four standard errors: Var x^p = m_2p - m_p^2 with m_2, m_4, m_6, m_8 = 1, 3, 15, 105.
   EXPECT_NEAR(moment[1], 0, 4 * std::sqrt(1.0 / kCount));
   EXPECT_NEAR(moment[2], 1, 4 * std::sqrt(2.0 / kCount));
@@ -67,12 +66,10 @@ TEST(NormalStream, IsUncorrelatedWithOtherStreamsAndWithItselfShifted) {
   constexpr int kCount = 100000;
   const std::vector<double> one = Normals(NormalStream(1, 2, 3), kCount);
   const double four_standard_errors = 4 / std::sqrt(kCount);
-  const std::vector<NormalStream> others = {NormalStream(2, 2, 3), NormalStream(1, 3, 3),
-                                            NormalStream(1, 2, 4), NormalStream(1, 3, 2),
-                                            NormalStream(1 + (std::uint64_t{1} << 32), 2, 3)};
-  for (const NormalStream& other : others) {
+  const std::vector<NormalStream> others = {NormalStream(2, 2, 3), NormalStream(1, 3, 3), NormalStream(1, 2, 4),
+                                            NormalStream(1, 3, 2), NormalStream(1 + (std::uint64_t{1} << 32), 2, 3)};
+  for (const NormalStream& other : others)
     EXPECT_NEAR(Correlation(one, Normals(other, kCount)), 0, four_standard_errors);
-  }
   std::vector<double> next = one;
   std::rotate(next.begin(), next.begin() + 1, next.end());
   EXPECT_NEAR(Correlation(one, next), 0, four_standard_errors);

@@ -23,9 +23,8 @@ TEST(Rounding, RoundsTiesToEven) {
 
 TEST(Rounding, ErrsByAtMostHalfOfTheLastDigit) {
   for (double value = 1e-6; value < 1e3; value *= 1.0137) {
-    for (const int bits : {1, 4, 13, 24}) {
+    for (const int bits : {1, 4, 13, 24})
       EXPECT_LE(std::abs(RoundToBits(value, bits) / value - 1), std::exp2(-bits)) << value;
-    }
     EXPECT_EQ(static_cast<float>(RoundToBits(value, 24)), RoundToBits(value, 24)) << value;
   }
 }
@@ -35,8 +34,7 @@ TEST(Rounding, KeepsAnEstimateWithinAnEighthOfItsStandardError) {
     for (double value = -3; value < 3; value += 0.0173) {
       const double error = relative_error * std::abs(value);
       const Estimate rounded = Rounded({value, error});
-      EXPECT_LE(std::abs(rounded.value - value),
-                std::max(error / 8, std::exp2(-kValueBits) * std::abs(value)));
+      EXPECT_LE(std::abs(rounded.value - value), std::max(error / 8, std::exp2(-kValueBits) * std::abs(value)));
       EXPECT_LE(std::abs(rounded.standard_error / error - 1), std::exp2(-kStandardErrorBits));
       EXPECT_EQ(Rounded(rounded).value, rounded.value) << value;
     }

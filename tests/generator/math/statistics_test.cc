@@ -92,8 +92,7 @@ TEST(Statistics, WithAControlAreUnbiasedAndScatterByTheirStandardErrors) {
   for (int i = 0; i < kRepetitions; ++i) {
     const Eigen::ArrayXd c = Normals(kCount, 2 * i), rest = 0.1 * Normals(kCount, 2 * i + 1);
     const Eigen::ArrayXd sample = 0.97 * c + rest + 0.02 * (c.square() - 1);
-    const Estimate spread =
-        TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});  // the mean is known
+    const Estimate spread = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});  // the mean is known
     const Estimate mean = Mean(sample, Control{c, 0});
     variances[i] = spread.value * spread.value / 4;
     values[i] = spread.value;

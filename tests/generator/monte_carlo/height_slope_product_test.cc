@@ -12,8 +12,7 @@
 namespace albtpu {
 namespace {
 
-Eigen::Matrix2d CovarianceOn(const SurfaceModel& model, const BeamOptions& beam,
-                             const std::vector<Ray>& rays) {
+Eigen::Matrix2d CovarianceOn(const SurfaceModel& model, const BeamOptions& beam, const std::vector<Ray>& rays) {
   const double spacing = model.patch().spacing();
   return HeightSlopeProduct(SurfaceCorrelation(model, ReachOfRays(rays, spacing)), spacing).Covariance(beam);
 }
@@ -48,8 +47,7 @@ void PointsWithin(const BeamOptions& beam, double spacing, int reach, std::vecto
 TEST(HeightSlopeProduct, EqualsTheSumOverAllPairsOfPairsOfPoints) {
   for (const BeamOptions& beam :
        {BeamOptions{.footprint = 1}, BeamOptions{.incidence = 0.6, .azimuth = 0.7, .footprint = 3}}) {
-    const SurfaceModel model(SeaState(6, 2e4), beam,
-                             {.patch_per_beam = 4, .points_per_footprint = 24, .rays = 500});
+    const SurfaceModel model(SeaState(6, 2e4), beam, {.patch_per_beam = 4, .points_per_footprint = 24, .rays = 500});
     const double spacing = model.patch().spacing();
     const std::vector<Ray> rays = Beam(beam, 500).Rays(0);
     const SurfaceCorrelation correlation(model, ReachOfRays(rays, spacing));

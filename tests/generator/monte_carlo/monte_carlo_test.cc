@@ -40,10 +40,9 @@ TEST(MonteCarlo, HasNoErrorsOverACalm) {
   SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 2}});
   sea_case.sea.waves = WindSea{.wind_speed_10m = 0};
   for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain}) {
-    const SeaCaseResult result = Simulate(
-        sea_case,
-        {.realizations = 10, .most_realizations = 1000, .relative_error = 0.01, .estimator = estimator}, 5,
-        6);
+    const SeaCaseResult result =
+        Simulate(sea_case,
+                 {.realizations = 10, .most_realizations = 1000, .relative_error = 0.01, .estimator = estimator}, 5, 6);
     EXPECT_TRUE(result.converged);
     EXPECT_EQ(result.realizations, 0);
     ASSERT_EQ(result.beams.size(), 2);
@@ -59,8 +58,7 @@ TEST(MonteCarlo, HasNoErrorsOverACalm) {
 }
 
 TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreads) {
-  const SeaCase sea_case =
-      ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.25}});
+  const SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.25}});
   const auto run = [&](int threads) {
     tbb::task_arena arena(threads);
     return arena.execute([&] { return Simulate(sea_case, Exactly(101), 5, 6); });
@@ -106,8 +104,8 @@ TEST(MonteCarlo, FindsTheSecondOrderBiasOfTheBottomAtNadir) {
 
 TEST(MonteCarlo, AgreesBetweenTheQuadrantsOfTheAzimuth) {
   const auto at = [](double azimuth, std::uint32_t cell) {
-    return Simulate(ModerateSea({{.incidence = 0.35, .azimuth = azimuth * kDegree, .footprint = 0.25}}),
-                    Exactly(1500), 1, cell)
+    return Simulate(ModerateSea({{.incidence = 0.35, .azimuth = azimuth * kDegree, .footprint = 0.25}}), Exactly(1500),
+                    1, cell)
         .beams[0];
   };
   const BeamUncertainty first = at(30, 0);
@@ -133,8 +131,7 @@ TEST(MonteCarlo, HasAHorizontalUncertaintyOfRefractionTimesDepth) {
 }
 
 TEST(MonteCarlo, WithControlVariatesAgreesWithTracingAlone) {
-  const SeaCase sea_case =
-      ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
+  const SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
   Effort effort = Exactly(1000);
   const SeaCaseResult controlled = Simulate(sea_case, effort, 3, 0);
   effort.estimator = Estimator::kPlain;
@@ -157,12 +154,9 @@ TEST(MonteCarlo, WithControlVariatesAgreesWithTracingAlone) {
 
 TEST(MonteCarlo, ContinuesUntilTheStandardErrorIsSmallEnough) {
   const SeaCase sea_case = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
-  const SeaCaseResult result = Simulate(sea_case,
-                                        {.realizations = 50,
-                                         .most_realizations = 20000,
-                                         .relative_error = 0.03,
-                                         .estimator = Estimator::kPlain},
-                                        1, 0);
+  const SeaCaseResult result = Simulate(
+      sea_case,
+      {.realizations = 50, .most_realizations = 20000, .relative_error = 0.03, .estimator = Estimator::kPlain}, 1, 0);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ((result.realizations - 50) % kBatch, 0);
   EXPECT_GT(result.realizations, 300);  // 1 / sqrt(2 n) is 0.03 at n = 556

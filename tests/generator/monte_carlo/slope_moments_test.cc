@@ -63,8 +63,7 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     }
     const Estimate mean = Mean(forms), spread = TwoSigma(forms);
     EXPECT_NEAR(mean.value, Form(moments.expected_squares), 4 * mean.standard_error) << footprint;
-    EXPECT_NEAR(spread.value, 2 * std::sqrt(moments.variance_of_form), 4 * spread.standard_error)
-        << footprint;
+    EXPECT_NEAR(spread.value, 2 * std::sqrt(moments.variance_of_form), 4 * spread.standard_error) << footprint;
   }
 }
 
@@ -89,28 +88,22 @@ double Covariance(const SurfaceModel& model, const Eigen::MatrixXd& a, const Eig
   const int size = model.patch().size();
   const auto of_patch = [&](const Eigen::MatrixXd& weights) {
     Eigen::MatrixXd folded = Eigen::MatrixXd::Zero(size, size);  // the patch repeats
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+    for (Eigen::Index i = 0; i < weights.rows(); ++i)
       for (Eigen::Index j = 0; j < weights.cols(); ++j) folded(i % size, j % size) += weights(i, j);
-    }
     return ForwardFft(folded);
   };
   const Eigen::MatrixXcd patch_a = of_patch(a), patch_b = of_patch(b);
   double sum = 0;
-  for (int row = 0; row < size; ++row) {
-    for (int j = 0; j < size / 2; ++j) {
-      sum += (j == 0 ? 1 : 2) * model.patch().power(row, j) *
-             (patch_a(row, j) * std::conj(patch_b(row, j))).real();
-    }
-  }
+  for (int row = 0; row < size; ++row)
+    for (int j = 0; j < size / 2; ++j)
+      sum += (j == 0 ? 1 : 2) * model.patch().power(row, j) * (patch_a(row, j) * std::conj(patch_b(row, j))).real();
   const auto of_long_waves = [&](const Eigen::MatrixXd& weights) {
     const Eigen::MatrixXd at_nodes = model.refinement().transpose() * weights * model.refinement();
-    return Eigen::VectorXcd(
-        (at_nodes * model.phases_y()).cwiseProduct(model.phases_x()).colwise().sum().transpose());
+    return Eigen::VectorXcd((at_nodes * model.phases_y()).cwiseProduct(model.phases_x()).colwise().sum().transpose());
   };
   const Eigen::VectorXcd long_a = of_long_waves(a), long_b = of_long_waves(b);
-  for (Eigen::Index m = 0; m < long_a.size(); ++m) {
+  for (Eigen::Index m = 0; m < long_a.size(); ++m)
     sum += model.long_waves().waves()[m].variance * (long_a[m] * std::conj(long_b[m])).real();
-  }
   return sum;
 }
 
@@ -122,8 +115,7 @@ TEST(SlopeMoments, EqualTheSumsOverAllPairsOfRays) {
     BeamOptions beam;
   };
   for (const auto& [wind_speed, fetch, options] :
-       {Case{2, 1e3, {.footprint = 0.25}},
-        Case{2, INFINITY, {.incidence = 0.4, .azimuth = 0.5, .footprint = 2}},
+       {Case{2, 1e3, {.footprint = 0.25}}, Case{2, INFINITY, {.incidence = 0.4, .azimuth = 0.5, .footprint = 2}},
         Case{12, INFINITY, {.incidence = 0.1, .azimuth = 1.2, .footprint = 0.5}}}) {
     const SeaState sea(wind_speed, fetch);
     const std::vector<Ray> rays = Beam(options, 12).Rays(0);
@@ -136,16 +128,14 @@ TEST(SlopeMoments, EqualTheSumsOverAllPairsOfRays) {
     for (const auto& a : slopes) {
       for (const auto& b : slopes) {
         Eigen::Matrix2d r;
-        for (const int i : {0, 1}) {
+        for (const int i : {0, 1})
           for (const int j : {0, 1}) r(i, j) = Covariance(model, a[i], b[j]);
-        }
         covariance += weight * r;
         variance_of_form += 2 * weight * (kForm * r * kForm * r.transpose()).trace();
       }
     }
     const SlopeMoments moments = MomentsOn(model, rays);
-    EXPECT_LT((moments.covariance - covariance).norm() / covariance.norm(), 2e-4)
-        << wind_speed << ' ' << fetch;
+    EXPECT_LT((moments.covariance - covariance).norm() / covariance.norm(), 2e-4) << wind_speed << ' ' << fetch;
     EXPECT_NEAR(moments.variance_of_form / variance_of_form, 1, 4e-4) << wind_speed << ' ' << fetch;
   }
 }

@@ -20,8 +20,7 @@ Spread SpreadOf(const Beam& beam) {
   Spread spread{0, 0};
   for (const Ray& ray : beam.Rays(0)) {
     spread.along += std::pow(ray.at_zero.dot(azimuth), 2) / beam.ray_count();
-    spread.across +=
-        std::pow(ray.at_zero.dot(Eigen::Vector2d(-azimuth.y(), azimuth.x())), 2) / beam.ray_count();
+    spread.across += std::pow(ray.at_zero.dot(Eigen::Vector2d(-azimuth.y(), azimuth.x())), 2) / beam.ray_count();
   }
   return spread;
 }
@@ -54,8 +53,8 @@ TEST_P(BeamOfProfile, HasTheVarianceOfASixteenthOfItsSquaredDiameter) {
 
 TEST_P(BeamOfProfile, HasAnEllipticalFootprintOnTheWater) {
   const double incidence = 40 * kDegree;
-  const Spread spread = SpreadOf(
-      Beam({.incidence = incidence, .azimuth = 1.1, .footprint = 0.6, .profile = GetParam()}, kRays));
+  const Spread spread =
+      SpreadOf(Beam({.incidence = incidence, .azimuth = 1.1, .footprint = 0.6, .profile = GetParam()}, kRays));
   EXPECT_NEAR(spread.along / (0.36 / 16 / std::pow(std::cos(incidence), 2)), 1, 1 / std::sqrt(kRays));
   EXPECT_NEAR(spread.across / (0.36 / 16), 1, 1 / std::sqrt(kRays));
 }
@@ -63,16 +62,13 @@ TEST_P(BeamOfProfile, HasAnEllipticalFootprintOnTheWater) {
 // The rays are a quadrature of the footprint's Fourier transform, with the relative error (kappa spacing)^2 / 24 of the
 // midpoint rule: at most 7e-4 where kappa D is 20.
 TEST_P(BeamOfProfile, HasRaysWhoseTransformIsThatOfTheFootprint) {
-  const BeamOptions options{
-      .incidence = 25 * kDegree, .azimuth = 0.4, .footprint = 0.5, .profile = GetParam()};
+  const BeamOptions options{.incidence = 25 * kDegree, .azimuth = 0.4, .footprint = 0.5, .profile = GetParam()};
   const std::vector<Ray> rays = Beam(options, kRays).Rays(0);
   for (const double k : {0.1, 2.0, 5.0, 10.0, 20.0, 35.0}) {
     for (const double psi : {0.0, 0.4, 1.2, 2.5}) {
       std::complex<double> transform = 0;
-      for (const Ray& ray : rays) {
-        transform +=
-            std::polar(1.0 / kRays, k * (ray.at_zero.x() * std::cos(psi) + ray.at_zero.y() * std::sin(psi)));
-      }
+      for (const Ray& ray : rays)
+        transform += std::polar(1.0 / kRays, k * (ray.at_zero.x() * std::cos(psi) + ray.at_zero.y() * std::sin(psi)));
       EXPECT_NEAR(FootprintPower(options, k, psi), std::norm(transform), 1e-3) << k << " rad/m at " << psi;
     }
   }
@@ -81,8 +77,8 @@ TEST_P(BeamOfProfile, HasRaysWhoseTransformIsThatOfTheFootprint) {
 TEST(Beam, HasParallelRaysWhenCollimated) {
   const double incidence = 20 * kDegree, azimuth = 70 * kDegree;
   const Beam beam({.incidence = incidence, .azimuth = azimuth, .footprint = 1}, 50);
-  const Eigen::Vector3d expected(std::sin(incidence) * std::cos(azimuth),
-                                 std::sin(incidence) * std::sin(azimuth), -std::cos(incidence));
+  const Eigen::Vector3d expected(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
+                                 -std::cos(incidence));
   for (const Ray& ray : beam.Rays(3)) EXPECT_LT((ray.direction - expected).norm(), 1e-15);
 }
 
@@ -108,9 +104,8 @@ TEST(Beam, NarrowsTowardsItsPointSource) {
 }
 
 TEST(FootprintPower, IsOneForWavesMuchLongerThanTheFootprint) {
-  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
+  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian})
     EXPECT_NEAR(FootprintPower({.incidence = 0.3, .footprint = 0.5, .profile = profile}, 1e-4, 0.2), 1, 1e-8);
-  }
 }
 
 TEST(FootprintPower, OfADiscVanishesAtTheFirstZeroOfTheBesselFunction) {

@@ -12,8 +12,7 @@ namespace {
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 TEST(WidestBeam, HasTheGreatestIncidence) {
-  EXPECT_EQ(WidestBeam({{.incidence = 0.1}, {.incidence = 0.4, .azimuth = 1}, {.incidence = 0.2}}).azimuth,
-            1);
+  EXPECT_EQ(WidestBeam({{.incidence = 0.1}, {.incidence = 0.4, .azimuth = 1}, {.incidence = 0.2}}).azimuth, 1);
 }
 
 TEST(Discretization, SufficesForEveryBeamOnTheSurface) {

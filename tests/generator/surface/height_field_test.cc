@@ -47,9 +47,8 @@ std::vector<double> HeightsOnAllTriangles(const Ray& ray, const std::vector<doub
   for (int ix = 0; ix + 1 < kPoints; ++ix) {
     for (int iy = 0; iy + 1 < kPoints; ++iy) {
       const Eigen::Vector3d low = PointOf(heights, ix, iy), high = PointOf(heights, ix + 1, iy + 1);
-      for (const Eigen::Vector3d& third : {PointOf(heights, ix + 1, iy), PointOf(heights, ix, iy + 1)}) {
+      for (const Eigen::Vector3d& third : {PointOf(heights, ix + 1, iy), PointOf(heights, ix, iy + 1)})
         if (const auto height = HeightOnTriangle(ray, {low, third, high})) intersections.push_back(*height);
-      }
     }
   }
   return intersections;
@@ -97,14 +96,11 @@ TEST(Intersection, IsFoundOnEdgesAndCorners) {
   for (int ix = 0; ix + 1 < kPoints; ++ix) {
     for (int iy = 0; iy + 1 < kPoints; ++iy) {
       const Eigen::Vector3d corner = PointOf(heights, ix, iy);
-      for (const Eigen::Vector3d& target :
-           {corner, Eigen::Vector3d((corner + PointOf(heights, ix + 1, iy)) / 2),
-            Eigen::Vector3d((corner + PointOf(heights, ix, iy + 1)) / 2),
-            Eigen::Vector3d((corner + PointOf(heights, ix + 1, iy + 1)) / 2)}) {
-        for (const double incidence : {0.0, 0.35, 0.8}) {
+      for (const Eigen::Vector3d& target : {corner, Eigen::Vector3d((corner + PointOf(heights, ix + 1, iy)) / 2),
+                                            Eigen::Vector3d((corner + PointOf(heights, ix, iy + 1)) / 2),
+                                            Eigen::Vector3d((corner + PointOf(heights, ix + 1, iy + 1)) / 2)})
+        for (const double incidence : {0.0, 0.35, 0.8})
           EXPECT_NEAR(Intersect(surface, RayThrough(target, incidence, 0.6)).height, target.z(), 1e-12);
-        }
-      }
     }
   }
 }
@@ -130,9 +126,8 @@ TEST(Intersection, BeyondTheEdgesLiesOnTheOutermostPlanes) {
   const HeightField plane(heights, kPoints, kSpacing);
   for (const Eigen::Vector2d& spot : {Eigen::Vector2d(3, 0), {-3, 2}, {0.1, -7}, {20, 20}}) {
     const Eigen::Vector3d target(spot.x(), spot.y(), 0.05 + slope.dot(spot));
-    for (const double incidence : {0.0, 0.44}) {
+    for (const double incidence : {0.0, 0.44})
       EXPECT_NEAR(Intersect(plane, RayThrough(target, incidence, 0.3)).height, target.z(), 1e-11);
-    }
   }
 }
 

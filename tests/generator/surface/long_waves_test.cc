@@ -14,9 +14,8 @@ const auto kEverything = [](double, double) { return 1.0; };
 
 double ElevationAt(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes, const Eigen::Vector2d& x) {
   double sum = 0;
-  for (std::size_t m = 0; m < model.waves().size(); ++m) {
+  for (std::size_t m = 0; m < model.waves().size(); ++m)
     sum += (amplitudes[m] * std::polar(1.0, model.waves()[m].wavenumber.dot(x))).real();
-  }
   return sum;
 }
 
@@ -62,8 +61,8 @@ TEST(LongWaves, AreTheSameWavesAboutAnotherOrigin) {
   const Eigen::VectorXcd amplitudes = model.Draw(stream);
   const Eigen::Vector2d origin(3, -7);
   for (const Eigen::Vector2d& x : {Eigen::Vector2d(0, 0), {1, 2}, {-30, 4}}) {
-    EXPECT_NEAR(ElevationAt(model, model.Shifted(amplitudes, origin), x),
-                ElevationAt(model, amplitudes, origin + x), 1e-12);
+    EXPECT_NEAR(ElevationAt(model, model.Shifted(amplitudes, origin), x), ElevationAt(model, amplitudes, origin + x),
+                1e-12);
   }
 }
 
@@ -74,19 +73,15 @@ TEST(LongWaves, SumOnAGridToTheirElevations) {
   const std::vector<double> xs = {-3, 0, 1.5, 40}, ys = {-0.2, 7};
   const auto phases = [&](const std::vector<double>& places, int axis) {
     Eigen::MatrixXcd all(places.size(), model.waves().size());
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      for (std::size_t m = 0; m < model.waves().size(); ++m) {
+    for (std::size_t p = 0; p < places.size(); ++p)
+      for (std::size_t m = 0; m < model.waves().size(); ++m)
         all(p, m) = std::polar(1.0, model.waves()[m].wavenumber[axis] * places[p]);
-      }
-    }
     return all;
   };
   const Eigen::MatrixXd sum = SumOfWaves(phases(xs, 0), amplitudes, phases(ys, 1));
-  for (std::size_t i = 0; i < xs.size(); ++i) {
-    for (std::size_t j = 0; j < ys.size(); ++j) {
+  for (std::size_t i = 0; i < xs.size(); ++i)
+    for (std::size_t j = 0; j < ys.size(); ++j)
       EXPECT_NEAR(sum(i, j), ElevationAt(model, amplitudes, {xs[i], ys[j]}), 1e-12);
-    }
-  }
 }
 
 TEST(HeightOfIntersection, IsTheElevationOfTheLongWavesThere) {
@@ -95,8 +90,7 @@ TEST(HeightOfIntersection, IsTheElevationOfTheLongWavesThere) {
     NormalStream stream(1, 4, draw);
     const Eigen::VectorXcd amplitudes = model.Draw(stream);
     for (const double incidence : {0.0, 0.35, 0.44, 0.8}) {
-      const Eigen::Vector2d per_height =
-          -std::tan(incidence) * Eigen::Vector2d(std::cos(draw), std::sin(draw));
+      const Eigen::Vector2d per_height = -std::tan(incidence) * Eigen::Vector2d(std::cos(draw), std::sin(draw));
       const Eigen::Vector2d at_zero(0.3, -0.1);
       const double z = HeightOfIntersection(model, amplitudes, at_zero, per_height);
       EXPECT_NEAR(ElevationAt(model, amplitudes, at_zero + z * per_height), z, 1e-9);

@@ -19,9 +19,8 @@ constexpr double kRounding = 1e-13;  // of sums over a thousand rays
 
 HeightField Plane(const Eigen::Vector2d& slope) {
   std::vector<double> heights;
-  for (int ix = -1; ix <= 1; ++ix) {
+  for (int ix = -1; ix <= 1; ++ix)
     for (int iy = -1; iy <= 1; ++iy) heights.push_back(slope.dot(Eigen::Vector2d(ix, iy)));
-  }
   return HeightField(heights, 3, 1.0);
 }
 

@@ -121,17 +121,15 @@ TEST_F(ModerateSea, IsTheSumOfThePatchAndThePlaneWavesAtEveryPoint) {
       bound += std::abs(amplitudes[m]) * 3.0 / 128 * (std::pow(phase.x(), 4) + 1.25 * std::pow(phase.y(), 4));
     }
 
-    const SeaSurface::LocalSurface local =
-        SeaSurface(model_, NormalStream(1, 0, realization)).SurfaceUnder(beam);
+    const SeaSurface::LocalSurface local = SeaSurface(model_, NormalStream(1, 0, realization)).SurfaceUnder(beam);
     EXPECT_NEAR(local.elevation, elevation, 1e-12);
     const int half = static_cast<int>(std::lround(local.heights.reach() / local.heights.spacing()));
     for (int i = -half; i <= half; ++i) {
       for (int j = -half; j <= half; ++j) {
         const Eigen::Vector2d x = Eigen::Vector2d(i, j) * local.heights.spacing();
         double direct = -elevation;
-        for (std::size_t m = 0; m < waves.size(); ++m) {
+        for (std::size_t m = 0; m < waves.size(); ++m)
           direct += (amplitudes[m] * std::polar(1.0, waves[m].wavenumber.dot(origin + x))).real();
-        }
         const double long_waves =
             local.heights.FacetAt(x).HeightAt(x) - patch[((i + size) % size) * size + (j + size) % size];
         ASSERT_NEAR(long_waves, direct, bound) << i << ", " << j;

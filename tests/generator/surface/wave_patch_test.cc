@@ -48,17 +48,13 @@ std::vector<double> SlowDraw(const SeaState& sea, double length, int size, const
       const double k = dk * std::hypot(i, j);
       // Triangles of the side dx have the slopes 2 sin(kx dx / 2) / dx: the wave is drawn higher by their loss.
       const double dx = length / size;
-      const double of_triangles =
-          std::hypot(2 / dx * std::sin(dk * i * dx / 2), 2 / dx * std::sin(dk * j * dx / 2));
+      const double of_triangles = std::hypot(2 / dx * std::sin(dk * i * dx / 2), 2 / dx * std::sin(dk * j * dx / 2));
       const double power = share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk * std::pow(k / of_triangles, 2);
       const std::complex<double> amplitude =
           std::sqrt(power / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
-      for (int ix = 0; ix < size; ++ix) {
-        for (int iy = 0; iy < size; ++iy) {
-          heights[ix * size + iy] +=
-              2 * (amplitude * std::polar(1.0, 2 * kPi * (i * ix + j * iy) / size)).real();
-        }
-      }
+      for (int ix = 0; ix < size; ++ix)
+        for (int iy = 0; iy < size; ++iy)
+          heights[ix * size + iy] += 2 * (amplitude * std::polar(1.0, 2 * kPi * (i * ix + j * iy) / size)).real();
     }
   }
   return heights;
@@ -78,11 +74,9 @@ TEST(WavePatch, IsTheSumOfItsModes) {
 // The amplitude of mode (i, j) of a grid of heights, by a direct sum.
 std::complex<double> Mode(const std::vector<double>& heights, int size, int i, int j) {
   std::complex<double> sum = 0;
-  for (int ix = 0; ix < size; ++ix) {
-    for (int iy = 0; iy < size; ++iy) {
+  for (int ix = 0; ix < size; ++ix)
+    for (int iy = 0; iy < size; ++iy)
       sum += heights[ix * size + iy] * std::polar(1.0, -2 * kPi * (i * ix + j * iy) / size);
-    }
-  }
   return sum / static_cast<double>(size * size);
 }
 
@@ -97,8 +91,7 @@ TEST(WavePatch, DrawsTheSameWavesOnAFinerGrid) {
     // On the coarser grid, waves are drawn higher to make up for the slope of its triangles.
     const auto side = [](int mode, int size) { return size / kPi * std::sin(kPi * mode / size); };
     const double higher = std::hypot(side(i, 60), side(j, 60)) / std::hypot(side(i, 24), side(j, 24));
-    EXPECT_LT(std::abs(higher * Mode(fine, 60, i, j) - amplitude), 1e-9 * std::abs(amplitude))
-        << i << ", " << j;
+    EXPECT_LT(std::abs(higher * Mode(fine, 60, i, j) - amplitude), 1e-9 * std::abs(amplitude)) << i << ", " << j;
   }
 }
 
@@ -117,11 +110,9 @@ TEST(WavePatch, HasTheVariancesOfItsSpectrum) {
       for (int iy = 0; iy < size; ++iy) {
         const double low = at(ix, iy), x = at(ix + 1, iy), y = at(ix, iy + 1), high = at(ix + 1, iy + 1);
         sum[0] += low * low;
-        for (const Eigen::Vector2d& rise :
-             {Eigen::Vector2d(x - low, high - x), Eigen::Vector2d(high - y, y - low)}) {
+        for (const Eigen::Vector2d& rise : {Eigen::Vector2d(x - low, high - x), Eigen::Vector2d(high - y, y - low)}) {
           const Eigen::Vector2d slope = rise / model.spacing();
-          sum.tail<3>() +=
-              0.5 * Eigen::Vector3d(slope.x() * slope.x(), slope.y() * slope.y(), slope.x() * slope.y());
+          sum.tail<3>() += 0.5 * Eigen::Vector3d(slope.x() * slope.x(), slope.y() * slope.y(), slope.x() * slope.y());
         }
       }
     }
@@ -164,8 +155,7 @@ TEST(WavePatch, LeavesOutTheLongWaves) {
   const WavePatchModel all(Sea(), 2.0, 32, AllPatch()), short_waves(Sea(), 2.0, 32, CrossFade(9, 19));
   EXPECT_LT(short_waves.elevation_variance(), all.elevation_variance());
   const auto short_only = [](double k, double) { return k >= 19 ? 1.0 : 0.0; };
-  EXPECT_DOUBLE_EQ(short_waves.FacetSlopeCovariance(short_only).trace(),
-                   all.FacetSlopeCovariance(short_only).trace());
+  EXPECT_DOUBLE_EQ(short_waves.FacetSlopeCovariance(short_only).trace(), all.FacetSlopeCovariance(short_only).trace());
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ TEST(PhotonWalk, HasTheMomentsOfLewis) {
   const double z = (1 - std::exp(-k1 * length)) / k1;
   const double i0 = (length - z) / k1;
   const double i2 =
-      ((1 - std::exp(-k2 * length)) / k2 - (std::exp(-k2 * length) - std::exp(-k1 * length)) / (k1 - k2)) /
-      k1;
+      ((1 - std::exp(-k2 * length)) / k2 - (std::exp(-k2 * length) - std::exp(-k1 * length)) / (k1 - k2)) / k1;
   EXPECT_NEAR(cosine / photons, std::exp(-k1 * length), 0.003);
   EXPECT_NEAR(z_mean / photons / z, 1, 0.001);
   EXPECT_NEAR(z_square / photons / (2.0 / 3 * (i0 + 2 * i2)), 1, 0.003);
@@ -120,8 +119,7 @@ TEST(PhotonWalk, EncirclesTheEnergyOfWells) {
       while (nodes[node] < q) ++node;
       const double part = (q - nodes[node - 1]) / (nodes[node] - nodes[node - 1]);
       const double integral = lost[node - 1] + part * (lost[node] - lost[node - 1]);
-      encircled +=
-          radius * std::cyl_bessel_j(1, q * radius) * (std::exp(-depth * integral / q) - ballistic) * step;
+      encircled += radius * std::cyl_bessel_j(1, q * radius) * (std::exp(-depth * integral / q) - ballistic) * step;
     }
     double inside = 0;
     for (std::size_t i = 0; i < planes[0].ahead.size(); ++i)
@@ -133,8 +131,7 @@ TEST(PhotonWalk, EncirclesTheEnergyOfWells) {
 TEST(PhotonWalk, KeepsUnscatteredLightExactly) {
   const double depths[] = {0.5, 2};
   const std::uint32_t photons = 50'000;
-  const auto planes =
-      WalkPhotons(PhaseFunction::FournierForand(0.0183), {.refracted = 0.3}, depths, photons, 1, 0, 0);
+  const auto planes = WalkPhotons(PhaseFunction::FournierForand(0.0183), {.refracted = 0.3}, depths, photons, 1, 0, 0);
   for (const Crossings& plane : planes) {
     std::size_t unscattered = 0;
     for (std::size_t i = 0; i < plane.excess.size(); ++i)

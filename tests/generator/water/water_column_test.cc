@@ -10,13 +10,10 @@ namespace {
 const PhaseFunction kOcean = PhaseFunction::FournierForand(0.0183);
 
 WaterColumn Column(double incidence = 0.21) {
-  return {
-      .incidence = incidence, .scattering = 2.8, .absorption = 0.25, .field_of_view = 0.3, .footprint = 0.05};
+  return {.incidence = incidence, .scattering = 2.8, .absorption = 0.25, .field_of_view = 0.3, .footprint = 0.05};
 }
 
-WaterEffort Effort(std::uint64_t seed) {
-  return {.photons = 50'000, .pools = 6, .pairs_per_photon = 4, .seed = seed};
-}
+WaterEffort Effort(std::uint64_t seed) { return {.photons = 50'000, .pools = 6, .pairs_per_photon = 4, .seed = seed}; }
 
 TEST(WaterColumn, IsTheSameByOtherSeedsWithinItsStandardErrors) {
   const double pulses[] = {0.0165, 0.1};
@@ -89,8 +86,7 @@ TEST(WaterColumn, SeenWholeDelaysByTheMeanPathOfTwoPhotons) {
 TEST(WaterColumn, FindsReceiversThroughSquaresAsThroughAll) {
   const double depths[] = {2.8};
   const auto planes = WalkPhotons(kOcean, {.refracted = 0.15}, depths, 3000, 1, 0, 0);
-  EchoSetup setup{
-      .incidence = 0.2, .absorption = 0.25, .field_of_view = 0.4, .step = 0.001, .pairs_per_photon = 400};
+  EchoSetup setup{.incidence = 0.2, .absorption = 0.25, .field_of_view = 0.4, .step = 0.001, .pairs_per_photon = 400};
   const Echo echo = PairPhotons(planes[0], planes[0], setup, 1, 0, 0);
   double energy = 0, ahead = 0;
   const auto& p = planes[0];

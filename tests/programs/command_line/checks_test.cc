@@ -27,8 +27,7 @@ TEST(WholeIn, RefusesWhatIsOutOfRangeOrNotAWholeNumber) {
 TEST(OneOf, NamesTheChoicesAndANearMatch) {
   const CLI::Validator check = OneOf({"uniform", "gaussian"});
   EXPECT_EQ(ProblemOf(check, "uniform"), "");
-  EXPECT_EQ(ProblemOf(check, "unifrom"),
-            "'unifrom' is unknown (there are uniform, gaussian); did you mean uniform?");
+  EXPECT_EQ(ProblemOf(check, "unifrom"), "'unifrom' is unknown (there are uniform, gaussian); did you mean uniform?");
   EXPECT_EQ(ProblemOf(check, "square"), "'square' is unknown; give one of uniform, gaussian");
 }
 

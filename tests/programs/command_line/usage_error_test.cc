@@ -43,8 +43,7 @@ TEST(UsageMessage, NamesTheCommandsAndTheNearestOne) {
 }
 
 TEST(UsageMessage, NamesTheNearestOption) {
-  EXPECT_EQ(MessageFor({"pulse", "--deph", "3"}),
-            "--deph is not an option of ask pulse; did you mean --depth?");
+  EXPECT_EQ(MessageFor({"pulse", "--deph", "3"}), "--deph is not an option of ask pulse; did you mean --depth?");
   EXPECT_EQ(MessageFor({"pulse", "--depth", "3", "--deph=3"}),
             "--deph is not an option of ask pulse; did you mean --depth?");
   EXPECT_EQ(MessageFor({"csv", "--nonsense"}), "--nonsense is not an option of ask csv; see ask csv --help");
@@ -63,8 +62,7 @@ TEST(UsageMessage, SaysWhichCommandsHaveAnOption) {
 }
 
 TEST(UsageMessage, NamesAWordTooMany) {
-  EXPECT_EQ(MessageFor({"pulse", "--depth", "3", "4"}),
-            "'4' is one word too many for ask pulse; see ask pulse --help");
+  EXPECT_EQ(MessageFor({"pulse", "--depth", "3", "4"}), "'4' is one word too many for ask pulse; see ask pulse --help");
   EXPECT_EQ(MessageFor({"pulse", "--depth", "3", "-4"}),
             "'-4' is one word too many for ask pulse; see ask pulse --help");
 }

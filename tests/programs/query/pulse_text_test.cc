@@ -27,9 +27,7 @@ class PulseTextTest : public ::testing::Test {
                                         pulse.footprint,  pulse.depth};
     return AskPulse(fixed, style_, source_).value();
   }
-  Json JsonOf(const Pulse& pulse) {
-    return Json::parse(PulseJson(Ask(pulse), source_.table(), Json::object()));
-  }
+  Json JsonOf(const Pulse& pulse) { return Json::parse(PulseJson(Ask(pulse), source_.table(), Json::object())); }
   std::string TextOf(const Pulse& pulse) { return PulseText(Ask(pulse), source_.table()); }
 
   client::LocalSource source_{"", SyntheticTable()};
@@ -39,9 +37,8 @@ class PulseTextTest : public ::testing::Test {
 TEST_F(PulseTextTest, HasTheColumnNamesOfCsvAndTheTable) {
   const Json json = JsonOf(kPulse);
   const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
-  for (const Quantity quantity : kQuantities) {
+  for (const Quantity quantity : kQuantities)
     EXPECT_EQ(json.at(std::string(Describe(quantity).name)).get<float>(), answer[quantity]);
-  }
   EXPECT_EQ(json.at("outcome"), "INTERPOLATED");
   EXPECT_EQ(json.at("footprint").get<float>(), 0.6f);
   EXPECT_TRUE(json.at("fetch").is_null());
@@ -65,9 +62,8 @@ TEST_F(PulseTextTest, IsNullWhereThereIsNoNumber) {
   style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k2, .standard_errors = true};
   const Json json = JsonOf(pulse);
   for (const char* name :
-       {"azimuth", "thu", "bias_vertical", "tvu_standard_error", "s44_best_order", "s44_remaining_tvu"}) {
+       {"azimuth", "thu", "bias_vertical", "tvu_standard_error", "s44_best_order", "s44_remaining_tvu"})
     EXPECT_TRUE(json.at(name).is_null()) << name;
-  }
   EXPECT_EQ(json.at("outcome"), "OUT_OF_DOMAIN:depth:above");
   EXPECT_EQ(json.at("coverage"), "p95");
 }
@@ -75,9 +71,8 @@ TEST_F(PulseTextTest, IsNullWhereThereIsNoNumber) {
 TEST_F(PulseTextTest, StatesTheCoverageTheTableAndEveryOrder) {
   const std::string text = TextOf(kPulse);
   for (const char* part : {"synthetic 1", "m, 2 sigma", "degree, 2 sigma", "fully developed sea", "exclusive",
-                           "special", "1a", "1b", "IHO S-44 edition", "all at 95 %"}) {
+                           "special", "1a", "1b", "IHO S-44 edition", "all at 95 %"})
     EXPECT_THAT(text, HasSubstr(part));
-  }
   EXPECT_THAT(text, HasSubstr(source_.table().digest));
   style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b, .standard_errors = true};
   EXPECT_THAT(TextOf(kPulse), HasSubstr("m, 95 %\n"));
@@ -123,27 +118,24 @@ TEST_F(PulseTextTest, AddsTheInterpolationErrorToJsonAsFractions) {
 }
 
 TEST_F(PulseTextTest, SaysThatTheInterpolationErrorIsNotKnown) {
-  EXPECT_THAT(TextOf(kPulse),
-              HasSubstr("interpolation error      not known (the table does not state it)\n"));
+  EXPECT_THAT(TextOf(kPulse), HasSubstr("interpolation error      not known (the table does not state it)\n"));
   EXPECT_TRUE(JsonOf(kPulse).at("thu_interpolation_error_rms").is_null());
 }
 
 TEST(annotate::InterpolationErrors, AreNotReadFromAnythingElse) {
   client::TableSummary table;
-  for (const char* text : {"", "1", "0.1, 0.2, 0.3, 0.4", "0.1, 0.2, 0.3, 0.4, 5, 6", "nan, 0.2, 0.3, 0.4, 5",
-                           "0, 0, 0, 0, 0", "far"}) {
+  for (const char* text :
+       {"", "1", "0.1, 0.2, 0.3, 0.4", "0.1, 0.2, 0.3, 0.4, 5, 6", "nan, 0.2, 0.3, 0.4, 5", "0, 0, 0, 0, 0", "far"}) {
     table.attributes["interpolation_error_thu"] = text;
     EXPECT_TRUE(annotate::InterpolationErrors(table).empty()) << text;
   }
 }
 
 TEST(annotate::InterpolationErrors, FitIntoOneLine) {
-  EXPECT_EQ(
-      annotate::InterpolationErrorNote(Checked()),
-      "interpolation error, relative, at random pulses all over the table: thu 0.28 % rms, 1.1 % at the 99th "
-      "percentile; tvu 56 % rms, 90 % at the 99th percentile");
-  EXPECT_EQ(annotate::InterpolationErrorNote({}),
-            "interpolation error: not known (the table does not state it)");
+  EXPECT_EQ(annotate::InterpolationErrorNote(Checked()),
+            "interpolation error, relative, at random pulses all over the table: thu 0.28 % rms, 1.1 % at the 99th "
+            "percentile; tvu 56 % rms, 90 % at the 99th percentile");
+  EXPECT_EQ(annotate::InterpolationErrorNote({}), "interpolation error: not known (the table does not state it)");
 }
 
 }  // namespace

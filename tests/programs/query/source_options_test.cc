@@ -23,9 +23,9 @@ class SourceOptionsTest : public ::testing::Test {
 
   void Install(const std::string& name, const std::string& version, double factor, bool published = false) {
     std::filesystem::create_directories((folder_ / name).parent_path());
-    const absl::Status status = WriteTable(
-        albtpu::testing::SyntheticTable({.version = version, .factor = factor, .published = published}),
-        folder_ / name, Existing::kKeep);
+    const absl::Status status =
+        WriteTable(albtpu::testing::SyntheticTable({.version = version, .factor = factor, .published = published}),
+                   folder_ / name, Existing::kKeep);
     ASSERT_TRUE(status.ok()) << status;
   }
 

@@ -123,10 +123,8 @@ Patch TwoPlanes(double slope_x, double slope_y, double step) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-2.5F, 2.5F);
   for (int i = 0; i < 40; ++i) {
-    PatchPoint point{.x = place(random),
-                     .y = place(random),
-                     .variance_air = 0.01F,
-                     .line = static_cast<std::uint16_t>(i % 2)};
+    PatchPoint point{
+        .x = place(random), .y = place(random), .variance_air = 0.01F, .line = static_cast<std::uint16_t>(i % 2)};
     point.z = static_cast<float>(-8 + slope_x * point.x + slope_y * point.y + (i % 2 == 0 ? step : 0));
     patch.points.push_back(point);
   }
@@ -156,8 +154,7 @@ TEST(CrossPairs, HaveTheVarianceAboveTheSlope) {
   ASSERT_EQ(pairs.size(), 1U);
   EXPECT_NEAR(pairs[0].variance_air, 2 * (0.01 + 0.75 * 0.0026), 1e-6);
   EXPECT_NEAR(pairs[0].variance_sea, 2 * 0.25 * 0.0026, 1e-6);
-  for (PatchPoint& point : patch.points)
-    point.xz = 0.02F;  // Down the slope is too low: less than on a level bottom.
+  for (PatchPoint& point : patch.points) point.xz = 0.02F;  // Down the slope is too low: less than on a level bottom.
   pairs.clear();
   AppendPairs(patch, pairs);
   EXPECT_NEAR(pairs[0].variance(), 2 * (0.0126 - 2 * 0.3 * 0.016), 1e-6);

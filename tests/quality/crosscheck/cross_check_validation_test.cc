@@ -43,8 +43,8 @@ TEST(CrossCheckOfSimulatedSurveys, FindsThatARightPredictionIsRight) {
     covered += check.factor.excludes(1) ? 0 : 1;
     accused += check.guilty.empty() ? 0 : 1;
   }
-  std::cout << "chi-square, mean of " << kSeeds << " surveys: " << sum / kSeeds << "; the interval has 1 in "
-            << covered << ", a share is accused in " << accused << "\n";
+  std::cout << "chi-square, mean of " << kSeeds << " surveys: " << sum / kSeeds << "; the interval has 1 in " << covered
+            << ", a share is accused in " << accused << "\n";
   EXPECT_NEAR(sum / kSeeds, 1, 0.05);
   EXPECT_GE(covered, 0.85 * kSeeds);  // 17 of 20: less has a probability of 1.6 % where 95 % do.
   EXPECT_LE(accused, 0.05 * kSeeds);
@@ -62,8 +62,7 @@ TEST(CrossCheckOfSimulatedSurveys, CountsTheHorizontalErrorsOnASlope) {
     sum += check.chi_square / kSlopes;
     accused += check.guilty.empty() ? 0 : 1;
     for (AnnotatedPoint& point : points)
-      point.variance_x = point.variance_y = point.covariance_xy = point.covariance_xz = point.covariance_yz =
-          0;
+      point.variance_x = point.variance_y = point.covariance_xy = point.covariance_xz = point.covariance_yz = 0;
     sum_without += CheckPoints(points).chi_square / kSlopes;
   }
   std::cout << "chi-square on slopes, mean of " << kSlopes << " surveys: " << sum
@@ -104,12 +103,11 @@ TEST(CrossCheckOfSimulatedSurveys, IsNotMisledByARoughBottom) {
 TEST(CrossCheckOfSimulatedSurveys, ReportsABoresightThatNobodyKnows) {
   const auto check_of = [](bool to_and_fro) {
     const CrossCheck check = CheckOf({.to_and_fro = to_and_fro, .roll_of_scanner = 0.05});
-    std::cout << "roll of the scanner wrong by 0.05 degree, "
-              << (to_and_fro ? "to and fro" : "in one direction") << ": chi-square " << check.chi_square
-              << ", without the means of lines " << check.chi_square_within_lines << ", factor "
-              << check.factor.value << " (" << check.factor.low << " to " << check.factor.high
-              << "), accused: " << check.guilty << ", largest difference of lines "
-              << check.lines.front().mean << " +- " << check.lines.front().standard_error << " m\n";
+    std::cout << "roll of the scanner wrong by 0.05 degree, " << (to_and_fro ? "to and fro" : "in one direction")
+              << ": chi-square " << check.chi_square << ", without the means of lines " << check.chi_square_within_lines
+              << ", factor " << check.factor.value << " (" << check.factor.low << " to " << check.factor.high
+              << "), accused: " << check.guilty << ", largest difference of lines " << check.lines.front().mean
+              << " +- " << check.lines.front().standard_error << " m\n";
     return check;
   };
   const CrossCheck one_way = check_of(false), both_ways = check_of(true);

@@ -66,8 +66,7 @@ Eigen::Vector3d SeaSigmas(double wave_slope) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
   constexpr int kDraws = 200'000;
   for (int i = 0; i < kDraws; ++i) {
-    const Eigen::Vector3d error =
-        ErrorOfSlope(beam, wave_slope * Normal(random), wave_slope * Normal(random), 1);
+    const Eigen::Vector3d error = ErrorOfSlope(beam, wave_slope * Normal(random), wave_slope * Normal(random), 1);
     sum += error / kDraws;
     squares += error.cwiseAbs2() / kDraws;
   }
@@ -116,12 +115,10 @@ class Line {
     const Eigen::Vector3d beam(std::sin(kIncidence * kDegree) * std::cos(azimuth * kDegree),
                                std::sin(kIncidence * kDegree) * std::sin(azimuth * kDegree),
                                std::cos(kIncidence * kDegree));
-    const Eigen::Vector3d error = ReportedPoint<double>(pulse, false, drawn) -
-                                  ReportedPoint<double>(pulse, false, none) +
-                                  ErrorOfSlope(beam, options_.wave_slope * Normal(random_),
-                                               options_.wave_slope * Normal(random_), depth);
-    const double rough =
-        options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
+    const Eigen::Vector3d error =
+        ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none) +
+        ErrorOfSlope(beam, options_.wave_slope * Normal(random_), options_.wave_slope * Normal(random_), depth);
+    const double rough = options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
     quality::AnnotatedPoint& point = points.emplace_back();
     point.x = x + error.y();
     point.y = y + error.x();
@@ -171,10 +168,14 @@ void Predict(const AirErrors& errors, const Eigen::Vector3d& sea, const std::vec
   const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
   add(BudgetInput::kIncidence, constant(kIncidence));
   add(BudgetInput::kAltitude, constant(kAltitude));
-  add(BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
-  add(BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
-  add(BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
-  add(BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
+  add(
+      BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
+  add(
+      BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
+  add(
+      BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
+  add(
+      BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
   add(BudgetInput::kSeaTvu, [&](std::size_t i) { return 2 * sea[2] * points[i].depth; });
   add(BudgetInput::kRefractionAlong, constant(sea[0]));
   add(BudgetInput::kRefractionCross, constant(sea[1]));

@@ -21,8 +21,9 @@ class Sea {
   Sea(double slope, double last, double bias = 0) : slope_(slope), last_(last), bias_(bias) {}
 
   annotate::AnswerSource source() {
-    return {table_, [this](const Query&, const annotate::PulseBatch& pulses,
-                           const annotate::AnswerSelection& selection, annotate::AnswerBatch& answers) {
+    return {table_,
+            [this](const Query&, const annotate::PulseBatch& pulses, const annotate::AnswerSelection& selection,
+                   annotate::AnswerBatch& answers) {
               answers.Resize(pulses.size, selection);
               for (std::size_t i = 0; i < pulses.size; ++i) {
                 const float depth = pulses.coordinate(AxisId::kDepth, i);
@@ -47,8 +48,7 @@ class Sea {
 Reaches ReachesOver(Sea sea) {
   annotate::TotalPlan plan;  // Without an air side.
   plan.options.coverage = Coverage::kP95;
-  return ReachOf(plan, sea.source(),
-                 {.altitude = 400, .incidence = 20, .footprint = 0.4, .wind_speed = 5, .fetch = {}})
+  return ReachOf(plan, sea.source(), {.altitude = 400, .incidence = 20, .footprint = 0.4, .wind_speed = 5, .fetch = {}})
       .value();
 }
 

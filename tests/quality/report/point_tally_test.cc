@@ -86,8 +86,7 @@ TEST(PointTally, AddsUpPointsWithAndWithoutANumber) {
 
 TEST(DepthTallies, MergeBinsIntoBands) {
   DepthTallies tallies;
-  for (const double depth : {0.5, 1.5, 1.6, 7.0, 150.0})
-    tallies.Add(Point(0, 0, 0.1, depth), 0, Coverage::kTwoSigma);
+  for (const double depth : {0.5, 1.5, 1.6, 7.0, 150.0}) tallies.Add(Point(0, 0, 0.1, depth), 0, Coverage::kTwoSigma);
   const nlohmann::ordered_json bins = tallies.Json(0), bands = tallies.Json(0, {2, 10});
   ASSERT_EQ(bins.size(), 4);
   EXPECT_EQ(bins[1]["points"], 2);

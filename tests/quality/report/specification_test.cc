@@ -36,9 +36,7 @@ class ShippedSpecifications : public ::testing::Test {
     EXPECT_EQ(of.coverage, expected.coverage);
     for (const auto& [limit, value] : {std::pair{of.horizontal, expected.thu}, {of.vertical, expected.tvu}}) {
       ASSERT_EQ(limit.has_value(), !std::isnan(value)) << expected.of_class;
-      if (limit.has_value()) {
-        EXPECT_NEAR(limit->At(expected.depth), value, 1e-9) << expected.of_class;
-      }
+      if (limit.has_value()) EXPECT_NEAR(limit->At(expected.depth), value, 1e-9) << expected.of_class;
     }
   }
 };
@@ -106,9 +104,7 @@ TEST_F(ShippedSpecifications, AreListedWithS44First) {
   EXPECT_THAT(FindSpecification("nooa").status().message(), HasSubstr("did you mean noaa?"));
 }
 
-std::string ProblemOf(const std::string& text) {
-  return std::string(ParseSpecification(text).status().message());
-}
+std::string ProblemOf(const std::string& text) { return std::string(ParseSpecification(text).status().message()); }
 
 constexpr char kGood[] =
     "title = 'T'\nsource = 'S'\n[[class]]\nname = 'a'\ncoverage = 'p95'\nvertical = {constant = 1}\n";
@@ -121,18 +117,15 @@ TEST(Specifications, AreReadFromFilesOfTheUser) {
 
 TEST(Specifications, SayWhatIsWrongWithThem) {
   EXPECT_THAT(ProblemOf("title = 'T'\n"), HasSubstr("source is missing"));
-  EXPECT_THAT(ProblemOf(std::string(kGood) + "[[class]]\nname = 'b'\ncoverage = 'p95'\n"),
-              HasSubstr("has no limit"));
-  EXPECT_THAT(
-      ProblemOf(std::string(kGood) + "[[class]]\nname = 'a'\ncoverage = 'p95'\nvertical = {constant = 1}\n"),
-      HasSubstr("another class"));
+  EXPECT_THAT(ProblemOf(std::string(kGood) + "[[class]]\nname = 'b'\ncoverage = 'p95'\n"), HasSubstr("has no limit"));
+  EXPECT_THAT(ProblemOf(std::string(kGood) + "[[class]]\nname = 'a'\ncoverage = 'p95'\nvertical = {constant = 1}\n"),
+              HasSubstr("another class"));
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {constant = 1, of_depth = 0.1}\n"),
               HasSubstr("combined is missing"));
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {of_depth = 0.1, combined = 'sum'}\n"),
               HasSubstr("constant is missing"));
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {constant = -1}\n"), HasSubstr("constant"));
-  EXPECT_THAT(ProblemOf(std::string(kGood) + "vertikal = {constant = 1}\n"),
-              HasSubstr("did you mean vertical?"));
+  EXPECT_THAT(ProblemOf(std::string(kGood) + "vertikal = {constant = 1}\n"), HasSubstr("did you mean vertical?"));
 }
 
 }  // namespace

@@ -38,8 +38,7 @@ TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
   std::uint32_t added = 0;
   for (int i = 0; i < 50'000; ++i) {
     const AnnotatedPoint point = RandomPoint(random);
-    twin[{std::lround(std::floor(point.x / kCell)), std::lround(std::floor(point.y / kCell))}].push_back(
-        point);
+    twin[{std::lround(std::floor(point.x / kCell)), std::lround(std::floor(point.y / kCell))}].push_back(point);
     grid.Add(point, static_cast<std::uint8_t>(1 + i % 5));
     ++added;
   }
@@ -54,10 +53,9 @@ TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
       points += cell.points;
       if (cell.points == 0) continue;
       ++filled;
-      const long column =
-          static_cast<long>(grid.first_column() + static_cast<std::int64_t>(i % grid.columns()));
-      const long row = static_cast<long>(
-          grid.first_row() + static_cast<std::int64_t>(strip * SurveyGrid::kTile + i / grid.columns()));
+      const long column = static_cast<long>(grid.first_column() + static_cast<std::int64_t>(i % grid.columns()));
+      const long row = static_cast<long>(grid.first_row() +
+                                         static_cast<std::int64_t>(strip * SurveyGrid::kTile + i / grid.columns()));
       const std::vector<AnnotatedPoint>& of_cell = twin.at({column, row});
       ASSERT_EQ(cell.points, of_cell.size());
       double depth = 0, thu = 0, air = 0, datum = 0, count = 0;
@@ -67,8 +65,7 @@ TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
         depth += point.depth;
         thu += point.thu;
         air += std::pow(point.tvu_air / 2, 2);
-        datum +=
-            1 - (std::pow(point.tvu_air, 2) + std::pow(point.tvu_sea, 2) + std::pow(point.tvu_water, 2)) / 4;
+        datum += 1 - (std::pow(point.tvu_air, 2) + std::pow(point.tvu_sea, 2) + std::pow(point.tvu_water, 2)) / 4;
       }
       ASSERT_EQ(cell.with_number, count);
       if (count == 0) continue;

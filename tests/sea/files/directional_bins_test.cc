@@ -13,8 +13,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> Directions(std::size_t count, double first) {
   std::vector<double> directions;
-  for (std::size_t i = 0; i < count; ++i)
-    directions.push_back(first + kTurn * static_cast<double>(i) / count);
+  for (std::size_t i = 0; i < count; ++i) directions.push_back(first + kTurn * static_cast<double>(i) / count);
   return directions;
 }
 

@@ -36,8 +36,7 @@ TEST(Gzip, InflatesOneStreamOrSeveral) {
 TEST(Gzip, RefusesStreamsThatWereCutOrDamaged) {
   const std::string bytes = Compressed("0.12 0.34 0.56 0.78 0.90 0.12 0.35");
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_THAT(std::string(Inflated(bytes.substr(0, size)).status().message()), HasSubstr("end early"))
-        << size;
+    EXPECT_THAT(std::string(Inflated(bytes.substr(0, size)).status().message()), HasSubstr("end early")) << size;
   std::string damaged = bytes;
   damaged[damaged.size() - 6] ^= 1;  // of the checksum
   EXPECT_THAT(std::string(Inflated(damaged).status().message()), HasSubstr("damaged"));

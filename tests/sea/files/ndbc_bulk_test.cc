@@ -30,9 +30,7 @@ const std::string kMeteorology =
     "2026 07 31 11 30  MM   MM  4.0   1.2     7   6.6  MM 1021.2    MM\n"
     "2026 07 31 11 20 360  4.0  6.0    MM    MM    MM  MM 1021.0    MM\n";
 
-const std::vector<JonswapWaves>& Components(const SeaRecord& record) {
-  return *std::get<WaveComponents>(record.waves);
-}
+const std::vector<JonswapWaves>& Components(const SeaRecord& record) { return *std::get<WaveComponents>(record.waves); }
 
 TEST(NdbcSummary, TellsSwellFromWindWaves) {
   const auto series = ReadNdbcBulk(kSummary);
@@ -42,12 +40,10 @@ TEST(NdbcSummary, TellsSwellFromWindWaves) {
   EXPECT_EQ(waves[0].significant_wave_height, 0.5);
   EXPECT_EQ(waves[0].peak_period, 3.6);
   EXPECT_EQ(waves[0].gamma, 3.3);
-  EXPECT_NEAR(std::remainder(waves[0].travels_towards - (135 + 180) * kDegree, 2 * std::numbers::pi), 0,
-              1e-12);
+  EXPECT_NEAR(std::remainder(waves[0].travels_towards - (135 + 180) * kDegree, 2 * std::numbers::pi), 0, 1e-12);
   EXPECT_EQ(waves[1].significant_wave_height, 1.0);
   EXPECT_EQ(waves[1].gamma, 7);
-  EXPECT_NEAR(std::remainder(waves[1].travels_towards - (202.5 + 180) * kDegree, 2 * std::numbers::pi), 0,
-              1e-12);
+  EXPECT_NEAR(std::remainder(waves[1].travels_towards - (202.5 + 180) * kDegree, 2 * std::numbers::pi), 0, 1e-12);
   EXPECT_NEAR(series->records[1].significant_wave_height(), std::hypot(0.5, 1.0), 1e-12);
 }
 
@@ -97,15 +93,12 @@ TEST(NdbcBulk, RefusesWhatIsDamaged) {
   };
   EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 SSW"),
               HasSubstr("line 3: has 11 columns (expected 15)"));
-  EXPECT_THAT(error("2020 06 88 03 40  1.1  1.0  5.6  0.5  3.6 SSW  SE  STEEP  4.9 196"),
-              HasSubstr("a date and time"));
+  EXPECT_THAT(error("2020 06 88 03 40  1.1  1.0  5.6  0.5  3.6 SSW  SE  STEEP  4.9 196"), HasSubstr("a date and time"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1  -1.  5.6  0.5  3.6 SSW  SE  STEEP  4.9 196"), HasSubstr("'-1.'"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  .01  0.5  3.6 SSW  SE  STEEP  4.9 196"),
               HasSubstr("has a period of 0.01 s"));
-  EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 400  SE  STEEP  4.9 196"),
-              HasSubstr("no direction"));
-  EXPECT_THAT(error("2020 06 08 03 40  1.1   MM   MM   MM   MM  MM  MM  N/A    MM  MM"),
-              HasSubstr("has waves"));
+  EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 400  SE  STEEP  4.9 196"), HasSubstr("no direction"));
+  EXPECT_THAT(error("2020 06 08 03 40  1.1   MM   MM   MM   MM  MM  MM  N/A    MM  MM"), HasSubstr("has waves"));
   EXPECT_FALSE(ReadNdbcBulk(kSummary.substr(0, kSummary.size() - 1)).ok());
 }
 

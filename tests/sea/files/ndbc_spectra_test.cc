@@ -72,9 +72,9 @@ TEST(NdbcRealTime, SaysWhereDirectionsAreMissing) {
 }
 
 TEST(NdbcRealTime, LeavesOutBinsWithoutEnergyAndRecordsWithoutBins) {
-  const auto series = ReadNdbcSpectra(
-      {.energy = kEnergyHeader + "2020 06 08 03 50 0.2 999.000 (0.1) 0.641 (0.2) 0.5 (0.4)\n"
-                                 "2020 06 08 02 50 0.2 999.000 (0.1) 999.000 (0.2) 0.5 (0.4)\n"});
+  const auto series =
+      ReadNdbcSpectra({.energy = kEnergyHeader + "2020 06 08 03 50 0.2 999.000 (0.1) 0.641 (0.2) 0.5 (0.4)\n"
+                                                 "2020 06 08 02 50 0.2 999.000 (0.1) 999.000 (0.2) 0.5 (0.4)\n"});
   ASSERT_EQ(series->records.size(), 1u);
   EXPECT_EQ(Bins(series->records[0]).size(), 2u);
   EXPECT_EQ(Bins(series->records[0]).centre(0), 0.2);
@@ -91,21 +91,17 @@ TEST(NdbcRealTime, MayChangeItsFrequencies) {
 }
 
 TEST(NdbcRealTime, KnowsEachQuantityByItsHeader) {
-  EXPECT_EQ(
-      ErrorOf({.energy = kSpread}),
-      "line 1: the file has r2 (expected spectral density); give the .data_spec file, with .swr2 and .swdir2 "
-      "beside it");
-  EXPECT_THAT(
-      ErrorOf({.energy = kEnergy, .spread = kDirection, .direction = kDirection, .spread_name = "a.swr2"}),
-      HasSubstr("beside it, a.swr2: line 1: the file has alpha2 (expected r2)"));
+  EXPECT_EQ(ErrorOf({.energy = kSpread}),
+            "line 1: the file has r2 (expected spectral density); give the .data_spec file, with .swr2 and .swdir2 "
+            "beside it");
+  EXPECT_THAT(ErrorOf({.energy = kEnergy, .spread = kDirection, .direction = kDirection, .spread_name = "a.swr2"}),
+              HasSubstr("beside it, a.swr2: line 1: the file has alpha2 (expected r2)"));
 }
 
 TEST(NdbcRealTime, RefusesWhatIsNoSpectrum) {
   const auto error = [](const std::string& line) { return ErrorOf({.energy = kEnergyHeader + line + "\n"}); };
-  EXPECT_THAT(error("2020 06 31 03 50 0.2 0.1 (0.1) 0.6 (0.2)"),
-              HasSubstr("line 2: does not begin with a date"));
-  EXPECT_THAT(error("2020 06 08 03 50 0.2 0.1 (0.2) 0.6 (0.1)"),
-              HasSubstr("0.1 Hz is not above the one before"));
+  EXPECT_THAT(error("2020 06 31 03 50 0.2 0.1 (0.1) 0.6 (0.2)"), HasSubstr("line 2: does not begin with a date"));
+  EXPECT_THAT(error("2020 06 08 03 50 0.2 0.1 (0.2) 0.6 (0.1)"), HasSubstr("0.1 Hz is not above the one before"));
   EXPECT_THAT(error("2020 06 08 03 50 0.2 0.1 (0.2) 0.6"), HasSubstr("value without frequency"));
   EXPECT_THAT(error("2020 06 08 03 50 0.2 0.1 0.2 0.6 0.3"), HasSubstr("no frequency in parentheses"));
   EXPECT_THAT(error("2020 06 08 03 50 0.2 -0.1 (0.2) 0.6 (0.3)"), HasSubstr("'-0.1' is no spectral density"));
@@ -129,11 +125,10 @@ const std::string kHistoryDirection = kHistoryHeader + "2019 02 06 00 40    146 
 
 // Read as hundredths, fractions would make the waves isotropic.
 TEST(NdbcHistory, HasNoFractionsOfSpread) {
-  EXPECT_THAT(
-      ErrorOf({.energy = kHistoryEnergy,
-               .spread = kHistoryHeader + "2019 02 06 00 40   0.94   0.50    999\n",
-               .direction = kHistoryDirection}),
-      HasSubstr("its largest r2 is 0.94 (the history has hundredths, up to 100); multiply r2 by 100"));
+  EXPECT_THAT(ErrorOf({.energy = kHistoryEnergy,
+                       .spread = kHistoryHeader + "2019 02 06 00 40   0.94   0.50    999\n",
+                       .direction = kHistoryDirection}),
+              HasSubstr("its largest r2 is 0.94 (the history has hundredths, up to 100); multiply r2 by 100"));
 }
 
 TEST(NdbcHistory, HasHundredthsOfSpread) {
@@ -147,12 +142,10 @@ TEST(NdbcHistory, HasHundredthsOfSpread) {
 }
 
 TEST(NdbcHistory, MayLackMinutesAndCenturiesAndTheHash) {
-  const auto old =
-      ReadNdbcSpectra({.energy = "YY MM DD hh   .03   .04   .05\n96 02 29 23   .00   .12   .33\n"});
+  const auto old = ReadNdbcSpectra({.energy = "YY MM DD hh   .03   .04   .05\n96 02 29 23   .00   .12   .33\n"});
   EXPECT_EQ(old->records[0].time, 825634800);
   EXPECT_EQ(Bins(old->records[0]).bin(2).energy, 0.33);
-  const auto newer =
-      ReadNdbcSpectra({.energy = "YYYY MM DD hh   .030   .040\n2000 01 01 01    .00    .24\n"});
+  const auto newer = ReadNdbcSpectra({.energy = "YYYY MM DD hh   .030   .040\n2000 01 01 01    .00    .24\n"});
   EXPECT_EQ(newer->records[0].time, 946688400);
 }
 

@@ -49,8 +49,7 @@ TEST(SeaCsvByFrequency, MayBeASeries) {
 
 // Apel's spectrum written to a file and read is the built-in one: no tail is joined to a complete sea.
 TEST(SeaCsvByWavenumber, IsTheSpectrumThatWasWritten) {
-  const HarmonicSpectrum apel =
-      Sampled(ApelSpectrum(8, std::numeric_limits<double>::infinity()), SeaWavenumbers(), 2);
+  const HarmonicSpectrum apel = Sampled(ApelSpectrum(8, std::numeric_limits<double>::infinity()), SeaWavenumbers(), 2);
   std::string text = "k,S,a2,b2,a4,b4\n";
   for (std::size_t i = 0; i < apel.size(); ++i)
     absl::StrAppendFormat(&text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", apel.k[i], apel.s[i], apel.a[0][i],
@@ -68,21 +67,18 @@ TEST(SeaCsvByWavenumber, IsTheSpectrumThatWasWritten) {
 }
 
 TEST(SeaCsv, RefusesWhatIsNoSea) {
-  EXPECT_THAT(ErrorOf("f,S\n1,2\n"),
-              HasSubstr("line 1: has the columns 'f,S' (expected f,E,r2,alpha2 or k,S,a2,b2"));
+  EXPECT_THAT(ErrorOf("f,S\n1,2\n"), HasSubstr("line 1: has the columns 'f,S' (expected f,E,r2,alpha2 or k,S,a2,b2"));
   EXPECT_THAT(ErrorOf("k,S,a2\n1,2,3\n"), HasSubstr("line 1: has the columns"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2\n"), HasSubstr("line 3: has 1 cells (expected 2)"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.1,2\n"),
-              HasSubstr("line 3: f is 0.1 (expected more than the line before"));
+  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.1,2\n"), HasSubstr("line 3: f is 0.1 (expected more than the line before"));
   EXPECT_THAT(ErrorOf("f,E\n1e-300,2\n0.1,2\n"), HasSubstr("line 2: f is 1e-300 (expected 0.0001 to 100)"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,-1\n"), HasSubstr("line 3: E is -1 (expected 0 to 1e+12)"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,nan\n"), HasSubstr("'nan' is no number"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,\n"), HasSubstr("'' is no number"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,1\n"), HasSubstr("a sea of 1 lines"));
   EXPECT_THAT(ErrorOf("f,E\n"), HasSubstr("a sea of 0 lines"));
-  EXPECT_THAT(
-      ErrorOf("f,E,r2,alpha2\n0.1,1,41,230\n"),
-      HasSubstr("r2 is 41 (expected a fraction from 0 to 1); divide r2 by 100 if it is in hundredths"));
+  EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,41,230\n"),
+              HasSubstr("r2 is 41 (expected a fraction from 0 to 1); divide r2 by 100 if it is in hundredths"));
   EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,0.4,361\n"), HasSubstr("alpha2 is 361"));
   EXPECT_THAT(ErrorOf("k,S,a2,b2\n0.1,1,0.9,0.9\n"), HasSubstr("harmonic 2 is 0.9, 0.9"));
   EXPECT_THAT(ErrorOf("time,f,E\n2020-06-08 03:50,0.1,1\n"), HasSubstr("is no time (expected UTC such as"));

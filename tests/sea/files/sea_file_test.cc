@@ -68,8 +68,7 @@ TEST_F(SeaFile, FindsTheHistoryByTheLetterBeforeTheYear) {
 
 TEST_F(SeaFile, IsKnownByItsFirstLine) {
   EXPECT_TRUE(ReadSeaFile(Write("sea", "# made by hand\n\nf,E\n0.1,1\n0.2,2\n")).ok());
-  EXPECT_THAT(ErrorOf(Write("a", "Some other text\n")),
-              HasSubstr("begins with 'Some other text' (expected a file of"));
+  EXPECT_THAT(ErrorOf(Write("a", "Some other text\n")), HasSubstr("begins with 'Some other text' (expected a file of"));
   EXPECT_EQ(ErrorOf(Write("b", "")), "is empty; get another copy of the file");
   EXPECT_THAT(ErrorOf(Write("c", "CDF\x01...")), HasSubstr("is a NetCDF file"));
   EXPECT_THAT(ErrorOf(Write("d", "\x89HDF\r\n")), HasSubstr("is a NetCDF file"));

@@ -26,15 +26,14 @@ TEST(DescriptionOfARecord, TakesWhatTheRecordHas) {
 }
 
 TEST(DescriptionOfARecord, PrefersWhatIsTold) {
-  const SeaDescription description = DescriptionOf(
-      Swell(), {.wind_speed_10m = 6, .wind_from = 2, .water_depth = 5, .tail = TailRule::kLevel});
+  const SeaDescription description =
+      DescriptionOf(Swell(), {.wind_speed_10m = 6, .wind_from = 2, .water_depth = 5, .tail = TailRule::kLevel});
   EXPECT_EQ(description.water_depth, 5);
   EXPECT_EQ(description.wind_speed_10m, 6);
   EXPECT_EQ(description.wind_from, 2);
   EXPECT_EQ(description.tail, TailRule::kLevel);
   // The waves are those of that depth.
-  EXPECT_EQ((*description.waves)(0.2).energy,
-            JonswapSpectrum(*std::get<WaveComponents>(Swell().waves), 5)(0.2).energy);
+  EXPECT_EQ((*description.waves)(0.2).energy, JonswapSpectrum(*std::get<WaveComponents>(Swell().waves), 5)(0.2).energy);
 }
 
 TEST(DescribedRecord, IsInItsDepth) {
@@ -45,8 +44,7 @@ TEST(DescribedRecord, IsInItsDepth) {
 
 TEST(SortByTime, OrdersByPointAndTimeAndKeepsTheFirstOfEqualTimes) {
   SeaSeries series;
-  for (const auto& [point, time, height] :
-       {std::tuple(1, 5.0, 1.0), {0, 7.0, 2.0}, {0, 3.0, 3.0}, {0, 7.0, 4.0}}) {
+  for (const auto& [point, time, height] : {std::tuple(1, 5.0, 1.0), {0, 7.0, 2.0}, {0, 3.0, 3.0}, {0, 7.0, 4.0}}) {
     SeaRecord record{.time = time, .point = static_cast<std::size_t>(point)};
     record.waves = std::make_shared<const std::vector<JonswapWaves>>(
         1, JonswapWaves{.significant_wave_height = height, .peak_period = 5});

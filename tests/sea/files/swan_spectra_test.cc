@@ -72,8 +72,7 @@ TEST(SwanSpectra, MayHaveEnergyInsteadOfVariance) {
 }
 
 TEST(SwanSpectra, HasNoWavesAtZeroAndNoRecordAtNodata) {
-  const auto series =
-      ReadSwanSpectra(kHeader + kTime + "ZERO\n20161011.133000\nNODATA\n20161011.143000\n" + kSpectrum);
+  const auto series = ReadSwanSpectra(kHeader + kTime + "ZERO\n20161011.133000\nNODATA\n20161011.143000\n" + kSpectrum);
   ASSERT_EQ(series->records.size(), 2u);
   EXPECT_EQ(series->records[0].significant_wave_height(), 0);
   EXPECT_GT(series->records[1].significant_wave_height(), 0);
@@ -81,16 +80,15 @@ TEST(SwanSpectra, HasNoWavesAtZeroAndNoRecordAtNodata) {
 }
 
 TEST(SwanSpectra, HasNoDataAtItsExceptionValue) {
-  const auto series = ReadSwanSpectra(kHeader + kTime + Replaced(kSpectrum, "  50", " -99") +
-                                      Replaced(kTime, "12", "13") + kSpectrum);
+  const auto series =
+      ReadSwanSpectra(kHeader + kTime + Replaced(kSpectrum, "  50", " -99") + Replaced(kTime, "12", "13") + kSpectrum);
   EXPECT_EQ(series->records.size(), 1u);
 }
 
 TEST(SwanSpectra, MayHaveManyNamedPlacesAndNoTime) {
-  std::string header = Replaced(
-      kHeader, kHeader.substr(kHeader.find("TIME"), kHeader.find("LONLAT") - kHeader.find("TIME")), "");
-  header =
-      Replaced(header, "     1                                  number of loc", "     2      number of loc");
+  std::string header =
+      Replaced(kHeader, kHeader.substr(kHeader.find("TIME"), kHeader.find("LONLAT") - kHeader.find("TIME")), "");
+  header = Replaced(header, "     1                                  number of loc", "     2      number of loc");
   header = Replaced(header, "-38.173599\n", "-38.173599 'buoy'\n  174.7 -38.2\n");
   header = Replaced(header, "LONLAT", "LOCATIONS");
   const auto series = ReadSwanSpectra(header + kSpectrum + "ZERO\n");
@@ -111,27 +109,23 @@ TEST(SwanSpectra, IsRefusedWhereItWasCut) {
 }
 
 TEST(SwanSpectra, RefusesDirectionsInRadians) {
-  const std::string radians =
-      Replaced(kHeader, "    10\n    55\n   100\n   145\n   190\n   235\n   280\n   325\n",
-               "0.17\n0.96\n1.75\n2.53\n3.32\n4.10\n4.89\n5.67\n");
-  EXPECT_THAT(ErrorOf(radians + kTime + kSpectrum),
-              HasSubstr("the directions reach from 0.17 to 5.67 degrees"));
+  const std::string radians = Replaced(kHeader, "    10\n    55\n   100\n   145\n   190\n   235\n   280\n   325\n",
+                                       "0.17\n0.96\n1.75\n2.53\n3.32\n4.10\n4.89\n5.67\n");
+  EXPECT_THAT(ErrorOf(radians + kTime + kSpectrum), HasSubstr("the directions reach from 0.17 to 5.67 degrees"));
 }
 
 TEST(SwanSpectra, RefusesWhatItCannotRead) {
   const std::string rest = kTime + kSpectrum;
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "AFREQ", "XFREQ") + rest), HasSubstr("line 8: begins with 'XFREQ'"));
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "VaDens", "AcDens") + rest), HasSubstr("'AcDens' in 'm2/Hz/degr'"));
-  EXPECT_THAT(
-      ErrorOf(Replaced(kHeader, "     1                                  time", "     2   time") + rest),
-      HasSubstr("line 4: states '2' (expected 1)"));
+  EXPECT_THAT(ErrorOf(Replaced(kHeader, "     1                                  time", "     2   time") + rest),
+              HasSubstr("line 4: states '2' (expected 1)"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "20161011", "20161032")), HasSubstr("is no date and time"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "FACTOR", "VECTOR")),
               HasSubstr("'VECTOR' begins no spectrum (expected FACTOR"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "  50", " -50")), HasSubstr("has a density of"));
   EXPECT_THAT(ErrorOf(kHeader), HasSubstr("has no spectrum"));
-  const std::string one_dimension =
-      kHeader.substr(0, kHeader.find("NDIR")) + kHeader.substr(kHeader.find("QUANT"));
+  const std::string one_dimension = kHeader.substr(0, kHeader.find("NDIR")) + kHeader.substr(kHeader.find("QUANT"));
   EXPECT_THAT(ErrorOf(one_dimension + rest), HasSubstr("no directions; write them by SPECOUT with SPEC2D"));
 }
 

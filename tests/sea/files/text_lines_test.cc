@@ -46,8 +46,7 @@ TEST(ParseNumber, TakesDecimalAndFortranForms) {
   EXPECT_DOUBLE_EQ(*ParseNumber("0.261-104"), 0.261e-104);
   EXPECT_DOUBLE_EQ(*ParseNumber("0.261+104"), 0.261e104);
   EXPECT_EQ(ParseNumber("1E-400"), 0);
-  for (const char* word :
-       {"", "-", "MM", "nan", "inf", "1e400", "1.5x", "0.261-17", "0x10", "1 2", "0.2+1+2", "."})
+  for (const char* word : {"", "-", "MM", "nan", "inf", "1e400", "1.5x", "0.261-17", "0x10", "1 2", "0.2+1+2", "."})
     EXPECT_FALSE(ParseNumber(word).has_value()) << word;
 }
 

@@ -118,13 +118,10 @@ TEST(Ww3Points, RefusesWhatIsDamaged) {
               HasSubstr("frequency 2 is 0.1 Hz (expected 0.0001 to 100 Hz, increasing)"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "20220912", "20221312")),
               HasSubstr("line 5: '20221312 060000' is no"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")),
-              HasSubstr("line 6: does not state a possible"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")),
-              HasSubstr("line 6: does not state a possible"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")), HasSubstr("line 6: does not state a possible"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")), HasSubstr("line 6: does not state a possible"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "-.600E+00")), HasSubstr("a density of -0.6"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "NaN")),
-              HasSubstr("'NaN' is not a spectral density"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "NaN")), HasSubstr("'NaN' is not a spectral density"));
   EXPECT_THAT(ErrorOf(kHeader), HasSubstr("a header and no record"));
 }
 

@@ -24,8 +24,7 @@ TEST(HankelLattice, TransformsAGaussian) {
   constexpr int kFirst = 60, kCount = 60;  // lags of some cm to m
   for (const int l : {0, 1, 2}) {
     const Eigen::ArrayXd spectrum = Lattice().step() * k.pow(l + 2) * (-kWidth * kWidth * k * k).exp();
-    const Eigen::VectorXd transform =
-        Lattice().Bessel(l, kFirst, kCount, 1).cast<double>() * spectrum.matrix();
+    const Eigen::VectorXd transform = Lattice().Bessel(l, kFirst, kCount, 1).cast<double>() * spectrum.matrix();
     const double scale = std::pow(2 * kWidth * kWidth, -l - 1);
     for (int j = 0; j < kCount; ++j) {
       const double s = Lattice().Lag(kFirst + j);

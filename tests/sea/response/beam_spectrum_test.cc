@@ -60,15 +60,13 @@ TEST(BeamSpectrum, CountsWavesByTheirWavenumberAcrossTheBeam) {
     const double across = k.y() * std::cos(kAzimuth) - k.x() * std::sin(kAzimuth);
     const double squared = along * along + across * across, psi = std::atan2(across, along);
     height += variance;
-    for (std::size_t m = 0; m < sums.size(); ++m)
-      sums[m] += variance * squared * std::polar(1.0, -2.0 * m * psi);
+    for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += variance * squared * std::polar(1.0, -2.0 * m * psi);
   });
   const Eigen::ArrayXd k = HankelLattice::Shared().wavenumbers();
   height_here = (spectrum.slope.col(0).real().array() / k.square()).sum();
   EXPECT_NEAR(height_here / height, 1, 1e-4);
-  for (std::size_t m = 0; m < sums.size(); ++m) {
+  for (std::size_t m = 0; m < sums.size(); ++m)
     EXPECT_LT(std::abs(spectrum.slope.col(m).sum() - sums[m]), 1e-4 * sums[0].real()) << m;
-  }
 }
 
 }  // namespace

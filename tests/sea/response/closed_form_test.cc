@@ -38,17 +38,14 @@ TEST(ClosedForm, OfAVanishingFootprintIsTheGainTimesTheSlope) {
   EXPECT_NEAR(uncertainty.thu_per_depth, 2 * g * std::sqrt(mean_square_slope), 1e-7);
 }
 
-TEST(ClosedForm, HasNoFirstOrderVerticalErrorAtNadir) {
-  EXPECT_EQ(Of(5, {.footprint = 0.25}).tvu_per_depth, 0);
-}
+TEST(ClosedForm, HasNoFirstOrderVerticalErrorAtNadir) { EXPECT_EQ(Of(5, {.footprint = 0.25}).tvu_per_depth, 0); }
 
 // In the plane of incidence a small change of the tangent changes the path d sqrt(1 + t^2) by d sin(theta_r), and the
 // reported depth by cos(theta_r) times that.
 TEST(ClosedForm, DerivesTvuFromTheInPlaneRefraction) {
   const SmallSlopeUncertainty along = Of(5, {.incidence = 0.3, .azimuth = 0, .footprint = 0.5});
   const double refracted = StillWaterRefraction(0.3, kRefractiveIndex);
-  EXPECT_NEAR(along.tvu_per_depth, along.refraction_along_wind * std::sin(refracted) * std::cos(refracted),
-              1e-15);
+  EXPECT_NEAR(along.tvu_per_depth, along.refraction_along_wind * std::sin(refracted) * std::cos(refracted), 1e-15);
 }
 
 TEST(ClosedForm, IsTheSameInEveryQuadrantOfAzimuth) {

@@ -65,8 +65,7 @@ TEST(EffectiveGains, AreTheRegressionOfTheRayOnTheSlope) {
   const EffectiveGains gains = EffectiveGainsOf(incidence, kN, slopes);
   EXPECT_LT((gains.mean - mean).norm(), 1e-6);
   EXPECT_LT((mean_slope - tau * slopes.col(0)).norm(), 1e-6);
-  const Eigen::Matrix<double, 3, 2> regression =
-      (products / weights - mean * mean_slope.transpose()) * inverse;
+  const Eigen::Matrix<double, 3, 2> regression = (products / weights - mean * mean_slope.transpose()) * inverse;
   EXPECT_LT((gains.gain - regression).norm(), 2 * kDifferences);
 }
 

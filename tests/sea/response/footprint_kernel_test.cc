@@ -14,11 +14,9 @@ double LagOf(int j) { return Lattice().Lag(j * FootprintKernel::kLagStride); }
 
 // Trapezoids in steps of 10 %, and the 1e-3 of a gaussian beam's overlap that lies beyond its last lag.
 TEST(FootprintKernel, HasAnOverlapOfUnitIntegral) {
-  for (const BeamProfile profile : kProfiles) {
-    for (const double diameter : {0.1, 0.7, 5.0}) {
+  for (const BeamProfile profile : kProfiles)
+    for (const double diameter : {0.1, 0.7, 5.0})
       EXPECT_NEAR(FootprintKernel(profile, diameter).overlap().sum(), 1, 1e-3) << Name(profile) << diameter;
-    }
-  }
 }
 
 // Two points of a uniform disc are sqrt(D^2 / 4) apart in the root mean square, 1/4 = 2 * 1/8 D^2; of a gaussian beam,
@@ -27,8 +25,7 @@ TEST(FootprintKernel, HasTheMeanSquareDistanceOfTwoPoints) {
   for (const BeamProfile profile : kProfiles) {
     const FootprintKernel kernel(profile, 0.7);
     double sum = 0;
-    for (Eigen::Index j = 0; j < kernel.overlap().size(); ++j)
-      sum += kernel.overlap()[j] * std::pow(LagOf(j), 2);
+    for (Eigen::Index j = 0; j < kernel.overlap().size(); ++j) sum += kernel.overlap()[j] * std::pow(LagOf(j), 2);
     EXPECT_NEAR(sum / (0.7 * 0.7 / 4), 1, 2e-3) << Name(profile);
   }
 }

@@ -61,10 +61,9 @@ TEST(FootprintShift, IsTheMeanOverPairsOfPointsOfTheFootprint) {
       }
       const FootprintShift ours = ShiftOf(sea, kAzimuth, kIncidence, FootprintKernel(profile, diameter));
       spread /= weights;
-      EXPECT_LT((ours.spread - spread).norm(), 0.01 * spread.norm())
-          << Name(profile) << ", " << diameter << " m\n"
-          << ours.spread << "\n\n"
-          << spread;
+      EXPECT_LT((ours.spread - spread).norm(), 0.01 * spread.norm()) << Name(profile) << ", " << diameter << " m\n"
+                                                                     << ours.spread << "\n\n"
+                                                                     << spread;
       for (int c = 0; c < 2; ++c) {
         drift[c] /= weights;
         EXPECT_LT((ours.drift[c] - drift[c]).norm(), 0.01 * drift[0].norm())

@@ -38,10 +38,8 @@ TEST_P(FootprintOfProfile, IsNormalizedByItsPower) {
 }
 
 TEST_P(FootprintOfProfile, HoldsTheStatedPowerWithinItsRadius) {
-  for (const double power : {0.1, 0.5, 0.9, 0.999}) {
-    EXPECT_NEAR(PowerWithin(GetParam(), RadiusOfPower(GetParam(), power)) / Power(GetParam()), power, 1e-6)
-        << power;
-  }
+  for (const double power : {0.1, 0.5, 0.9, 0.999})
+    EXPECT_NEAR(PowerWithin(GetParam(), RadiusOfPower(GetParam(), power)) / Power(GetParam()), power, 1e-6) << power;
 }
 
 // The convolution of the irradiance with itself, by the midpoint rule on a grid.
@@ -62,9 +60,8 @@ TEST_P(FootprintOfProfile, OverlapsItselfAsItsConvolutionSays) {
   const double itself = convolution(0);
   // Cells of the grid on the edge of the uniform beam: a length of pi diameters, half a step, with random signs.
   const double tolerance = GetParam() == BeamProfile::kUniform ? 2e-3 : 1e-9;
-  for (const double apart : {0.1, 0.35, 0.7, 0.95}) {
+  for (const double apart : {0.1, 0.35, 0.7, 0.95})
     EXPECT_NEAR(convolution(apart) / itself, FootprintOverlap(GetParam(), apart), tolerance) << apart;
-  }
 }
 
 TEST_P(FootprintOfProfile, OverlapsItselfWhollyWhereItIs) { EXPECT_EQ(FootprintOverlap(GetParam(), 0), 1); }
@@ -111,10 +108,9 @@ TEST_P(FootprintOfProfile, AveragesAWaveAsTheFourierTransformOfItsIrradiance) {
           const double turn = 2 * kPi * (j + 0.5) / kTurns;
           const double along = beam.footprint * r * std::cos(turn) / std::cos(beam.incidence);
           const double across = beam.footprint * r * std::sin(turn);
-          sum +=
-              RelativeIrradiance(GetParam(), r * r) *
-              std::cos(k * (along * std::cos(psi - beam.azimuth) + across * std::sin(psi - beam.azimuth))) *
-              r * (kEnd / kRadii) * (2 * kPi / kTurns);
+          sum += RelativeIrradiance(GetParam(), r * r) *
+                 std::cos(k * (along * std::cos(psi - beam.azimuth) + across * std::sin(psi - beam.azimuth))) * r *
+                 (kEnd / kRadii) * (2 * kPi / kTurns);
         }
       }
       EXPECT_NEAR(sum / Power(GetParam()), FootprintAverage(beam, k, psi), 1e-5) << k << ", " << psi;

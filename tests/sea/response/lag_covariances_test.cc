@@ -13,8 +13,7 @@ namespace {
 // The slow twin: cosines of the waves of a fine grid, on lags in all directions. The sea has no waves so short that the
 // grid would alias them at these lags.
 TEST(LagCovariances, AreSumsOfCosines) {
-  const HarmonicSpectrum sea =
-      WeightedSum(Swell(2e-4, 6, 1.0, 0.6, 0.3), 1, Swell(1e-4, 2, -0.3, 0.8, 0.5), 1);
+  const HarmonicSpectrum sea = WeightedSum(Swell(2e-4, 6, 1.0, 0.6, 0.3), 1, Swell(1e-4, 2, -0.3, 0.8, 0.5), 1);
   constexpr int kLags = 75;
   const LagCovariances covariances(SlopeSpectrum(sea).AcrossBeam(0, 0), kLags);
   for (const int j : {0, 20, 50, 62, 70}) {
@@ -54,9 +53,8 @@ TEST(LagProducts, AreMeansOverAllDirections) {
     double sum = 0;
     for (int d = 0; d < count; ++d) {
       double kernel = 0;
-      for (int l = -(count - 1) / 2; l <= (count - 1) / 2; ++l) {
+      for (int l = -(count - 1) / 2; l <= (count - 1) / 2; ++l)
         kernel += std::cos((2 * l + (odd ? 1 : 0)) * (beta - r.directions[d]));
-      }
       sum += kernel / count * values(kLag, d);
     }
     return sum;

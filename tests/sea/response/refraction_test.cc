@@ -108,14 +108,13 @@ TEST(TangentResponse, IsTheGainsInTheAxesOfTheBeam) {
 
 TEST(TangentResponse, IsTheDerivativeOfTheRefractedTangentAtAnyAzimuth) {
   constexpr double kStep = 1e-5, kIncidence = 0.35, kAzimuth = 0.8;
-  const Eigen::Vector3d incident(std::sin(kIncidence) * std::cos(kAzimuth),
-                                 std::sin(kIncidence) * std::sin(kAzimuth), -std::cos(kIncidence));
+  const Eigen::Vector3d incident(std::sin(kIncidence) * std::cos(kAzimuth), std::sin(kIncidence) * std::sin(kAzimuth),
+                                 -std::cos(kIncidence));
   Eigen::Matrix2d derivative;
   for (const int axis : {0, 1}) {
     const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
     derivative.col(axis) =
-        (RefractAtSlope(incident, step, kN).tangent - RefractAtSlope(incident, -step, kN).tangent) /
-        (2 * kStep);
+        (RefractAtSlope(incident, step, kN).tangent - RefractAtSlope(incident, -step, kN).tangent) / (2 * kStep);
   }
   EXPECT_LT((derivative - TangentResponse(kIncidence, kAzimuth, kN)).norm(), 1e-8);
 }

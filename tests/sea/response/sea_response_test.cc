@@ -16,10 +16,8 @@ constexpr double kN = kRefractiveIndex;
 const BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
 
 void ExpectSame(const BeamResponse& a, const BeamResponse& b, double relative) {
-  EXPECT_LT((a.covariance_per_depth - b.covariance_per_depth).norm(),
-            relative * b.covariance_per_depth.norm());
-  EXPECT_LT((a.covariance_at_surface - b.covariance_at_surface).norm(),
-            10 * relative * b.covariance_at_surface.norm());
+  EXPECT_LT((a.covariance_per_depth - b.covariance_per_depth).norm(), relative * b.covariance_per_depth.norm());
+  EXPECT_LT((a.covariance_at_surface - b.covariance_at_surface).norm(), 10 * relative * b.covariance_at_surface.norm());
   EXPECT_LT((a.mean_per_depth - b.mean_per_depth).norm(), relative * b.mean_per_depth.norm());
 }
 
@@ -33,16 +31,13 @@ TEST(SeaResponse, IsTheClosedFormOfSmallSlopes) {
   for (const BeamProfile profile : kProfiles) {
     for (const double incidence : {0.0, 0.2, 0.5}) {
       for (const double footprint : {0.2, 1.0, 5.0}) {
-        const BeamOptions beam{
-            .incidence = incidence, .azimuth = 0.6, .footprint = footprint, .profile = profile};
+        const BeamOptions beam{.incidence = incidence, .azimuth = 0.6, .footprint = footprint, .profile = profile};
         const SmallSlopeUncertainty exact = ClosedForm(state, beam, kN);
         const BeamResponse ours = sea(beam);
         EXPECT_NEAR(ours.refraction_along_wind() / exact.refraction_along_wind, 1, 6e-4);
         EXPECT_NEAR(ours.refraction_cross_wind() / exact.refraction_cross_wind, 1, 6e-4);
         EXPECT_NEAR(ours.Thu(1e6) / 1e6 / exact.thu_per_depth, 1, 6e-4);
-        if (incidence > 0) {
-          EXPECT_NEAR(ours.Tvu(1e6) / 1e6 / exact.tvu_per_depth, 1, 6e-4);
-        }
+        if (incidence > 0) EXPECT_NEAR(ours.Tvu(1e6) / 1e6 / exact.tvu_per_depth, 1, 6e-4);
       }
     }
   }
@@ -59,8 +54,7 @@ TEST(SeaResponse, OfASingleRayIsTheVarianceOverTheSlopesThatFaceIt) {
   ASSERT_GT(mss, 0.03);
   const Eigen::Matrix2d root = slopes.llt().matrixL();
   for (const double incidence : {0.0, 0.05, 0.3, 0.5}) {
-    const double azimuth = 0.3, tau = std::tan(incidence),
-                 still = std::cos(StillWaterRefraction(incidence, kN));
+    const double azimuth = 0.3, tau = std::tan(incidence), still = std::cos(StillWaterRefraction(incidence, kN));
     const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth));
     const Eigen::Vector3d incident(std::sin(incidence) * along.x(), std::sin(incidence) * along.y(),
                                    -std::cos(incidence));
@@ -152,8 +146,7 @@ TEST(SeaResponse, IsASumOverWavesAndPairsOfWaves) {
 TEST(SeaResponse, HasTheVerticalBiasOfTheMeanSquareSlopeAtNadir) {
   const SeaResponse sea(WindSeaOf(8, kElfouhailyModel, 0.05), kN);
   const double g = 1 - 1 / kN;
-  EXPECT_NEAR(sea({.footprint = 0.5}).BiasVertical(1) / (-0.5 * g * g * sea.slope_covariance().trace()), 1,
-              1e-3);
+  EXPECT_NEAR(sea({.footprint = 0.5}).BiasVertical(1) / (-0.5 * g * g * sea.slope_covariance().trace()), 1, 1e-3);
   EXPECT_NEAR(sea({.footprint = 0.5}).BiasAlongBeam(1), 0, 1e-14);
 }
 
@@ -230,8 +223,8 @@ TEST(SeaResponse, OfSeveralFootprintsIsThatOfEachAlone) {
       for (const double azimuth : {0.0, 1.0, 2.5}) {
         const std::vector<BeamResponse> beams = sea.AlongDirection(incidence, azimuth, kernels);
         for (std::size_t f = 0; f < footprints.size(); ++f) {
-          const BeamResponse alone = sea(
-              {.incidence = incidence, .azimuth = azimuth, .footprint = footprints[f], .profile = profile});
+          const BeamResponse alone =
+              sea({.incidence = incidence, .azimuth = azimuth, .footprint = footprints[f], .profile = profile});
           EXPECT_EQ(beams[f].azimuth, alone.azimuth);
           // Blocks of products are as long as the widest footprint needs, and round otherwise.
           EXPECT_LT((beams[f].covariance_per_depth - alone.covariance_per_depth).norm(),

@@ -13,8 +13,8 @@ namespace albtpu {
 
 inline HarmonicSpectrum WindSeaOf(double wind_speed_10m, const SpectrumModel& model = kElfouhailyModel,
                                   double slope_scale = 1) {
-  HarmonicSpectrum sea = Sampled(*WindSea{.wind_speed_10m = wind_speed_10m, .model = &model}.MakeSpectrum(),
-                                 SeaWavenumbers(), 1);
+  HarmonicSpectrum sea =
+      Sampled(*WindSea{.wind_speed_10m = wind_speed_10m, .model = &model}.MakeSpectrum(), SeaWavenumbers(), 1);
   for (double& s : sea.s) s *= slope_scale * slope_scale;
   return sea;
 }
@@ -35,15 +35,12 @@ inline HarmonicSpectrum Swell(double variance, double peak, double axis, double 
   return sea;
 }
 
-inline HarmonicSpectrum CrossingSea() {
-  return WeightedSum(WindSeaOf(7), 1, Swell(0.03, 0.4, 1.0, 0.8, 0.5), 1);
-}
+inline HarmonicSpectrum CrossingSea() { return WeightedSum(WindSeaOf(7), 1, Swell(0.03, 0.4, 1.0, 0.8, 0.5), 1); }
 
 // The sea in a mirror along the x axis.
 inline HarmonicSpectrum Mirrored(HarmonicSpectrum sea) {
-  for (std::vector<double>& b : sea.b) {
+  for (std::vector<double>& b : sea.b)
     for (double& value : b) value = -value;
-  }
   return sea;
 }
 
@@ -56,12 +53,9 @@ void ForEachWave(const HarmonicSpectrum& sea, int directions, const Wave& wave) 
     for (int j = 0; j < directions; ++j) {
       const double psi = 2 * std::numbers::pi * (j + 0.5) / directions;
       double density = 1;
-      for (std::size_t n = 0; n < sea.harmonics(); ++n) {
-        density +=
-            2 * (sea.a[n][i] * std::cos(2 * (n + 1) * psi) + sea.b[n][i] * std::sin(2 * (n + 1) * psi));
-      }
-      wave(sea.s[i] * dk * density / directions,
-           Eigen::Vector2d(sea.k[i] * std::cos(psi), sea.k[i] * std::sin(psi)));
+      for (std::size_t n = 0; n < sea.harmonics(); ++n)
+        density += 2 * (sea.a[n][i] * std::cos(2 * (n + 1) * psi) + sea.b[n][i] * std::sin(2 * (n + 1) * psi));
+      wave(sea.s[i] * dk * density / directions, Eigen::Vector2d(sea.k[i] * std::cos(psi), sea.k[i] * std::sin(psi)));
     }
   }
 }

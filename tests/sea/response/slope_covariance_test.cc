@@ -24,11 +24,9 @@ TEST(FootprintSlopes, AreTheIntegralOverAllWaves) {
       const BeamOptions beam{.incidence = 0.5, .azimuth = 0.8, .footprint = footprint, .profile = profile};
       const SeaState sea(SeaOptions{.waves = WindSea{.wind_speed_10m = 7, .model = &kElfouhailyModel}});
       const Eigen::Matrix2d exact = AlongAzimuth(
-          SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }),
-          beam.azimuth);
-      const Eigen::Matrix2d ours =
-          FootprintSlopes(SlopeSpectrum(WindSeaOf(7)).AcrossBeam(beam.incidence, beam.azimuth),
-                          FootprintKernel(profile, footprint));
+          SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }), beam.azimuth);
+      const Eigen::Matrix2d ours = FootprintSlopes(SlopeSpectrum(WindSeaOf(7)).AcrossBeam(beam.incidence, beam.azimuth),
+                                                   FootprintKernel(profile, footprint));
       EXPECT_LT((ours - exact).norm(), 1e-3 * exact.norm()) << Name(profile) << footprint;
     }
   }
@@ -40,8 +38,8 @@ TEST(FootprintSlopes, AreTheIntegralOverCrossingWaves) {
   ForEachWave(CrossingSea(), 64, [&](double variance, const Eigen::Vector2d& k) {
     sum += variance * FootprintPower(beam, k.norm(), std::atan2(k.y(), k.x())) * k * k.transpose();
   });
-  const Eigen::Matrix2d ours = FootprintSlopes(SlopeSpectrum(CrossingSea()).AcrossBeam(0.4, 2.5),
-                                               FootprintKernel(BeamProfile::kUniform, 1.5));
+  const Eigen::Matrix2d ours =
+      FootprintSlopes(SlopeSpectrum(CrossingSea()).AcrossBeam(0.4, 2.5), FootprintKernel(BeamProfile::kUniform, 1.5));
   EXPECT_LT((ours - AlongAzimuth(sum, 2.5)).norm(), 5e-4 * sum.norm());
 }
 
@@ -67,9 +65,8 @@ TEST(SlopePairs, AreMeansOverPairsOfPointsOfTheFootprint) {
       const Eigen::Vector2d lag =
           kDiameter * s * Eigen::Vector2d(std::cos(beta) / std::cos(kIncidence), std::sin(beta));
       Eigen::Vector3d r = Eigen::Vector3d::Zero();
-      for (const auto& [variance, k] : waves) {
+      for (const auto& [variance, k] : waves)
         r += variance * std::cos(k.dot(lag)) * Eigen::Vector3d(k.x() * k.x(), k.x() * k.y(), k.y() * k.y());
-      }
       sum += weight * r * r.transpose();
       weights += weight;
     }
@@ -77,9 +74,8 @@ TEST(SlopePairs, AreMeansOverPairsOfPointsOfTheFootprint) {
   sum /= weights;
   const BeamSpectrum spectrum = SlopeSpectrum(sea).AcrossBeam(kIncidence, kAzimuth);
   const FootprintKernel footprint(BeamProfile::kUniform, kDiameter);
-  const Eigen::Matrix3d ours =
-      SlopePairs(LagProducts(LagCovariances(spectrum, static_cast<int>(footprint.overlap().size()))),
-                 kIncidence, footprint);
+  const Eigen::Matrix3d ours = SlopePairs(
+      LagProducts(LagCovariances(spectrum, static_cast<int>(footprint.overlap().size()))), kIncidence, footprint);
   EXPECT_LT((ours - sum).norm(), 0.005 * sum.norm()) << ours << "\n\n" << sum;
 }
 

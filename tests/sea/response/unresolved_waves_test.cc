@@ -18,15 +18,13 @@ Eigen::Matrix2d Diagonal(double x, double y) { return Eigen::Vector2d(x, y).asDi
 // Tangents and secant of a ray refracted by a facet of `slope`.
 Eigen::Vector3d Refracted(const BeamOptions& beam, const Eigen::Vector2d& slope) {
   const Eigen::Vector3d incident(std::sin(beam.incidence) * std::cos(beam.azimuth),
-                                 std::sin(beam.incidence) * std::sin(beam.azimuth),
-                                 -std::cos(beam.incidence));
+                                 std::sin(beam.incidence) * std::sin(beam.azimuth), -std::cos(beam.incidence));
   const Eigen::Vector3d r = Refract(incident, NormalOfSlope(slope), kN);
   return Eigen::Vector3d(r.x(), r.y(), 1) / -r.z();
 }
 
 TEST(UnresolvedWaves, OfZeroSlopeChangeNothing) {
-  const UnresolvedWaves none =
-      EffectOfUnresolvedWaves({.incidence = 0.3, .azimuth = 0.5}, kN, Diagonal(0, 0), kFlat);
+  const UnresolvedWaves none = EffectOfUnresolvedWaves({.incidence = 0.3, .azimuth = 0.5}, kN, Diagonal(0, 0), kFlat);
   EXPECT_LT(none.offset.norm(), 1e-15);
   EXPECT_LT(none.gain.norm(), 1e-12);  // rounding over the least deviation of slopes, 1e-3
 }
@@ -74,8 +72,7 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatFaceTheBeam) {
     std::mt19937_64 bits(1);
     std::normal_distribution<double> normal;
     for (int i = 0; i < kDraws; ++i) {
-      const double x = std::sqrt(covariance(0, 0)) * normal(bits),
-                   y = std::sqrt(covariance(1, 1)) * normal(bits);
+      const double x = std::sqrt(covariance(0, 0)) * normal(bits), y = std::sqrt(covariance(1, 1)) * normal(bits);
       const Eigen::Vector2d slope = m + Eigen::Vector2d(x, y);
       const double weight = std::max(0.0, 1 + facing.dot(slope));
       const Eigen::Array3d departure = weight * (Refracted(beam, slope).array() - expected);
@@ -83,9 +80,8 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatFaceTheBeam) {
       sum += departure;
       squares += departure.square();
     }
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(sum[c] / weights, 0, 4 * std::sqrt(squares[c]) / weights + bias) << "component " << c;
-    }
   };
   check({0, 0}, 0);
   // The error of the expansion to second order in the resolved slope is of the order of mss m^3.

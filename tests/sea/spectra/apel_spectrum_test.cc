@@ -45,9 +45,7 @@ TEST(ApelSpectrum, HasNearlyTheWaveHeightOfPiersonAndMoskowitz) {
 }
 
 TEST(ApelSpectrum, HasTheKnownMeanSquareSlopes) {
-  const auto mean_square_slope = [](double wind_speed) {
-    return Moment(ApelSpectrum(wind_speed, kFullyDeveloped), 2);
-  };
+  const auto mean_square_slope = [](double wind_speed) { return Moment(ApelSpectrum(wind_speed, kFullyDeveloped), 2); };
   constexpr double kPrinted = 0.0005;
   EXPECT_NEAR(mean_square_slope(3), 0.030, kPrinted);
   EXPECT_NEAR(mean_square_slope(5), 0.049, kPrinted);
@@ -77,8 +75,7 @@ TEST(ApelSpectrum, EnhancesThePeakOfAYoungSea) {
   struct Case {
     double omega, gamma;
   };
-  for (const Case c :
-       {Case{0.84, 1.7}, {0.9, 1.7}, {2, 1.7 + 6 * std::log10(2)}, {5, 5.893820}, {9, 5.893820}}) {
+  for (const Case c : {Case{0.84, 1.7}, {0.9, 1.7}, {2, 1.7 + 6 * std::log10(2)}, {5, 5.893820}, {9, 5.893820}}) {
     const ApelSpectrum spectrum(kWindSpeed, FetchOf(c.omega, kWindSpeed));
     const double k = spectrum.peak_wavenumber();
     // Eq. 14 is the integral of exp(-phi^2 / (2 phi_s^2)) over a full turn, here at k = k_p.
@@ -91,10 +88,10 @@ TEST(ApelSpectrum, EnhancesThePeakOfAYoungSea) {
     const double roll_off = 1 / (1 + std::pow(k / 100, 2));
     const double resonance = 0.8 * k / std::cosh((k - 400) / 450);
     const double dissipation = std::exp(-std::pow(k / 6283, 2));
-    EXPECT_NEAR(spectrum(k) * std::pow(k, 3) /
-                    (0.00195 * std::exp(-1.25) * c.gamma * (roll_off + s * resonance) * dissipation *
-                     directional_integral),
-                1, 1e-6)
+    EXPECT_NEAR(
+        spectrum(k) * std::pow(k, 3) /
+            (0.00195 * std::exp(-1.25) * c.gamma * (roll_off + s * resonance) * dissipation * directional_integral),
+        1, 1e-6)
         << "Omega " << c.omega;
   }
 }

@@ -16,8 +16,7 @@ namespace {
 constexpr double kDeep = std::numeric_limits<double>::infinity();
 constexpr double kDegree = std::numbers::pi / 180;
 
-BinnedSpectrum Bins(std::vector<double> f, const std::vector<double>& energy, double axis = 0,
-                    double r2 = 0.5) {
+BinnedSpectrum Bins(std::vector<double> f, const std::vector<double>& energy, double axis = 0, double r2 = 0.5) {
   std::vector<DirectionalEnergy> bins;
   for (const double each : energy) bins.push_back(SymmetricEnergy(each, {r2}, axis));
   return BinnedSpectrum(std::make_shared<const std::vector<double>>(std::move(f)), bins, 1, 0.4);
@@ -66,8 +65,7 @@ TEST(BinnedSpectrumByWavenumber, KeepsItsVariance) {
 // x points to the east; waves along 60 degrees of the compass travel 30 degrees to its left.
 TEST(BinnedSpectrumByWavenumber, TurnsFromTheCompassToTheFrame) {
   const BinnedSpectrum spectrum = Bins({0.1, 0.3}, {1, 1}, 60 * kDegree);
-  const HarmonicSpectrum by_k =
-      ByWavenumber(spectrum, kDeep, 90 * kDegree, {WavenumberOfFrequency(0.2, kDeep)});
+  const HarmonicSpectrum by_k = ByWavenumber(spectrum, kDeep, 90 * kDegree, {WavenumberOfFrequency(0.2, kDeep)});
   EXPECT_NEAR(by_k.a[0][0], 0.5 * std::cos(60 * kDegree), 1e-14);
   EXPECT_NEAR(by_k.b[0][0], 0.5 * std::sin(60 * kDegree), 1e-14);
 }
@@ -86,8 +84,7 @@ TEST(BinnedSpectrum, LeadsAlongItsPeakAndEndsAlongItsShortWaves) {
   std::vector<DirectionalEnergy> bins;
   for (const auto& [energy, axis] : {std::pair(5.0, 0.2), {1.0, 0.9}, {2.0, 1.1}})
     bins.push_back(SymmetricEnergy(energy, {0.8}, axis));
-  const BinnedSpectrum spectrum(std::make_shared<const std::vector<double>>(std::vector{0.1, 0.3, 0.4}), bins,
-                                1, 0.4);
+  const BinnedSpectrum spectrum(std::make_shared<const std::vector<double>>(std::vector{0.1, 0.3, 0.4}), bins, 1, 0.4);
   EXPECT_NEAR(spectrum.leading_axis(), 0.2, 1e-14);
   EXPECT_GT(spectrum.ShortWaveAxis(0.4), 0.9);
   EXPECT_LT(spectrum.ShortWaveAxis(0.4), 1.1);

@@ -38,18 +38,17 @@ std::shared_ptr<const FrequencySpectrum> MeasuredWindSea(double wind_speed, doub
   for (double f = 0.03; f < 0.6; f += 0.0002) {
     const double k = WavenumberOfFrequency(f, kDeep);
     centres.push_back(f);
-    bins.push_back(
-        SymmetricEnergy(factor * wind(k) / FrequencySlope(k, kDeep), {wind.Delta(k) / 2}, 90 * kDegree));
+    bins.push_back(SymmetricEnergy(factor * wind(k) / FrequencySlope(k, kDeep), {wind.Delta(k) / 2}, 90 * kDegree));
   }
-  return std::make_shared<BinnedSpectrum>(std::make_shared<const std::vector<double>>(std::move(centres)),
-                                          bins, 1, 0.4);
+  return std::make_shared<BinnedSpectrum>(std::make_shared<const std::vector<double>>(std::move(centres)), bins, 1,
+                                          0.4);
 }
 
 TEST(DescribedSea, IsTheWindSeaItselfWhereThatWasMeasured) {
   const HarmonicSpectrum whole = Sampled(ElfouhailySpectrum(8, kDeep), SeaWavenumbers(), 1);
   for (const TailRule rule : {TailRule::kWind, TailRule::kRelax, TailRule::kLevel}) {
-    const DescribedSea sea = Describe(
-        {.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
+    const DescribedSea sea =
+        Describe({.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
     EXPECT_NEAR(sea.q, 1, 1e-12);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       if (whole.k[i] < 0.03) continue;  // so steep that straight lines between bins are too high
@@ -62,8 +61,8 @@ TEST(DescribedSea, IsTheWindSeaItselfWhereThatWasMeasured) {
 TEST(DescribedSea, TakesTheLevelOfTheWavesOrOfTheWindAboveTheCutoff) {
   const ElfouhailySpectrum wind(8, kDeep);
   const auto ratio = [&](TailRule rule, double k) {
-    const DescribedSea sea = Describe(
-        {.waves = MeasuredWindSea(8, 1.6), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
+    const DescribedSea sea =
+        Describe({.waves = MeasuredWindSea(8, 1.6), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
     const HarmonicSpectrum at = Resampled(sea.spectrum, {sea.cutoff * k});
     const HarmonicSpectrum of_wind = Resampled(Sampled(wind, SeaWavenumbers(), 1), {sea.cutoff * k});
     return at.s[0] / of_wind.s[0];
@@ -140,8 +139,7 @@ TEST(DescribedSea, IsWithoutEnergyToCompareAboveTheLastBin) {
 
 TEST(DescribedSea, TurnsWithWindAndWaves) {
   const DescribedSea sea = Describe({.waves = Swell(1, 0.5), .wind_speed_10m = 5, .wind_from = 1});
-  const DescribedSea turned =
-      Describe({.waves = Swell(1, 0.5 + 2.1), .wind_speed_10m = 5, .wind_from = 1 + 2.1});
+  const DescribedSea turned = Describe({.waves = Swell(1, 0.5 + 2.1), .wind_speed_10m = 5, .wind_from = 1 + 2.1});
   for (std::size_t i = 0; i < sea.spectrum.size(); ++i) {
     EXPECT_NEAR(turned.spectrum.a[0][i], sea.spectrum.a[0][i], 1e-12);
     EXPECT_NEAR(turned.spectrum.b[0][i], sea.spectrum.b[0][i], 1e-12);

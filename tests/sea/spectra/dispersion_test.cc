@@ -28,8 +28,7 @@ TEST(DispersionRelation, HasItsDeepAndItsShallowLimit) {
   EXPECT_EQ(WavenumberOfFrequency(0.1, 1e4), omega * omega / kGravity);
   // k = omega / sqrt(g h) (1 + omega^2 h / (6 g)) for small k h, to the square of the last term.
   const double small = omega * omega * 0.01 / (6 * kGravity);
-  EXPECT_NEAR(WavenumberOfFrequency(0.1, 0.01) / (omega / std::sqrt(kGravity * 0.01)), 1 + small,
-              2 * small * small);
+  EXPECT_NEAR(WavenumberOfFrequency(0.1, 0.01) / (omega / std::sqrt(kGravity * 0.01)), 1 + small, 2 * small * small);
   EXPECT_EQ(Shallowness(1, kDeep), 0);
   EXPECT_NEAR(Shallowness(1e-5, 1), 1, 1e-9);
 }
@@ -38,8 +37,7 @@ TEST(DispersionRelation, HasTheGroupVelocityOfItsDerivative) {
   for (const double depth : {0.5, 5.0, 50.0, kDeep}) {
     for (const double k : {0.01, 0.3, 2.0}) {
       const double h = 1e-5 * k;
-      const double slope =
-          (FrequencyOfWavenumber(k + h, depth) - FrequencyOfWavenumber(k - h, depth)) / (2 * h);
+      const double slope = (FrequencyOfWavenumber(k + h, depth) - FrequencyOfWavenumber(k - h, depth)) / (2 * h);
       EXPECT_NEAR(FrequencySlope(k, depth) / slope, 1, 1e-8);
     }
   }

@@ -15,8 +15,7 @@ constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 // Integral of k^power S weight(k) dk by the trapezoidal rule in log k, fine enough to count as exact.
 template <typename Weight>
-double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, double highest,
-              const Weight& weight) {
+double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, double highest, const Weight& weight) {
   constexpr int kSteps = 20000;
   const double step = std::log(highest / lowest) / kSteps;
   double sum = 0;
@@ -28,7 +27,8 @@ double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, doub
 }
 
 double Moment(const ElfouhailySpectrum& spectrum, int power) {
-  return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
+  return Moment(
+      spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
 }
 
 // Values computed by an independent Python script from the printed equations (NumPy, double precision), ten digits.
@@ -60,8 +60,7 @@ TEST(ElfouhailySpectrum, HasTheValuesOfItsPrintedEquations) {
 constexpr double kCoxAndMunksScatter = 0.004;
 
 double DepartureFromCoxAndMunk(double wind_speed) {
-  return Moment(ElfouhailySpectrum(wind_speed, kFullyDeveloped), 2) -
-         (0.003 + 5.12e-3 * WindSpeedAt(12.5, wind_speed));
+  return Moment(ElfouhailySpectrum(wind_speed, kFullyDeveloped), 2) - (0.003 + 5.12e-3 * WindSpeedAt(12.5, wind_speed));
 }
 
 TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkFrom3MetresPerSecondOn) {
@@ -82,8 +81,7 @@ TEST(ElfouhailySpectrum, IsSteeperThanCoxAndMunkInLighterWind) {
   EXPECT_GT(DepartureFromCoxAndMunk(1), 2 * kCoxAndMunksScatter);
   EXPECT_GT(DepartureFromCoxAndMunk(2), kCoxAndMunksScatter);
   double squares = 0;
-  for (int wind_speed = 1; wind_speed <= 14; ++wind_speed)
-    squares += std::pow(DepartureFromCoxAndMunk(wind_speed), 2);
+  for (int wind_speed = 1; wind_speed <= 14; ++wind_speed) squares += std::pow(DepartureFromCoxAndMunk(wind_speed), 2);
   EXPECT_GT(std::sqrt(squares / 14), kCoxAndMunksScatter);
 }
 
@@ -93,8 +91,7 @@ TEST(ElfouhailySpectrum, IsSomewhatHigherThanPiersonAndMoskowitz) {
   for (const double wind_speed : {5.0, 10.0, 15.0}) {
     const double at_19_5 = WindSpeedAt(19.5, wind_speed);
     const double pierson_moskowitz = 2 * std::sqrt(8.1e-3 / 0.74) * at_19_5 * at_19_5 / kGravity;
-    const double ratio =
-        4 * std::sqrt(Moment(ElfouhailySpectrum(wind_speed, kFullyDeveloped), 0)) / pierson_moskowitz;
+    const double ratio = 4 * std::sqrt(Moment(ElfouhailySpectrum(wind_speed, kFullyDeveloped), 0)) / pierson_moskowitz;
     EXPECT_GT(ratio, 1) << wind_speed;
     EXPECT_LT(ratio, std::sqrt(1.7)) << wind_speed;
   }
@@ -128,8 +125,8 @@ TEST(ElfouhailySpectrum, HasNoShortWavesInLightWind) {
   constexpr double kOmega = 0.84;
   const double k_p = light.peak_wavenumber();
   const double c_p = 2 / kOmega, c = std::sqrt(2 * kGravity / 370);
-  const double tail = 0.5 * 6e-3 * std::sqrt(kOmega) * c_p / c *
-                      std::exp(-kOmega / std::sqrt(10) * (std::sqrt(370 / k_p) - 1));
+  const double tail =
+      0.5 * 6e-3 * std::sqrt(kOmega) * c_p / c * std::exp(-kOmega / std::sqrt(10) * (std::sqrt(370 / k_p) - 1));
   EXPECT_NEAR(std::pow(370, 3) * light(370) / tail, 1, 1e-4);
 }
 
@@ -165,8 +162,8 @@ TEST(ElfouhailyFetchLaw, ApproachesTheFullyDevelopedSea) {
   const double developed = ElfouhailySpectrum::FullyDevelopedFetch(8);
   EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, developed), 1.01 * 0.84, 1e-12);
   // For short fetches tanh equals its argument: a power law, within a few per cent of JONSWAP's at Omega = 3.
-  EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, 1) / ElfouhailySpectrum::InverseWaveAge(8, 10),
-              std::pow(10, 0.3), 1e-3);
+  EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, 1) / ElfouhailySpectrum::InverseWaveAge(8, 10), std::pow(10, 0.3),
+              1e-3);
 }
 
 TEST(ElfouhailyEnergeticRange, HoldsAllButOnePartInTenThousand) {

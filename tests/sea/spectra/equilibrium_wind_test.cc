@@ -18,8 +18,8 @@ BinnedSpectrum InEquilibrium(double friction_velocity, double step, double highe
   std::vector<DirectionalEnergy> bins;
   for (double at = step; at <= highest + 1e-9; at += step) {
     f.push_back(at);
-    bins.push_back({.energy = 0.012 * 2.5 * kGravity * friction_velocity /
-                              (2 * std::pow(std::numbers::pi, 3)) * std::pow(at, -4)});
+    bins.push_back({.energy = 0.012 * 2.5 * kGravity * friction_velocity / (2 * std::pow(std::numbers::pi, 3)) *
+                              std::pow(at, -4)});
   }
   return BinnedSpectrum(std::make_shared<const std::vector<double>>(std::move(f)), bins, 0, 0.4);
 }

@@ -85,8 +85,7 @@ TEST(Jonswap, AddsVariancesOfItsComponents) {
   JonswapWaves swell = Waves(4, 10, 7), sea = Waves(3, 4, 3.3);
   const JonswapSpectrum both({swell, sea}), first({swell}), second({sea});
   EXPECT_EQ(both.significant_wave_height(), 5);
-  for (const double f : {0.1, 0.25, 0.5})
-    EXPECT_NEAR(both(f).energy, first(f).energy + second(f).energy, 1e-14);
+  for (const double f : {0.1, 0.25, 0.5}) EXPECT_NEAR(both(f).energy, first(f).energy + second(f).energy, 1e-14);
 }
 
 TEST(Jonswap, SpreadsItsWavesAboutTheirDirection) {

@@ -21,19 +21,18 @@ double IntegralOverTurn(const Cosine2sSpreading& spreading, Weight weight) {
 }
 
 TEST(Cosine2sSpreading, IntegratesToOne) {
-  for (const double s : {1.0, 2.0, 5.0, 10.0}) {
+  for (const double s : {1.0, 2.0, 5.0, 10.0})
     EXPECT_NEAR(IntegralOverTurn(Cosine2sSpreading(s), [](double) { return 1.0; }), 1, 1e-12) << s;
-  }
   // |cos|^5 has a kink in its fifth derivative, so equal steps are no longer exact.
   EXPECT_NEAR(IntegralOverTurn(Cosine2sSpreading(2.5), [](double) { return 1.0; }), 1, 1e-9);
 }
 
 TEST(Cosine2sSpreading, HasSlopeVariancesAlongAndAcrossTheWindInTheRatioSevenToFive) {
   const Cosine2sSpreading spreading(2);
-  EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::cos(psi), 2); }), 7.0 / 12,
-              1e-12);
-  EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::sin(psi), 2); }), 5.0 / 12,
-              1e-12);
+  EXPECT_NEAR(IntegralOverTurn(
+                  spreading, [](double psi) { return std::pow(std::cos(psi), 2); }),
+              7.0 / 12, 1e-12);
+  EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::sin(psi), 2); }), 5.0 / 12, 1e-12);
 }
 
 TEST(Cosine2sSpreading, IsGreatestDownwindAndZeroUpwind) {
@@ -46,8 +45,7 @@ TEST(Cosine2sSpreading, IsGreatestDownwindAndZeroUpwind) {
 // At the peak the enhancement is gamma itself; far from it there is none. Between Omega 1 and 5 gamma follows the
 // formula.
 TEST(JonswapPeak, EnhancesThePeakByGammaAndNothingElse) {
-  for (const double omega : {1.0, 2.0, 5.0})
-    EXPECT_DOUBLE_EQ(JonswapPeak(omega)(1), 1.7 + 6 * std::log10(omega));
+  for (const double omega : {1.0, 2.0, 5.0}) EXPECT_DOUBLE_EQ(JonswapPeak(omega)(1), 1.7 + 6 * std::log10(omega));
   EXPECT_NEAR(JonswapPeak(2)(10), 1, 1e-12);
   EXPECT_NEAR(JonswapPeak(2)(0.05), 1, 1e-6);
 }

@@ -56,9 +56,7 @@ class RandomPulses {
   }
 
  private:
-  float Between(float first, float last) {
-    return std::uniform_real_distribution<float>(first, last)(random_);
-  }
+  float Between(float first, float last) { return std::uniform_real_distribution<float>(first, last)(random_); }
 
   int count_ = 0;
   std::mt19937 random_{1};
@@ -121,8 +119,7 @@ TEST(SeaTable, IsTheSameFromEveryCompilerAndThread) {
   EXPECT_EQ(SeaCompiler().Compile(sea, kNotMeasured)->digest(), digest);
   std::array<std::string, 2> digests;
   std::array<std::thread, 2> threads;
-  for (std::size_t i = 0; i < 2; ++i)
-    threads[i] = std::thread([&, i] { digests[i] = Compiled(sea).digest(); });
+  for (std::size_t i = 0; i < 2; ++i) threads[i] = std::thread([&, i] { digests[i] = Compiled(sea).digest(); });
   for (std::thread& thread : threads) thread.join();
   for (const std::string& other : digests) EXPECT_EQ(other, digest);
   EXPECT_NE(Compiled(TableSeas()[5].sea).digest(), digest);
@@ -146,8 +143,7 @@ void ExpectSameValues(const UncertaintyTable& a, const UncertaintyTable& b) {
   for (const Quantity quantity : kQuantities) {
     const std::vector<float>&ours = a.variable(quantity)->values, &theirs = b.variable(quantity)->values;
     for (std::size_t i = 0; i < ours.size(); ++i)
-      ASSERT_NEAR(ours[i], theirs[i], 1e-4 * std::abs(theirs[i]) + 1e-6)
-          << Describe(quantity).name << " " << i;
+      ASSERT_NEAR(ours[i], theirs[i], 1e-4 * std::abs(theirs[i]) + 1e-6) << Describe(quantity).name << " " << i;
   }
 }
 
@@ -232,8 +228,9 @@ TEST(SeaTable, HasTheErrorsOfTheSeaAsStandardErrors) {
   const SeaDescription sea = MeasuredSea();
   const UncertaintyTable table = Compiled(sea, 1800);
   const BeamOptions footprint{.footprint = 0.7};
-  const double of_slopes =
-      ErrorOfSea(sea, 1800, [&](double k) { return FootprintPower(footprint, k, 0); }).total;
+  const double of_slopes = ErrorOfSea(
+                               sea, 1800, [&](double k) { return FootprintPower(footprint, k, 0); })
+                               .total;
   const double of_mean_square = ErrorOfSea(sea, 1800, [](double) { return 1; }).total;
   EXPECT_GT(of_slopes, 0.01);
   for (const float incidence : {0.0f, 19.0f}) {
@@ -261,12 +258,8 @@ TEST(SeaTable, SaysOfWhichSeaItIs) {
   EXPECT_TRUE(table.is_of_one_sea());
   EXPECT_FALSE(table.is_published());
   const auto& attributes = table.provenance().attributes;
-  const auto number = [&](std::string_view name) {
-    return std::get<double>(attributes.at(std::string(name)));
-  };
-  const auto text = [&](std::string_view name) {
-    return std::get<std::string>(attributes.at(std::string(name)));
-  };
+  const auto number = [&](std::string_view name) { return std::get<double>(attributes.at(std::string(name))); };
+  const auto text = [&](std::string_view name) { return std::get<std::string>(attributes.at(std::string(name))); };
   const DescribedSea described = Describe(sea);
   EXPECT_EQ(number(sea_attribute::kXAzimuth), DegreesOfRadians(described.x_azimuth));
   EXPECT_NEAR(number(sea_attribute::kSignificantWaveHeight), 1, 0.05);
@@ -283,8 +276,7 @@ TEST(SeaTable, SaysOfWhichSeaItIs) {
 
 TEST(SeaTable, TakesOtherNodesProfilesAndIndices) {
   SeaTableOptions options{.refractive_index = 1.34, .profile = BeamProfile::kGaussian, .nodes = {}};
-  options.nodes = {
-      .incidences = {0, 10, 20}, .azimuths = {0, 90, 180}, .footprints = {0.5, 1}, .depths = {0, 10}};
+  options.nodes = {.incidences = {0, 10, 20}, .azimuths = {0, 90, 180}, .footprints = {0.5, 1}, .depths = {0, 10}};
   const SeaDescription sea = SeaOf(8);
   const UncertaintyTable table = SeaCompiler(options).Compile(sea, kNotMeasured).value();
   const Pulse pulse{.incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10};

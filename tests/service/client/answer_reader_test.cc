@@ -17,11 +17,9 @@ v1::QueryColumnsResponse GoodResponse() {
   response.set_outcome_axes(std::string(1, '\0'));
   auto& columns = *response.mutable_sea_surface();
   for (std::string* column :
-       {columns.mutable_refraction_along_wind(), columns.mutable_refraction_cross_wind(),
-        columns.mutable_thu(), columns.mutable_tvu(), columns.mutable_bias_along_beam(),
-        columns.mutable_bias_vertical()}) {
+       {columns.mutable_refraction_along_wind(), columns.mutable_refraction_cross_wind(), columns.mutable_thu(),
+        columns.mutable_tvu(), columns.mutable_bias_along_beam(), columns.mutable_bias_vertical()})
     *column = std::string(4, '\0');
-  }
   return response;
 }
 

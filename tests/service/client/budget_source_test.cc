@@ -23,10 +23,8 @@ using ::testing::HasSubstr;
 void ExpectSame(const BudgetMemory& a, const BudgetMemory& b) {
   EXPECT_TRUE(a.outcomes == b.outcomes && a.outcome_axes == b.outcome_axes);
   EXPECT_TRUE(a.best_s44_orders == b.best_s44_orders);
-  for (std::size_t i = 0; i < kBudgetColumnCount; ++i) {
-    EXPECT_EQ(std::memcmp(a.numbers[i].data(), b.numbers[i].data(), a.numbers[i].size() * sizeof(float)), 0)
-        << i;
-  }
+  for (std::size_t i = 0; i < kBudgetColumnCount; ++i)
+    EXPECT_EQ(std::memcmp(a.numbers[i].data(), b.numbers[i].data(), a.numbers[i].size() * sizeof(float)), 0) << i;
 }
 
 TEST(BudgetSource, GivesTheSameBitsOnAServerAndInThisProcess) {

@@ -38,8 +38,7 @@ TEST_F(ChannelCredentials, NameTheFileThatIsWrong) {
               HasSubstr("--tls-ca: " + junk + " has no CERTIFICATE; give a PEM file that has one"));
   EXPECT_THAT(Problem({.certificate = junk, .key = junk}), HasSubstr("--tls-key"));
   const std::string key = File("key", "-----BEGIN PRIVATE KEY-----\n");
-  EXPECT_THAT(Problem({.certificate = key, .key = key}),
-              HasSubstr("--tls-cert: " + key + " has no CERTIFICATE"));
+  EXPECT_THAT(Problem({.certificate = key, .key = key}), HasSubstr("--tls-cert: " + key + " has no CERTIFICATE"));
   EXPECT_THAT(Problem({.certificate = key}), HasSubstr("--tls-cert and --tls-key: one is missing"));
   EXPECT_THAT(Problem({.token = two}), HasSubstr("--token-file: " + two + " has more than one token"));
   EXPECT_THAT(Problem({.token = none}), HasSubstr(none + " has no token"));

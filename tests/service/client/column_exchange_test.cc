@@ -48,8 +48,7 @@ class Misbehaving : public v1::UncertaintyService::Service {
   }
   ~Misbehaving() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
-  grpc::Status GetTable(grpc::ServerContext*, const v1::GetTableRequest*,
-                        v1::GetTableResponse* response) override {
+  grpc::Status GetTable(grpc::ServerContext*, const v1::GetTableRequest*, v1::GetTableResponse* response) override {
     if (++openings_ <= refused_openings) return {grpc::StatusCode::UNAVAILABLE, "going"};
     response->mutable_table()->mutable_reference()->set_name("quick");
     response->mutable_table()->mutable_reference()->set_digest(kDigest);
@@ -63,8 +62,7 @@ class Misbehaving : public v1::UncertaintyService::Service {
     while (stream->Read(&request)) {
       v1::StreamColumnsResponse response = GoodAnswer(request);
       const grpc::Status status = behaviour_(requests_++, response);
-      if (!status.ok())
-        return status.error_code() == grpc::StatusCode::OUT_OF_RANGE ? grpc::Status::OK : status;
+      if (!status.ok()) return status.error_code() == grpc::StatusCode::OUT_OF_RANGE ? grpc::Status::OK : status;
       stream->Write(response);
       ++answers_;
     }
@@ -157,9 +155,8 @@ TEST(ColumnExchange, GivesUpAfterItsRetriesAndReportsItsProgress) {
 }
 
 TEST(ColumnExchange, DoesNotRetryPermanentErrors) {
-  const Misbehaving server([](int n, auto&) {
-    return n < 4 ? grpc::Status::OK : grpc::Status(grpc::StatusCode::NOT_FOUND, "no");
-  });
+  const Misbehaving server(
+      [](int n, auto&) { return n < 4 ? grpc::Status::OK : grpc::Status(grpc::StatusCode::NOT_FOUND, "no"); });
   const TenMessages query(server);
   EXPECT_EQ(query.status.code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(server.answers(), 4);

@@ -31,8 +31,7 @@ class PulseMemory {
 };
 
 // `count` pulses, each coordinate uniform in its range of `ranges`, in the order of kAxes.
-inline PulseMemory RandomPulses(std::size_t count,
-                                const std::array<std::array<float, 2>, kAxisCount>& ranges) {
+inline PulseMemory RandomPulses(std::size_t count, const std::array<std::array<float, 2>, kAxisCount>& ranges) {
   std::mt19937 random(1);
   PulseMemory pulses;
   for (std::size_t i = 0; i < count; ++i) {

@@ -38,9 +38,8 @@ class RunningServer {
     int count = 0;
     for (const prometheus::MetricFamily& family : metrics_.registry->Collect()) {
       if (family.name != "albtpu_answer_pulses") continue;
-      for (const prometheus::ClientMetric& metric : family.metric) {
+      for (const prometheus::ClientMetric& metric : family.metric)
         count += static_cast<int>(metric.histogram.sample_count);
-      }
     }
     return count;
   }

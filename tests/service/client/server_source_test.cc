@@ -24,8 +24,7 @@ using ::testing::HasSubstr;
 PulseMemory MixedPulses(std::size_t count) {
   PulseMemory pulses =
       RandomPulses(count, {{{2.5f, 10.5f}, {900, 200000}, {-1, 27}, {-400, 400}, {0.2f, 2.1f}, {-1, 21}}});
-  for (std::size_t i = 7; i < count; i += 50)
-    pulses.axis(AxisId::kDepth)[i] = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 7; i < count; i += 50) pulses.axis(AxisId::kDepth)[i] = std::numeric_limits<float>::quiet_NaN();
   return pulses;
 }
 
@@ -72,9 +71,8 @@ TEST(ServerSource, AnswersPulsesThatAreAllTheSame) {
   AnswerMemory answers(pulses.size);
   ASSERT_TRUE(source->Answer({}, pulses, answers.columns()).ok());
   const float thu = Interpolate(SyntheticTable(), PulseAt(pulses, 0))[Quantity::kThu];
-  for (const std::size_t i : {std::size_t{0}, std::size_t{65535}, std::size_t{65536}}) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{65535}, std::size_t{65536}})
     EXPECT_FLOAT_EQ(answers.columns().values[Index(Quantity::kThu)][i], thu) << i;
-  }
 }
 
 TEST(ServerSource, SendsNothingWithoutPulses) {
@@ -133,8 +131,7 @@ TEST(ServerSource, ReportsTheProblemWithTheServer) {
 TEST(ServerSource, NoticesWhileWaitingThatItsServerIsBack) {
   auto server = std::make_unique<RunningServer>();
   const std::string address = server->address();
-  const auto source =
-      OpenServer(address, "", {.retries = 2, .first_pause = std::chrono::milliseconds(1500)}).value();
+  const auto source = OpenServer(address, "", {.retries = 2, .first_pause = std::chrono::milliseconds(1500)}).value();
   server->Stop();
   server.reset();
   const PulseMemory pulses = MixedPulses(1000);

@@ -51,13 +51,11 @@ inline std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
 // (all values times 2 and 3).
 class ServedTables : public ::testing::Test {
  protected:
-  ServedTables()
-      : survey_(testing::SyntheticTable()), published_(testing::SyntheticTable({.published = true})) {
+  ServedTables() : survey_(testing::SyntheticTable()), published_(testing::SyntheticTable({.published = true})) {
     WriteOrDie(survey_, folder_ / "survey.h5");
     WriteOrDie(published_, folder_ / "published.h5");
     WriteOrDie(testing::SyntheticTable({.version = "first", .factor = 2}), folder_.path() / "twice" / "1.h5");
-    WriteOrDie(testing::SyntheticTable({.version = "second", .factor = 3}),
-               folder_.path() / "twice" / "2.h5");
+    WriteOrDie(testing::SyntheticTable({.version = "second", .factor = 3}), folder_.path() / "twice" / "2.h5");
     tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
     server_ = OrDie(Start("127.0.0.1:0"));
     channel_ = ChannelTo(server_->address());

@@ -74,8 +74,7 @@ TEST(AtomicFile, LeavesNothingBehindAfterAFailedWrite) {
   const rlimit small = {10'000, before.rlim_max};
   const auto handler = signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  const absl::Status status =
-      WriteFileAtomically(folder / "old", std::string(1'000'000, 'x'), Existing::kReplace);
+  const absl::Status status = WriteFileAtomically(folder / "old", std::string(1'000'000, 'x'), Existing::kReplace);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   signal(SIGXFSZ, handler);
   EXPECT_THAT(std::string(status.message()), HasSubstr("old: File too large"));

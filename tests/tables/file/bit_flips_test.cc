@@ -29,9 +29,7 @@ UncertaintyTable SmallTable() {
   return UncertaintyTable::Create(tiny.axes(), std::move(variables), tiny.provenance()).value();
 }
 
-void Flip(std::string& file, std::size_t bit) {
-  file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8));
-}
+void Flip(std::string& file, std::size_t bit) { file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8)); }
 
 TEST(BitFlips, InASealedFileAreAllRefused) {
   std::string file = EncodeTable(SmallTable()).value();

@@ -23,8 +23,7 @@ const std::vector<hsize_t> kShape = {2, 1, 2, 2, 1, 2};  // of the tiny table
 void ReplaceThu(hid_t file, hid_t creation) {
   H5Ldelete(file, "thu", H5P_DEFAULT);
   const Handle space(H5Screate_simple(6, kShape.data(), nullptr), H5Sclose);
-  const Handle dataset(H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                       H5Dclose);
+  const Handle dataset(H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   EXPECT_TRUE(dataset);
   EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
   EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
@@ -43,8 +42,8 @@ Handle DeflatedCreation() {
 std::string Deflated(const std::string& bytes) {
   std::string deflated(compressBound(bytes.size()), '\0');
   uLongf size = deflated.size();
-  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(deflated.data()), &size,
-                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()),
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(deflated.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                     bytes.size()),
             Z_OK);
   return deflated.substr(0, size);
 }
@@ -61,8 +60,7 @@ TEST(ForeignStorage, IsRefusedBehindLinks) {
               return H5Lcreate_external("/dev/zero", "/thu", file, "thu", H5P_DEFAULT, H5P_DEFAULT);
             }),
             refusal);
-  EXPECT_EQ(problem_of_link(
-                [](hid_t file) { return H5Lcreate_soft("/tvu", file, "thu", H5P_DEFAULT, H5P_DEFAULT); }),
+  EXPECT_EQ(problem_of_link([](hid_t file) { return H5Lcreate_soft("/tvu", file, "thu", H5P_DEFAULT, H5P_DEFAULT); }),
             refusal);
 }
 
@@ -117,9 +115,7 @@ TEST(ForeignStorage, IsRefusedIfChunksAreTooShort) {
       ReplaceThu(file, DeflatedCreation());
       const Handle dataset(H5Dopen2(file, "thu", H5P_DEFAULT), H5Dclose);
       const std::vector<hsize_t> first(6, 0);
-      EXPECT_GE(
-          H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped_filters, first.data(), stored.size(), stored.data()),
-          0);
+      EXPECT_GE(H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped_filters, first.data(), stored.size(), stored.data()), 0);
     });
   };
   constexpr std::size_t kChunkBytes = 16 * sizeof(float);
@@ -160,9 +156,8 @@ TEST(ForeignStorage, IsRefusedInLargeChunks) {
                 const std::vector<hsize_t> most(6, H5S_UNLIMITED);
                 H5Ldelete(file, "thu", H5P_DEFAULT);
                 const Handle space(H5Screate_simple(6, kShape.data(), most.data()), H5Sclose);
-                const Handle dataset(
-                    H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                    H5Dclose);
+                const Handle dataset(H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                                     H5Dclose);
                 EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
                 EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
               }),
@@ -175,9 +170,8 @@ TEST(ForeignStorage, IsRefusedIfNothingIsStored) {
               const hsize_t size = 60000;
               const Handle creation = Creation();
               const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-              const Handle dataset(
-                  H5Dcreate2(file, "depth", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                  H5Dclose);
+              const Handle dataset(H5Dcreate2(file, "depth", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                                   H5Dclose);
               EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
               EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
             }),
@@ -209,8 +203,7 @@ TEST(ForeignStorage, IsRefusedInHugeAttributes) {
                 H5Tset_size(type, format::kMaxAttributeBytes + 1);
                 const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
                 H5Adelete(file, "title");
-                const Handle title(H5Acreate2(file, "title", type, space, H5P_DEFAULT, H5P_DEFAULT),
-                                   H5Aclose);
+                const Handle title(H5Acreate2(file, "title", type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
                 EXPECT_TRUE(title);
               }),
               HasSubstr("attribute 'title' is longer than 16777216 bytes"));

@@ -35,8 +35,6 @@ inline std::string Problem(const std::string& file) {
   return std::string(status.message());
 }
 
-inline std::string ProblemAfter(const std::function<void(hid_t file)>& change) {
-  return Problem(Forge(change));
-}
+inline std::string ProblemAfter(const std::function<void(hid_t file)>& change) { return Problem(Forge(change)); }
 
 }  // namespace albtpu::testing

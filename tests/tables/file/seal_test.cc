@@ -50,9 +50,8 @@ TEST(Seal, DetectsEveryFlippedBit) {
 
 TEST(Seal, DetectsEveryTruncation) {
   const std::string whole = Sealed(520);
-  for (std::size_t length = 0; length < whole.size(); ++length) {
+  for (std::size_t length = 0; length < whole.size(); ++length)
     EXPECT_EQ(seal::Check(whole.substr(0, length)).code(), absl::StatusCode::kDataLoss) << length;
-  }
 }
 
 TEST(Seal, ReportsWhatIsWrong) {

@@ -40,12 +40,10 @@ TEST_F(TableFolder, HoldsTablesByNameAndVersion) {
 }
 
 TEST_F(TableFolder, MayHoldOtherFiles) {
-  for (const char* name : {"README", "quick.h5.bak", ".hidden.h5", ".albtpu-1-0.tmp", "two words.h5",
-                           "notes/README", ".git/x.h5", "deep/er/1.h5", "empty/.keep"}) {
+  for (const char* name : {"README", "quick.h5.bak", ".hidden.h5", ".albtpu-1-0.tmp", "two words.h5", "notes/README",
+                           ".git/x.h5", "deep/er/1.h5", "empty/.keep"})
     Touch(name);
-  }
-  std::filesystem::create_directories(folder_ / "sub" /
-                                      "2.h5");  // A folder is not a table, whatever its name.
+  std::filesystem::create_directories(folder_ / "sub" / "2.h5");  // A folder is not a table, whatever its name.
   EXPECT_THAT(FullNames(), IsEmpty());
 }
 

@@ -52,9 +52,8 @@ void ExpectRoundTrip(const UncertaintyTable& table) {
 // `table` with another provenance.
 UncertaintyTable With(const UncertaintyTable& table, Provenance provenance) {
   UncertaintyTable::Variables variables;
-  for (Quantity quantity : kQuantities) {
+  for (Quantity quantity : kQuantities)
     if (const Variable* variable = table.variable(quantity)) variables[Index(quantity)] = *variable;
-  }
   return *UncertaintyTable::Create(table.axes(), std::move(variables), std::move(provenance));
 }
 
@@ -73,8 +72,7 @@ TEST(TableIo, KeepsTheKindOfTheTable) {
   EXPECT_TRUE(ReadTable(folder / "sea.h5", kOneSea).ok());
   const absl::Status refused = ReadTable(folder / "sea.h5", kSeaSurface).status();
   EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(std::string(refused.message()),
-              HasSubstr("is a table of kind 'one_sea': expected kind 'sea_surface'"));
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("is a table of kind 'one_sea': expected kind 'sea_surface'"));
   ASSERT_TRUE(WriteTable(SyntheticTable(), folder / "winds.h5", Existing::kKeep).ok());
   EXPECT_FALSE(ReadTable(folder / "winds.h5")->is_of_one_sea());
 }
@@ -112,8 +110,7 @@ TEST(TableIo, WritesTheSameTableAsTheSameBytes) {
 TEST(TableIo, KeepsAnExistingFileUnlessAskedToReplaceIt) {
   const TemporaryFolder folder;
   folder.Write("t.h5", "precious");
-  EXPECT_EQ(WriteTable(TinyTable(), folder / "t.h5", Existing::kKeep).code(),
-            absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(WriteTable(TinyTable(), folder / "t.h5", Existing::kKeep).code(), absl::StatusCode::kAlreadyExists);
   EXPECT_EQ(ReadFile(folder / "t.h5"), "precious");
   EXPECT_TRUE(WriteTable(TinyTable(), folder / "t.h5", Existing::kReplace).ok());
   EXPECT_TRUE(ReadTable(folder / "t.h5").ok());

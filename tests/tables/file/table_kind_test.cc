@@ -62,27 +62,23 @@ TEST(TableKind, IsRefusedWhereAnotherIsExpected) {
 
 // So that a table has one written form.
 TEST(TableKind, IsNotNamedInFilesOfTheSeaSurface) {
-  EXPECT_EQ(Problem(Forge([](hid_t file) {
-              EXPECT_TRUE(hdf5::WriteAttribute(file, "table_kind", std::string("sea_surface")));
-            })),
+  EXPECT_EQ(Problem(Forge(
+                [](hid_t file) { EXPECT_TRUE(hdf5::WriteAttribute(file, "table_kind", std::string("sea_surface"))); })),
             "attribute 'table_kind' is 'sea_surface': files of that kind do not have it");
-  EXPECT_THAT(Problem(Forge([](hid_t file) {
-                EXPECT_TRUE(hdf5::WriteAttribute(file, "table_kind", std::int64_t{1}));
-              })),
-              HasSubstr("attribute 'table_kind' is a number"));
+  EXPECT_THAT(
+      Problem(Forge([](hid_t file) { EXPECT_TRUE(hdf5::WriteAttribute(file, "table_kind", std::int64_t{1})); })),
+      HasSubstr("attribute 'table_kind' is a number"));
 }
 
 TEST(TableKind, CountsInTheDigest) {
-  EXPECT_NE(RandomTable(kThreeAxes, {2, 2, 2}, 1).digest(),
-            RandomTable(kThreeAxesRenamed, {2, 2, 2}, 1).digest());
+  EXPECT_NE(RandomTable(kThreeAxes, {2, 2, 2}, 1).digest(), RandomTable(kThreeAxesRenamed, {2, 2, 2}, 1).digest());
 }
 
 TEST(TableKind, RefusesAxesOfAnother) {
   const Table table = RandomTable(kThreeAxes, {2, 2, 2}, 1);
   const auto problem = [&](Table::Axes axes) {
-    return std::string(Table::Create(kThreeAxes, std::move(axes), Table::Variables(2), table.provenance())
-                           .status()
-                           .message());
+    return std::string(
+        Table::Create(kThreeAxes, std::move(axes), Table::Variables(2), table.provenance()).status().message());
   };
   EXPECT_EQ(problem({table.axes()[0]}), "there are 1 axes: expected the 3 of kind 'three_axes'");
   AxisSchema other = kThreeAxes.axes[2];

@@ -30,12 +30,11 @@ void SetValues(hid_t file, const char* variable, float value) {
 void Replace(hid_t file, const char* name, hid_t type, const std::vector<hsize_t>& shape, const char* units) {
   H5Ldelete(file, name, H5P_DEFAULT);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  if (!shape.empty()) {
+  if (!shape.empty())
     H5Pset_chunk(creation, static_cast<int>(shape.size()), std::vector<hsize_t>(shape.size(), 1).data());
-  }
-  const Handle space(shape.empty() ? H5Screate(H5S_SCALAR)
-                                   : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                     H5Sclose);
+  const Handle space(
+      shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+      H5Sclose);
   const Handle dataset(H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   EXPECT_TRUE(dataset);
   EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string(units)));
@@ -63,8 +62,7 @@ TEST(WrongSchema, IsFoundIfThereIsNoHdf5) {
 }
 
 TEST(WrongSchema, IsFoundIfADatasetIsMissing) {
-  EXPECT_EQ(ProblemAfter([](hid_t file) { H5Ldelete(file, "depth", H5P_DEFAULT); }),
-            "axis 'depth' is missing");
+  EXPECT_EQ(ProblemAfter([](hid_t file) { H5Ldelete(file, "depth", H5P_DEFAULT); }), "axis 'depth' is missing");
   EXPECT_THAT(ProblemAfter([](hid_t file) { H5Ldelete(file, "tvu", H5P_DEFAULT); }),
               HasSubstr("variable 'tvu' is missing"));
 }
@@ -120,8 +118,7 @@ TEST(WrongSchema, IsFoundInAnAxisWithoutNodes) {
                 const hsize_t none = 0;
                 const Handle space(H5Screate_simple(1, &none, nullptr), H5Sclose);
                 const Handle dataset(
-                    H5Dcreate2(file, "depth", H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Dclose);
+                    H5Dcreate2(file, "depth", H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
                 hdf5::WriteAttribute(dataset, "units", std::string("m"));
                 hdf5::WriteAttribute(dataset, "interpolation", std::string("linear"));
               }),
@@ -140,12 +137,10 @@ TEST(WrongSchema, IsFoundInNodesOutOfOrder) {
 }
 
 TEST(WrongSchema, IsFoundInValues) {
-  EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "thu", std::nanf("")); }),
-              HasSubstr("must be finite"));
+  EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "thu", std::nanf("")); }), HasSubstr("must be finite"));
   EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "bias_vertical", -2e6f); }),
               HasSubstr("must not be above 1e6"));
-  EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "tvu", -1); }),
-              HasSubstr("must not be negative"));
+  EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "tvu", -1); }), HasSubstr("must not be negative"));
   EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "thu_standard_error", -1); }),
               HasSubstr("variable 'thu_standard_error' is -1"));
 }
@@ -163,12 +158,10 @@ TEST(WrongSchema, IsFoundInUnits) {
 }
 
 TEST(WrongSchema, IsFoundInTheInterpolation) {
-  EXPECT_EQ(
-      ProblemAfter([](hid_t file) { SetAttribute(file, "thu", "interpolation", std::string("cubic")); }),
-      "variable 'thu' has interpolation 'cubic': it should be 'linear' or 'log'");
-  EXPECT_THAT(
-      ProblemAfter([](hid_t file) { SetAttribute(file, "depth", "interpolation", std::string("log")); }),
-      HasSubstr("nodes on a log scale must be positive"));
+  EXPECT_EQ(ProblemAfter([](hid_t file) { SetAttribute(file, "thu", "interpolation", std::string("cubic")); }),
+            "variable 'thu' has interpolation 'cubic': it should be 'linear' or 'log'");
+  EXPECT_THAT(ProblemAfter([](hid_t file) { SetAttribute(file, "depth", "interpolation", std::string("log")); }),
+              HasSubstr("nodes on a log scale must be positive"));
 }
 
 TEST(WrongSchema, IsFoundInGlobalAttributes) {
@@ -186,8 +179,8 @@ TEST(WrongSchema, IsFoundInAnAttributeOfAnUnsupportedType) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 const hsize_t shape[] = {2, 2};
                 const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
-                const Handle attribute(
-                    H5Acreate2(file, "matrix", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+                const Handle attribute(H5Acreate2(file, "matrix", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                                       H5Aclose);
               }),
               HasSubstr("attribute 'matrix' is of another kind"));
 }

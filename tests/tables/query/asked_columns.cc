@@ -15,8 +15,7 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
-std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size,
-                                std::mt19937& random) {
+std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size, std::mt19937& random) {
   const double beyond = (turns ? 4 : 0.01) * (nodes.back() - nodes.front());
   std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
   std::vector<float> column;
@@ -105,9 +104,8 @@ UncertaintyTable LogTable() {
 }
 
 std::vector<UncertaintyTable> TablesOfEachKind() {
-  return {
-      SyntheticTable(), SyntheticTable({.published = true}), LogTable(), TinyTable(), TinyTable(Scale::kLog),
-      SyntheticSea()};
+  return {SyntheticTable(), SyntheticTable({.published = true}), LogTable(), TinyTable(), TinyTable(Scale::kLog),
+          SyntheticSea()};
 }
 
 }  // namespace albtpu::testing

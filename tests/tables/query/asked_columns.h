@@ -16,8 +16,7 @@ PulseColumns Pulses(const Columns& columns, std::size_t size);
 
 // Uniform between the first and the last node and a little beyond, where it `turns` some turns beyond; one in eight on
 // a node; a few NaN or infinite.
-std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size,
-                                std::mt19937& random);
+std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size, std::mt19937& random);
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed);
 
 // A flight line, whose pulses often share a cell of the table.

@@ -30,8 +30,7 @@ std::vector<std::int32_t> LowerNodes(const Axis& axis, const std::vector<float>&
 
 // Expects the same positions from both, with a step of two rows from node to node.
 void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
-  coordinates.resize((coordinates.size() + AxisLookup::kPadding - 1) / AxisLookup::kPadding *
-                     AxisLookup::kPadding);
+  coordinates.resize((coordinates.size() + AxisLookup::kPadding - 1) / AxisLookup::kPadding * AxisLookup::kPadding);
   std::vector<std::int32_t> rows(coordinates.size(), 7), codes(coordinates.size(), outcome_code::kInside);
   std::vector<float> fractions(coordinates.size(), -1);
   AxisLookup(axis, Index(axis.id()))
@@ -57,8 +56,7 @@ std::vector<float> CoordinatesOf(const Axis& axis, std::mt19937& random) {
   std::vector<float> coordinates = {-1, -0.0f, 0, 1e6f, -1e6f};
   for (double node : axis.nodes()) {
     const auto at = static_cast<float>(node);
-    for (const float x : {at, std::nextafter(at, 0.0f), std::nextafter(at, kInfinity)})
-      coordinates.push_back(x);
+    for (const float x : {at, std::nextafter(at, 0.0f), std::nextafter(at, kInfinity)}) coordinates.push_back(x);
   }
   std::uniform_real_distribution<float> inside(static_cast<float>(axis.nodes().front()),
                                                static_cast<float>(axis.nodes().back()));
@@ -102,8 +100,7 @@ TEST_P(AxisLookupTest, FoldsAzimuthsExactly) {
   }
   for (int turn = -2000; turn <= 2000; ++turn) {
     const auto at = static_cast<float>(90 * turn);
-    for (const float x : {at, std::nextafter(at, -kInfinity), std::nextafter(at, kInfinity)})
-      azimuths.push_back(x);
+    for (const float x : {at, std::nextafter(at, -kInfinity), std::nextafter(at, kInfinity)}) azimuths.push_back(x);
   }
   ExpectEqual(MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}), azimuths);
   ExpectEqual(MakeAxis(AxisId::kAzimuth, {10, 80}), azimuths);
@@ -111,8 +108,7 @@ TEST_P(AxisLookupTest, FoldsAzimuthsExactly) {
 
 TEST_P(AxisLookupTest, FindsANodeBelowAnyCoordinate) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kMost = std::numeric_limits<float>::max();
-  const std::vector<float> odd = {kNaN, -kNaN, kInfinity, -kInfinity, kMost, -kMost,
-                                  1e7f, -1e7f, 4e9f,      -0.0f,      1e-40f};
+  const std::vector<float> odd = {kNaN, -kNaN, kInfinity, -kInfinity, kMost, -kMost, 1e7f, -1e7f, 4e9f, -0.0f, 1e-40f};
   std::vector<double> many;
   for (int i = 0; i < 60; ++i) many.push_back(i);
   for (const Axis& axis : {MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}), MakeAxis(AxisId::kAzimuth, {45}),
@@ -137,8 +133,8 @@ TEST_P(AxisLookupTest, KeepsTheLowestCode) {
       codes = {0, outcome_code::kInside, 3, outcome_code::kOutside, 3, outcome_code::kInside, 9, 4};
   AxisLookup(axis, Index(axis.id()))
       .Locate(coordinates.data(), coordinates.size(), 1, rows.data(), fractions.data(), codes.data());
-  EXPECT_EQ(codes, (std::vector<std::int32_t>{0, outcome_code::kOutside + depth, 3, depth, 3,
-                                              outcome_code::kInside, 9, 4}));
+  EXPECT_EQ(codes,
+            (std::vector<std::int32_t>{0, outcome_code::kOutside + depth, 3, depth, 3, outcome_code::kInside, 9, 4}));
 }
 
 }  // namespace

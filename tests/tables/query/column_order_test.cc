@@ -32,12 +32,10 @@ using ::albtpu::testing::TablesOfEachKind;
 UncertaintyTable LargeTable(Scale scale, bool errors) {
   std::vector<double> depths;
   for (int i = 0; i < 16; ++i) depths.push_back(2 * i);
-  UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {1, 2, 3, 5, 7, 9, 12, 15}),
-                                 MakeAxis(AxisId::kFetch, {1e3, 1e4, 1e5, 1e6}),
-                                 MakeAxis(AxisId::kIncidence, {0, 5, 9, 12, 15, 18, 21, 25}),
-                                 MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}),
-                                 MakeAxis(AxisId::kFootprint, {0.1, 0.3, 0.7, 1.5, 3}),
-                                 MakeAxis(AxisId::kDepth, depths)};
+  UncertaintyTable::Axes axes = {
+      MakeAxis(AxisId::kWindSpeed, {1, 2, 3, 5, 7, 9, 12, 15}),    MakeAxis(AxisId::kFetch, {1e3, 1e4, 1e5, 1e6}),
+      MakeAxis(AxisId::kIncidence, {0, 5, 9, 12, 15, 18, 21, 25}), MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}),
+      MakeAxis(AxisId::kFootprint, {0.1, 0.3, 0.7, 1.5, 3}),       MakeAxis(AxisId::kDepth, depths)};
   std::mt19937 random(9);
   std::uniform_real_distribution<float> number(0.5f, 1.5f);
   UncertaintyTable::Variables variables;
@@ -83,9 +81,8 @@ TEST_P(ColumnOrder, AnswersTheSameInAnyOrderAndInPiecesBitByBit) {
   const Answers forward = Ask(interpolator, {}, Pulses(columns, 2000));
   Answers pieces(2000);
   const std::vector<std::size_t> cuts = {0, 0, 1, 9, 300, 557, 1999, 2000};
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
     interpolator.Interpolate({}, Pulses(columns, 2000), cuts[i], cuts[i + 1], pieces.columns());
-  }
   for (std::vector<float>& column : columns) {
     column.resize(2000, column.front());  // Also columns of one number.
     std::reverse(column.begin(), column.end());
@@ -103,9 +100,8 @@ constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2;
 // One block at a time, which is too few pulses to be sorted.
 Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
   Answers answers(kSize);
-  for (std::size_t first = kBegin; first < kEnd; first += kBlock) {
+  for (std::size_t first = kBegin; first < kEnd; first += kBlock)
     interpolator.Interpolate(query, pulses, first, std::min(first + kBlock, kEnd), answers.columns());
-  }
   return answers;
 }
 
@@ -131,8 +127,7 @@ TEST_P(ColumnOrder, AnswersManyPulsesInRandomOrderLikeFewBitByBit) {
         AnswerColumns one_column;
         one_column.values[Index(Quantity::kThu)] = thu.data();
         interpolator.Interpolate(query, pulses, kBegin, kEnd, one_column);
-        EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)),
-                  0);
+        EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)), 0);
       }
     }
   }

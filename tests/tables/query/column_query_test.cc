@@ -42,11 +42,10 @@ double Largest(const std::vector<float>& numbers) {
 // If corners of both signs cancel, or a corner of 0 has nearly all of the weight, the error is relative to the
 // largest value.
 void ExpectNear(float ours, double exact, double largest, const std::string& what) {
-  if (std::isnan(exact)) {
+  if (std::isnan(exact))
     ASSERT_TRUE(std::isnan(ours)) << what << " is " << ours;
-  } else {
+  else
     ASSERT_NEAR(ours, exact, kTolerance * std::abs(exact) + kCancelled * largest) << what;
-  }
 }
 
 // If little remains of a limit, it is the difference of larger numbers.
@@ -57,8 +56,7 @@ void ExpectRemaining(float ours, std::optional<double> exact, double limit) {
 }
 
 // Expects the answers of the slow twin, pulse by pulse.
-void ExpectTwin(const UncertaintyTable& table, const Query& query, const PulseColumns& pulses,
-                const Answers& answers) {
+void ExpectTwin(const UncertaintyTable& table, const Query& query, const PulseColumns& pulses, const Answers& answers) {
   std::array<double, kQuantityCount> largest{};
   for (Quantity quantity : kQuantities) {
     const Variable* variable = table.variable(quantity);
@@ -124,8 +122,7 @@ TEST_P(ColumnQuery, AgreesWithTheSlowTwinOnAFlightLine) {
 }
 
 TEST_P(ColumnQuery, IsExactAtEveryNode) {
-  for (const UncertaintyTable& table :
-       {SyntheticTable(), LogTable(), TinyTable(Scale::kLog), SyntheticSea()}) {
+  for (const UncertaintyTable& table : {SyntheticTable(), LogTable(), TinyTable(Scale::kLog), SyntheticSea()}) {
     const std::size_t size = ValueCount(table.axes(), Quantity::kThu);
     Columns columns;
     for (std::size_t i = 0; i < size; ++i) {
@@ -156,11 +153,9 @@ TEST_P(ColumnQuery, HasTheOutcomesOfTheSlowTwinAtEveryCoordinate) {
       for (std::size_t axis = 0; axis < kAxisCount; ++axis) columns[axis].push_back(pulse[axis]);
     };
     for (const Axis& axis : table.axes()) {
-      const auto first = static_cast<float>(axis.nodes().front()),
-                 last = static_cast<float>(axis.nodes().back());
-      for (const float x :
-           {kNaN, kInfinity, -kInfinity, -1.0f, -0.0f, 0.0f, first, last, std::nextafter(first, -1.0f),
-            std::nextafter(last, kInfinity), 1e-30f, 1e6f, 1.1e6f, -3e8f, 1e30f}) {
+      const auto first = static_cast<float>(axis.nodes().front()), last = static_cast<float>(axis.nodes().back());
+      for (const float x : {kNaN, kInfinity, -kInfinity, -1.0f, -0.0f, 0.0f, first, last, std::nextafter(first, -1.0f),
+                            std::nextafter(last, kInfinity), 1e-30f, 1e6f, 1.1e6f, -3e8f, 1e30f}) {
         std::vector<float> pulse = {4, 2e3f, 12, 40, 1, 8};
         add(pulse);
         pulse[Index(axis.id())] = x;
@@ -201,17 +196,14 @@ TEST_P(ColumnQuery, OfOneSeaRepeatsAfterHalfATurnAndHasNoMirror) {
   const ColumnInterpolator interpolator(table);
   const auto answers_at = [&](float azimuth) {
     const Columns columns = {{{}, {}, {12}, {azimuth}, {1}, {8}}};
-    return Ask(interpolator, {.coverage = Coverage::kP95, .s44_order = S44Order::k1a}, Pulses(columns, 1))
-        .BitsAt(0);
+    return Ask(interpolator, {.coverage = Coverage::kP95, .s44_order = S44Order::k1a}, Pulses(columns, 1)).BitsAt(0);
   };
   for (int eighth = 0; eighth <= 8 * 180; eighth += 35) {
     const auto azimuth = static_cast<float>(eighth) / 8;
     const auto expected = answers_at(azimuth);
     for (const float turned : {azimuth + 180, azimuth - 180, azimuth - 360, azimuth + 3600, azimuth - 7200})
       ASSERT_EQ(answers_at(turned), expected) << azimuth << " and " << turned;
-    if (eighth % (8 * 90) != 0) {
-      EXPECT_NE(answers_at(-azimuth), expected) << azimuth;
-    }
+    if (eighth % (8 * 90) != 0) EXPECT_NE(answers_at(-azimuth), expected) << azimuth;
   }
 }
 
@@ -231,10 +223,8 @@ TEST_P(ColumnQuery, WritesOnlyTheWantedColumns) {
     for (std::size_t i = 0; i < 600; ++i) {
       const bool inside = i >= 5 && i < 590;
       const float outside = 77;
-      ASSERT_EQ(std::memcmp(&value[i], inside ? &all.values[Index(quantity)][i] : &outside, sizeof(float)),
-                0);
-      ASSERT_EQ(std::memcmp(&error[i], inside ? &all.errors[Index(quantity)][i] : &outside, sizeof(float)),
-                0);
+      ASSERT_EQ(std::memcmp(&value[i], inside ? &all.values[Index(quantity)][i] : &outside, sizeof(float)), 0);
+      ASSERT_EQ(std::memcmp(&error[i], inside ? &all.errors[Index(quantity)][i] : &outside, sizeof(float)), 0);
     }
   }
 }

@@ -45,9 +45,8 @@ void PrintRandomPulse(const UncertaintyTable& table, std::mt19937& random) {
   pulse.depth = coordinate(AxisId::kDepth);
   const PulseUncertainty result = Interpolate(table, pulse);
   for (float value : result.values) std::printf("%.9g,", value);
-  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+  for (std::size_t i = 0; i < kQuantityCount; ++i)
     std::printf("%.9g%c", result.standard_errors[i], i + 1 == kQuantityCount ? '\n' : ',');
-  }
 }
 
 int Run(const char* path, int count) {

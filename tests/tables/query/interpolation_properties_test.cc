@@ -29,10 +29,8 @@ constexpr int kPulses = 400;  // of each table
 
 std::vector<UncertaintyTable> RoughTables() {
   std::vector<UncertaintyTable> tables;
-  for (int seed = 1; seed <= kTables; ++seed) {
-    tables.push_back(
-        RoughTable(static_cast<std::uint32_t>(seed), seed % 3 == 0 ? Scale::kLog : Scale::kLinear));
-  }
+  for (int seed = 1; seed <= kTables; ++seed)
+    tables.push_back(RoughTable(static_cast<std::uint32_t>(seed), seed % 3 == 0 ? Scale::kLog : Scale::kLinear));
   return tables;
 }
 
@@ -47,9 +45,7 @@ class Asked {
 
   Coordinates AnyPulse() {
     Coordinates at;
-    for (const Axis& axis : table_.axes()) {
-      at[Index(axis.id())] = Between(axis.nodes().front(), axis.nodes().back());
-    }
+    for (const Axis& axis : table_.axes()) at[Index(axis.id())] = Between(axis.nodes().front(), axis.nodes().back());
     return at;
   }
   float Between(double first, double last) {
@@ -135,15 +131,14 @@ TEST_P(EveryAnswer, IsContinuousAcrossCells) {
           at[Index(axis.id())] = x;
           before[Index(axis.id())] = std::nextafter(x, 0.0f);
           behind[Index(axis.id())] = std::nextafter(x, 2 * x);
-          const double width = std::min(axis.nodes()[node] - axis.nodes()[node - 1],
-                                        axis.nodes()[node + 1] - axis.nodes()[node]);
+          const double width =
+              std::min(axis.nodes()[node] - axis.nodes()[node - 1], axis.nodes()[node + 1] - axis.nodes()[node]);
           const double log_factor = axis.scale() == Scale::kLog ? axis.nodes()[node + 1] / x : 1;
           const double step = (behind[Index(axis.id())] - before[Index(axis.id())]) / width * log_factor;
           const std::vector<Numbers> answers = asked.Answer({before, at, behind});
           for (const Quantity quantity : kQuantities) {
             std::vector<float> corners = CornersAround(table, quantity, before).values;
-            for (const float corner : CornersAround(table, quantity, behind).values)
-              corners.push_back(corner);
+            for (const float corner : CornersAround(table, quantity, behind).values) corners.push_back(corner);
             const auto [least, greatest] = std::minmax_element(corners.begin(), corners.end());
             // On a log scale, the slope is at most the greatest corner times the log of the ratio of the corners.
             const bool is_log = table.variable(quantity)->scale == Scale::kLog;
@@ -176,18 +171,13 @@ void ExpectMonotone(const UncertaintyTable& table, bool everywhere) {
       const std::vector<float> corners = CornersAround(table, quantity, shallow).values;
       bool grows = true;
       for (std::size_t c = 0; c < corners.size(); c += 2) grows = grows && corners[c] <= corners[c + 1];
-      if (everywhere) {
-        ASSERT_TRUE(grows);
-      }
+      if (everywhere) ASSERT_TRUE(grows);
       if (!grows) continue;
       ++grown;
-      ASSERT_GE(answers[1][Index(quantity)],
-                answers[0][Index(quantity)] - asked.Tolerance(quantity, corners));
+      ASSERT_GE(answers[1][Index(quantity)], answers[0][Index(quantity)] - asked.Tolerance(quantity, corners));
     }
   }
-  if (everywhere) {
-    EXPECT_EQ(grown, 2 * kPulses);
-  }
+  if (everywhere) EXPECT_EQ(grown, 2 * kPulses);
 }
 
 TEST_P(EveryAnswer, GrowsWithDepthWhereTheNodesDo) {

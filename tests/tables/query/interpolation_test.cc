@@ -117,16 +117,14 @@ TEST(Interpolation, IsExactAtEveryNode) {
       for (Quantity quantity : kQuantities) {
         const std::size_t index = Describe(quantity).over_last_axis ? i : i / shape.back();
         ASSERT_EQ(result[quantity], table.variable(quantity)->values[index]) << i;
-        ASSERT_EQ(result.standard_errors[Index(quantity)], table.variable(quantity)->standard_errors[index])
-            << i;
+        ASSERT_EQ(result.standard_errors[Index(quantity)], table.variable(quantity)->standard_errors[index]) << i;
       }
     }
   }
 }
 
 TEST(Interpolation, OfALogVariableIsTheGeometricMeanHalfway) {
-  const UncertaintyTable table =
-      TinyTable(Scale::kLog);  // Values are 1 + wind_speed + index of the quantity.
+  const UncertaintyTable table = TinyTable(Scale::kLog);  // Values are 1 + wind_speed + index of the quantity.
   const Pulse pulse = {.wind_speed = 3, .incidence = 0, .azimuth = 0.0f, .footprint = 1, .depth = 0};
   EXPECT_FLOAT_EQ(Interpolate(table, pulse)[Quantity::kThu], std::sqrt(5.0f * 7.0f));
   EXPECT_FLOAT_EQ(Interpolate(TinyTable(), pulse)[Quantity::kThu], 6);

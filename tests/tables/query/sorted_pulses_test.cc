@@ -22,8 +22,7 @@ constexpr std::size_t kSize = 4096;
 class SortedPulsesTest : public testing::OnInstructionSet {
  protected:
   // Incidence and depth are random in the domain of the table, the other coordinates constant.
-  SortedPulsesTest()
-      : table_(SyntheticTable()), grid_(table_.table()), incidence_(kSize), depth_(kSize), thu_(kSize) {
+  SortedPulsesTest() : table_(SyntheticTable()), grid_(table_.table()), incidence_(kSize), depth_(kSize), thu_(kSize) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> incidence(0, 25), depth(0, 20);
     for (float& number : incidence_) number = incidence(random);
@@ -71,9 +70,8 @@ TEST_P(SortedPulsesTest, KeepsPulsesTogetherAndConstantColumnsInPlace) {
   using Pair = std::pair<float, float>;
   std::vector<Pair> before, after;
   for (std::size_t i = 8; i < kSize; ++i) before.emplace_back(incidence_[i], depth_[i]);
-  for (std::size_t i = 0; i + 8 < kSize; ++i) {
+  for (std::size_t i = 0; i + 8 < kSize; ++i)
     after.emplace_back(sorted.pulses()[AxisId::kIncidence][i], sorted.pulses()[AxisId::kDepth][i]);
-  }
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
   EXPECT_EQ(before, after);

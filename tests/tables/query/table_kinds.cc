@@ -29,9 +29,8 @@ constexpr std::array<std::size_t, 3> kThreeOrder = {1, 0, 2};
 constexpr AxisSchema Plain(const char* name, Scale scale) {
   return {.name = name, .units = "1", .long_name = name, .scale = scale};
 }
-constexpr std::array<AxisSchema, kMaxAxes> kSix = {
-    Plain("a", Scale::kLinear), kAttenuation, Plain("c", Scale::kLog),
-    Plain("d", Scale::kLinear), kHeading,     Plain("f", Scale::kLog)};
+constexpr std::array<AxisSchema, kMaxAxes> kSix = {Plain("a", Scale::kLinear), kAttenuation, Plain("c", Scale::kLog),
+                                                   Plain("d", Scale::kLinear), kHeading,     Plain("f", Scale::kLog)};
 constexpr std::array<QuantitySchema, kMaxQuantities> kNineQuantities = {{{"q0", "1", "q0", true, false},
                                                                          {"q1", "1", "q1", false, true},
                                                                          {"q2", "1", "q2", true, false},
@@ -78,14 +77,12 @@ constinit const TableSchema kThreeAxesRenamed = kSchemas[1];
 constinit const TableSchema kLargestKind = kSchemas[2];
 constinit const TableSchema kOneAxis = kSchemas[3];
 
-Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& sizes, std::uint32_t seed,
-                  Scale scale, bool with_standard_errors) {
+Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& sizes, std::uint32_t seed, Scale scale,
+                  bool with_standard_errors) {
   std::mt19937 random(seed);
   Table::Axes axes;
-  for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
-    axes.push_back(
-        Axis::Create(schema.axes[axis], RandomNodes(schema.axes[axis], sizes[axis], random)).value());
-  }
+  for (std::size_t axis = 0; axis < sizes.size(); ++axis)
+    axes.push_back(Axis::Create(schema.axes[axis], RandomNodes(schema.axes[axis], sizes[axis], random)).value());
   Table::Variables variables;
   for (const QuantitySchema& quantity : schema.quantities) {
     std::uniform_real_distribution<float> value(quantity.is_bias ? -1.0f : 0.1f, 1.0f), error(0.0f, 0.1f);
@@ -97,9 +94,8 @@ Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& siz
     for (float& number : variable.standard_errors) number = error(random);
     variables.push_back(std::move(variable));
   }
-  return Table::Create(
-             schema, std::move(axes), std::move(variables),
-             {.id = "random", .version = "1", .title = "Random numbers", .campaign = "", .attributes = {}})
+  return Table::Create(schema, std::move(axes), std::move(variables),
+                       {.id = "random", .version = "1", .title = "Random numbers", .campaign = "", .attributes = {}})
       .value();
 }
 

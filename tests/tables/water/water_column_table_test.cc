@@ -15,18 +15,16 @@ using ::testing::HasSubstr;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-const std::vector<std::vector<double>> kNodes = {
-    {0.01, 0.0175, 0.03},          {0.75, 1.5, 3, 6, 12},    {0, 4, 9, 16, 25},
-    {0.0625, 0.125, 0.5, 1, 2, 4}, {0.0625, 0.25, 1, 4, 16}, {0.0078125, 0.03125, 0.125, 0.5, 1.5}};
+const std::vector<std::vector<double>> kNodes = {{0.01, 0.0175, 0.03},     {0.75, 1.5, 3, 6, 12},
+                                                 {0, 4, 9, 16, 25},        {0.0625, 0.125, 0.5, 1, 2, 4},
+                                                 {0.0625, 0.25, 1, 4, 16}, {0.0078125, 0.03125, 0.125, 0.5, 1.5}};
 
 // Of the first order in the logarithm of the backscatter fraction, of the third in the other axes: what the
 // interpolation must give exactly.
 double Smooth(const std::vector<double>& x, bool odd) {
   const double theta = x[2] / 25;
   const double by_theta = odd ? theta - 0.4 * theta * theta * theta : 1 - 0.7 * theta * theta;
-  const auto cubic = [](double u, double a, double b, double c) {
-    return 1 + a * u + b * u * u + c * u * u * u;
-  };
+  const auto cubic = [](double u, double a, double b, double c) { return 1 + a * u + b * u * u + c * u * u * u; };
   return (1 + 0.2 * std::log(x[0] / 0.02)) * cubic(std::log(x[1] / 3), 0.3, 0.05, -0.02) * by_theta *
          cubic(std::log(x[3]), 0.1, -0.03, 0.01) * cubic(std::log(x[4]), -0.1, 0.02, 0.003) *
          cubic(std::log(x[5]), 0.2, 0.03, 0.004);
@@ -95,12 +93,11 @@ WaterBeam Beam(const std::vector<double>& x) {
 
 TEST(WaterColumnTable, IsExactForCubicPolynomials) {
   const WaterColumnTable table = Smooth();
-  for (const std::vector<double>& x :
-       std::vector<std::vector<double>>{{0.012, 1, 1.5, 0.1, 0.1, 0.01},
-                                        {0.02, 4, 3.9, 0.8, 2, 0.06},
-                                        {0.028, 11, 22, 3.7, 15, 1.2},
-                                        {0.03, 12, 25, 4, 16, 1.5},
-                                        {0.01, 0.75, 0, 0.0625, 0.0625, 0.0078125}}) {
+  for (const std::vector<double>& x : std::vector<std::vector<double>>{{0.012, 1, 1.5, 0.1, 0.1, 0.01},
+                                                                       {0.02, 4, 3.9, 0.8, 2, 0.06},
+                                                                       {0.028, 11, 22, 3.7, 15, 1.2},
+                                                                       {0.03, 12, 25, 4, 16, 1.5},
+                                                                       {0.01, 0.75, 0, 0.0625, 0.0625, 0.0078125}}) {
     const std::optional<WaterAnswer> answer = table.Of(x[0], x[1]).At(Beam(x));
     ASSERT_TRUE(answer.has_value());
     for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
@@ -113,8 +110,7 @@ TEST(WaterColumnTable, IsExactForCubicPolynomials) {
 TEST(WaterColumnTable, MirrorsTheBeamAtNadir) {
   const WaterColumnTable table = Smooth();
   const OneWater of_table = table.Of(0.02, 4);
-  const WaterAnswer nadir =
-      *of_table.At({.incidence = 0, .optical_depth = 1, .field_of_view = 1, .pulse_length = 0.1});
+  const WaterAnswer nadir = *of_table.At({.incidence = 0, .optical_depth = 1, .field_of_view = 1, .pulse_length = 0.1});
   for (const std::size_t q : {3, 4, 5}) EXPECT_NEAR(nadir[q], 0, 1e-9);
 }
 
@@ -129,8 +125,7 @@ TEST(WaterColumnTable, IsInProportionToScatteringInTheShallowsAndHoldsWhatIsWide
   const WaterAnswer shallow = *water.At(beam);
   for (std::size_t q = 0; q < 6; ++q) EXPECT_NEAR(shallow[q], first[q] / 8, 1e-9);
   EXPECT_NEAR(std::log(shallow[8]), std::log(first[8]) / 8, 1e-7);
-  EXPECT_EQ(water.At({.incidence = 0, .optical_depth = 0, .field_of_view = 1, .pulse_length = 1}).value()[0],
-            0);
+  EXPECT_EQ(water.At({.incidence = 0, .optical_depth = 0, .field_of_view = 1, .pulse_length = 1}).value()[0], 0);
 }
 
 TEST(WaterColumnTable, AnswersNothingBeyond) {
@@ -163,14 +158,12 @@ TEST(WaterColumnTable, AnswersNothingBeyond) {
 TEST(WaterColumnTable, NeedsAllQuantitiesAndLight) {
   Table::Variables variables = Values();
   variables[1].reset();
-  EXPECT_THAT(
-      WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
-      HasSubstr("bias_vertical_half"));
+  EXPECT_THAT(WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
+              HasSubstr("bias_vertical_half"));
   variables = Values();
   variables[8]->values[3] = 0;
-  EXPECT_THAT(
-      WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
-      HasSubstr("energy"));
+  EXPECT_THAT(WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
+              HasSubstr("energy"));
 }
 
 }  // namespace

@@ -36,14 +36,11 @@ TEST(Dispersion, HasItsLeastPhaseSpeedAtSeventeenMillimetres) {
   EXPECT_NEAR(slowest, 0.231, 0.0005);
   EXPECT_NEAR(wavelength, 0.0171, 0.00005);
   const double k = 2 * std::numbers::pi / wavelength;
-  EXPECT_NEAR(GroupSpeed(k) / slowest, 1, 1e-3)
-      << "at the least phase speed, group and phase speed are equal";
+  EXPECT_NEAR(GroupSpeed(k) / slowest, 1, 1e-3) << "at the least phase speed, group and phase speed are equal";
 }
 
 TEST(Dispersion, InvertsFromFrequencyToWavenumber) {
-  for (double k = 0.01; k < 2e4; k *= 1.7) {
-    EXPECT_NEAR(Wavenumber(AngularFrequency(k)) / k, 1, 1e-9) << k;
-  }
+  for (double k = 0.01; k < 2e4; k *= 1.7) EXPECT_NEAR(Wavenumber(AngularFrequency(k)) / k, 1, 1e-9) << k;
   EXPECT_EQ(Wavenumber(0), 0);
 }
 
@@ -66,9 +63,8 @@ TEST(FrequencySpectrum, HasTheVarianceOfTheSea) {
 
 TEST(FrequencySpectrum, HasItsMaximumAtThePeakFrequency) {
   const double peak = PeakFrequency(Sea());
-  for (const double aside : {0.9, 0.99, 1.01, 1.1}) {
+  for (const double aside : {0.9, 0.99, 1.01, 1.1})
     EXPECT_LT(FrequencySpectrum(Sea(), aside * peak), FrequencySpectrum(Sea(), peak)) << aside;
-  }
 }
 
 }  // namespace

@@ -27,11 +27,9 @@ EvolvingPatch Realization(int r) {
 // The amplitude of exp(i (kx x + ky y)) in the heights of a patch, kx and ky being i and j steps.
 std::complex<double> Amplitude(const std::vector<double>& heights, int i, int j) {
   std::complex<double> sum = 0;
-  for (int ix = 0; ix < kSize; ++ix) {
-    for (int iy = 0; iy < kSize; ++iy) {
+  for (int ix = 0; ix < kSize; ++ix)
+    for (int iy = 0; iy < kSize; ++iy)
       sum += heights[ix * kSize + iy] * std::polar(1.0, -2 * std::numbers::pi * (i * ix + j * iy) / kSize);
-    }
-  }
   return sum / static_cast<double>(kSize * kSize);
 }
 
@@ -40,9 +38,8 @@ double VarianceOfModes() {
   const SeaState sea = Sea();
   double variance = 0;
   for (int i = 1 - kSize / 2; i < kSize / 2; ++i) {
-    for (int j = 1 - kSize / 2; j < kSize / 2; ++j) {
+    for (int j = 1 - kSize / 2; j < kSize / 2; ++j)
       if (i != 0 || j != 0) variance += sea.Psi(kStep * std::hypot(i, j), std::atan2(j, i)) * kStep * kStep;
-    }
   }
   return variance;
 }

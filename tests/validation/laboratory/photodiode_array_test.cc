@@ -24,11 +24,8 @@ HeightField StillWater() { return TiltedPlane(0); }
 // Vertical rays on a square lattice of pitch 1 mm, with the symmetry of the array.
 std::vector<Ray> VerticalRays() {
   std::vector<Ray> rays;
-  for (int i = -125; i < 125; ++i) {
-    for (int j = -125; j < 125; ++j) {
-      rays.push_back({{0, 0, -1}, {0.001 * (i + 0.5), 0.001 * (j + 0.5)}});
-    }
-  }
+  for (int i = -125; i < 125; ++i)
+    for (int j = -125; j < 125; ++j) rays.push_back({{0, 0, -1}, {0.001 * (i + 0.5), 0.001 * (j + 0.5)}});
   return rays;
 }
 

@@ -91,8 +91,7 @@ TEST(LightOfFrame, IsTheLightThatTheArraysSample) {
   };
   const std::vector<double> still(static_cast<std::size_t>(experiment.grid.size) * experiment.grid.size, 0.0);
   const double shift = centroid(water(2)).x() - centroid(still).x();
-  EXPECT_NEAR(ObserveTank(experiment, water)[0].arrays[0].along_wind[2], std::atan(shift / experiment.depth),
-              1e-12);
+  EXPECT_NEAR(ObserveTank(experiment, water)[0].arrays[0].along_wind[2], std::atan(shift / experiment.depth), 1e-12);
 }
 
 }  // namespace

@@ -25,9 +25,8 @@ double Autocovariance(double lag) {
   const auto [lowest, highest] = Sea().energetic_range();
   constexpr double kLogStep = 1e-4;
   double sum = 0;
-  for (double k = lowest; k < highest; k *= 1 + kLogStep) {
+  for (double k = lowest; k < highest; k *= 1 + kLogStep)
     sum += Sea().S(k) * std::cos(AngularFrequency(k) * lag) * k * kLogStep;
-  }
   return sum;
 }
 
@@ -67,10 +66,8 @@ constexpr int kSegment = 256;
 // `amplitude` sin(2 pi `frequency` t) about a mean level of 1.
 std::vector<double> Swell(double amplitude, double frequency) {
   std::vector<double> record(8 * kSegment);
-  for (std::size_t n = 0; n < record.size(); ++n) {
-    record[n] =
-        1 + amplitude * std::sin(2 * std::numbers::pi * frequency * static_cast<double>(n) / kSwellRate);
-  }
+  for (std::size_t n = 0; n < record.size(); ++n)
+    record[n] = 1 + amplitude * std::sin(2 * std::numbers::pi * frequency * static_cast<double>(n) / kSwellRate);
   return record;
 }
 
@@ -97,9 +94,8 @@ TEST(HighestThird, OfASineWaveIsItsHeightFromTroughToCrest) {
 
 TEST(HighestThird, IsTheMeanOfTheHighestThirdOfTheWaves) {
   std::vector<double> record;
-  for (const double height : {1.0, 3.0, 1.0, 1.0, 5.0, 1.0}) {
+  for (const double height : {1.0, 3.0, 1.0, 1.0, 5.0, 1.0})
     for (const double part : {0.0, 0.5, 0.0, -0.5}) record.push_back(height * part);
-  }
   record.push_back(0);
   record.push_back(0);
   // The first crossing is not detected; a third of the five waves that follow is one wave.

@@ -59,16 +59,14 @@ SeaCase SeaCaseOf(const Sea& sea) {
 TEST(MonteCarlo, AgreesWithTheClosedForm) {
   for (std::size_t s = 0; s < kSeas.size(); ++s) {
     const Sea& sea = kSeas[s];
-    const SeaCaseRatios ratios =
-        CompareWithClosedForm(SeaCaseOf(sea), kRealizations, 1, static_cast<std::uint32_t>(s));
+    const SeaCaseRatios ratios = CompareWithClosedForm(SeaCaseOf(sea), kRealizations, 1, static_cast<std::uint32_t>(s));
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
       const ClosedFormRatio& beam = ratios.beams[b];
       const auto expect_within = [&](const char* quantity, const Estimate& ratio) {
         EXPECT_LE(ExcessInStandardErrors(ratio, beam.allowed), kStandardErrors)
-            << quantity << " is " << ratio.value << " +- " << ratio.standard_error
-            << " of the closed form at " << sea.wind_speed << " m/s, " << sea.fetch << " m of fetch, "
-            << sea.footprint << " m of footprint, incidence " << kDirections[b].incidence << ", azimuth "
-            << kDirections[b].azimuth;
+            << quantity << " is " << ratio.value << " +- " << ratio.standard_error << " of the closed form at "
+            << sea.wind_speed << " m/s, " << sea.fetch << " m of fetch, " << sea.footprint
+            << " m of footprint, incidence " << kDirections[b].incidence << ", azimuth " << kDirections[b].azimuth;
       };
       expect_within("along wind", beam.along);
       expect_within("cross wind", beam.cross);

@@ -46,9 +46,7 @@ std::vector<BeamOptions> Beams(const Case& c) {
   return {nadir, slanted};
 }
 
-Discretization Chosen(const Case& c) {
-  return ChooseDiscretization(SeaState(c.wind_speed, c.fetch), Beams(c));
-}
+Discretization Chosen(const Case& c) { return ChooseDiscretization(SeaState(c.wind_speed, c.fetch), Beams(c)); }
 
 Discretization WithTwiceThePatch(Discretization choice) {
   choice.patch_per_beam *= 2;
@@ -106,9 +104,7 @@ void ExpectNoMoreThanAPercent(const std::function<Discretization(Discretization)
   }
 }
 
-TEST(Convergence, DoublingThePatchChangesNothingByMoreThanOnePercent) {
-  ExpectNoMoreThanAPercent(WithTwiceThePatch);
-}
+TEST(Convergence, DoublingThePatchChangesNothingByMoreThanOnePercent) { ExpectNoMoreThanAPercent(WithTwiceThePatch); }
 
 // Runs every case as chosen and as `refined`, on the same waves, so that both have the same random error.
 void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(Discretization)>& refined) {
@@ -146,12 +142,13 @@ TEST(Convergence, TheSlopesThatTheFootprintSeesChangeByLessThanOnePercent) {
     const Discretization chosen = Chosen(c);
     for (const BeamOptions& beam : beams) {
       const auto seen = [&](const Discretization& discretization) {
-        return SurfaceModel(sea, WidestBeam(beams), discretization)
-            .FacetSlopeCovariance([&](double k, double psi) { return FootprintPower(beam, k, psi); });
+        return SurfaceModel(sea, WidestBeam(beams), discretization).FacetSlopeCovariance([&](double k, double psi) {
+          return FootprintPower(beam, k, psi);
+        });
       };
       const Eigen::Matrix2d coarse = seen(chosen);
-      for (const Discretization& refined : {WithTwiceThePatch(chosen), WithHalfTheSpacing(chosen),
-                                            WithHalfTheSpacing(WithTwiceThePatch(chosen))}) {
+      for (const Discretization& refined :
+           {WithTwiceThePatch(chosen), WithHalfTheSpacing(chosen), WithHalfTheSpacing(WithTwiceThePatch(chosen))}) {
         const Eigen::Matrix2d fine = seen(refined);
         for (const int axis : {0, 1}) {
           EXPECT_NEAR(std::sqrt(fine(axis, axis) / coarse(axis, axis)), 1, kAllowed)

@@ -20,8 +20,7 @@ namespace {
 // 400 frames.
 TankReading PhotodiodesAtNadir(double wind_speed) {
   const TankExperiment experiment;
-  return ObserveTank(experiment,
-                     IndependentFrames(TankSea(wind_speed, kTankWaveHeight), experiment.grid, 1, 0))
+  return ObserveTank(experiment, IndependentFrames(TankSea(wind_speed, kTankWaveHeight), experiment.grid, 1, 0))
       .front();
 }
 

@@ -25,10 +25,9 @@ constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven peak wave
 constexpr int kSurfaces = 60, kPlaces = 36, kRays = 4000;
 const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
-const std::vector<BeamOptions> kBeams = {
-    {.footprint = kFootprint},
-    {.incidence = 8 * kDegree, .azimuth = 70 * kDegree, .footprint = kFootprint},
-    {.incidence = 25 * kDegree, .azimuth = 20 * kDegree, .footprint = kFootprint}};
+const std::vector<BeamOptions> kBeams = {{.footprint = kFootprint},
+                                         {.incidence = 8 * kDegree, .azimuth = 70 * kDegree, .footprint = kFootprint},
+                                         {.incidence = 25 * kDegree, .azimuth = 20 * kDegree, .footprint = kFootprint}};
 
 // The middle part of the surface that `stream` draws, wide enough for all places and rays.
 HeightField Middle(const WavePatchModel& model, const NormalStream& stream) {
@@ -56,8 +55,7 @@ Sums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedW
     const Eigen::Vector2d x((place / 6 - 2.5) * length / 7, (place % 6 - 2.5) * length / 7);
     std::vector<Ray> rays = beam.Rays(0);
     for (Ray& ray : rays) ray.at_zero += x;
-    const BeamErrors e =
-        ErrorsOf(WithUnresolvedWaves(Trace(rays, surface, kRefractiveIndex), unresolved), still);
+    const BeamErrors e = ErrorsOf(WithUnresolvedWaves(Trace(rays, surface, kRefractiveIndex), unresolved), still);
     const Eigen::Vector2d horizontal = e.horizontal_offset + kDepth * e.horizontal_per_depth;
     const Eigen::Array<double, 5, 1> errors((Eigen::Array<double, 5, 1>() << std::atan(e.tangent.x()),
                                              std::atan(e.tangent.y()), horizontal.x(), horizontal.y(),
@@ -105,12 +103,10 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
     const HeightField surface = Middle(model, NormalStream(9, 0, i));
     for (std::size_t b = 0; b < kBeams.size(); ++b) {
       const Beam beam(kBeams[b], kRays);
-      const TracedBeam still =
-          Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
+      const TracedBeam still = Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
       of_beams[b][i] = AtAllPlaces(
-          surface, beam,
-          EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes, resolved_slopes), still,
-          length);
+          surface, beam, EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes, resolved_slopes),
+          still, length);
     }
   });
 
@@ -122,10 +118,8 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
   const SeaCaseResult bands = Simulate(sea_case, {.realizations = 512, .most_realizations = 512}, 9, 1);
   for (std::size_t b = 0; b < kBeams.size(); ++b) {
     const double incidence = kBeams[b].incidence;
-    ExpectAlike(bands.beams[b].refraction_along_wind, TwoSigmaOf(of_beams[b], {0}), "refraction along wind",
-                incidence);
-    ExpectAlike(bands.beams[b].refraction_cross_wind, TwoSigmaOf(of_beams[b], {1}), "refraction cross wind",
-                incidence);
+    ExpectAlike(bands.beams[b].refraction_along_wind, TwoSigmaOf(of_beams[b], {0}), "refraction along wind", incidence);
+    ExpectAlike(bands.beams[b].refraction_cross_wind, TwoSigmaOf(of_beams[b], {1}), "refraction cross wind", incidence);
     ExpectAlike(bands.beams[b].thu[0], TwoSigmaOf(of_beams[b], {2, 3}), "THU", incidence);
     ExpectAlike(bands.beams[b].tvu[0], TwoSigmaOf(of_beams[b], {4}), "TVU", incidence);
   }

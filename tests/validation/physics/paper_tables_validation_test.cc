@@ -27,8 +27,7 @@ class Table5 : public ::testing::Test {
   const double two_sigma_ = std::hypot(angles_.along, angles_.cross) * kDegree;
 
   void ExpectAllTwenty(const AngleMethodUncertainty& ours, double tolerance) {
-    const PublishedTable paper =
-        PublishedTable::Read(std::string(PAPER_FOLDER) + "/table5_thu_tvu.csv").value();
+    const PublishedTable paper = PublishedTable::Read(std::string(PAPER_FOLDER) + "/table5_thu_tvu.csv").value();
     const std::vector<double> depth = paper.Numbers("depth_m").value();
     const std::vector<double> thu = paper.Numbers("thu_m").value(), tvu = paper.Numbers("tvu_m").value();
     ASSERT_EQ(depth.size(), 10u);
@@ -69,9 +68,7 @@ TEST_F(Table3, IsNotTheClosedFormItself) {
   EXPECT_GT(AlongWindLogRatio(ClosedFormGrid(conditions_), 2, paper_).rms, 0.3);
 }
 
-TEST_F(Table3, IsLinearInWindInTheClosedForm) {
-  EXPECT_GE(LowestRSquared(ClosedFormGrid(conditions_)), 0.97);
-}
+TEST_F(Table3, IsLinearInWindInTheClosedForm) { EXPECT_GE(LowestRSquared(ClosedFormGrid(conditions_)), 0.97); }
 
 // With waves of all lengths, which a domain of 32 m would not hold.
 TEST_F(Table3, IsTheMonteCarloTimesSqrt2AlongTheWind) {
@@ -91,10 +88,8 @@ TEST_F(Table3, IsTheMonteCarloTimesSqrt2AlongTheWind) {
 TEST_F(Table3, IsTheMonteCarloOfWavesSqrt2AsHighAlongTheWind) {
   GridOptions higher = conditions_;
   higher.height_scale = kSqrt2;
-  EXPECT_LT(
-      AlongWindLogRatio(SimulateGrid(higher, {100, std::nullopt, Estimator::kControlVariate}, 1), 1, paper_)
-          .rms,
-      0.12);
+  EXPECT_LT(AlongWindLogRatio(SimulateGrid(higher, {100, std::nullopt, Estimator::kControlVariate}, 1), 1, paper_).rms,
+            0.12);
 }
 
 TEST_F(Table3, IsLinearInWindWithTheSurfacesAndRaysOfThePaper) {

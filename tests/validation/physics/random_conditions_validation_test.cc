@@ -21,9 +21,7 @@ constexpr int kRealizations = 200;
 // std::mt19937_64 gives the same numbers on all platforms; the distributions of the standard library do not.
 class Draws {
  public:
-  double Between(double low, double high) {
-    return low + (high - low) * 0x1p-53 * static_cast<double>(bits_() >> 11);
-  }
+  double Between(double low, double high) { return low + (high - low) * 0x1p-53 * static_cast<double>(bits_() >> 11); }
   double LogBetween(double low, double high) { return std::exp(Between(std::log(low), std::log(high))); }
   bool OneIn(int n) { return Between(0, n) < 1; }
 
@@ -35,8 +33,8 @@ SeaCase Draw(Draws& draws) {
   SeaCase sea_case;
   const double wind_speed = draws.Between(1, 15);
   const double fetch = draws.LogBetween(100, 1e6);
-  sea_case.sea.waves = WindSea{.wind_speed_10m = wind_speed,
-                               .fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch};
+  sea_case.sea.waves =
+      WindSea{.wind_speed_10m = wind_speed, .fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch};
   sea_case.beams = {{.incidence = RadiansOfDegrees(draws.Between(0, 25)),
                      .azimuth = RadiansOfDegrees(draws.Between(0, 360)),
                      .footprint = draws.LogBetween(0.1, 5),

@@ -29,15 +29,14 @@ void ExpectAgreement(const std::vector<Comparison>& comparisons) {
                           [](const Comparison& found) { return found.verdict == Verdict::kAgrees; }),
             5);
   for (const Comparison& found : comparisons) {
-    std::printf("%s: %.3f %%, standard error %.3f %%, %s\n", found.quantity.c_str(), found.ours,
-                found.standard_error, found.basis.c_str());
+    std::printf("%s: %.3f %%, standard error %.3f %%, %s\n", found.quantity.c_str(), found.ours, found.standard_error,
+                found.basis.c_str());
     EXPECT_NE(found.verdict, Verdict::kDiffers) << found.quantity << ": " << found.basis;
   }
 }
 
 TEST(SeaResponse, AgreesWithTracingInAllThatTheReportCompares) {
-  const absl::StatusOr<Study> study =
-      ResponseTheoryStudy({.published = {}, .quick = !EveryBeam(), .seed = kSeed});
+  const absl::StatusOr<Study> study = ResponseTheoryStudy({.published = {}, .quick = !EveryBeam(), .seed = kSeed});
   ExpectAgreement(study->comparisons);
 }
 
@@ -52,45 +51,37 @@ struct Node {
   double wind_speed, fetch, incidence, azimuth, footprint;
 };
 
-void ExpectAgreement(const std::vector<Node>& nodes, const SpectrumModel& model,
-                     const TracingEffort& effort) {
+void ExpectAgreement(const std::vector<Node>& nodes, const SpectrumModel& model, const TracingEffort& effort) {
   std::vector<ComparedBeam> beams;
   for (const Node& node : nodes) {
     SeaCase sea_case;
     sea_case.beams = {{.incidence = RadiansOfDegrees(node.incidence),
                        .azimuth = RadiansOfDegrees(node.azimuth),
                        .footprint = node.footprint}};
-    const ResponseSea sea =
-        ResponseSeaOf(std::string(model.key), WindSea{node.wind_speed, node.fetch, &model});
-    beams.push_back(
-        CompareBeams(sea, sea_case, effort, kSeed, static_cast<std::uint32_t>(beams.size())).front());
+    const ResponseSea sea = ResponseSeaOf(std::string(model.key), WindSea{node.wind_speed, node.fetch, &model});
+    beams.push_back(CompareBeams(sea, sea_case, effort, kSeed, static_cast<std::uint32_t>(beams.size())).front());
   }
   const double k = StandardErrorsFor(static_cast<int>(kComparedQuantities.size() * beams.size()));
   for (const ComparedQuantity quantity : kComparedQuantities) {
     const Agreement found = AgreementOf(beams, quantity, k);
     std::printf("%s: %.3f %%, standard error %.3f %%, worst %.3f %%\n", Name(quantity), 100 * found.rms,
                 100 * found.standard_error, 100 * found.worst);
-    EXPECT_LE(found.worst_beyond, quantity == ComparedQuantity::kThuAtSurface ? 0.06 : 0.003)
-        << Name(quantity);
+    EXPECT_LE(found.worst_beyond, quantity == ComparedQuantity::kThuAtSurface ? 0.06 : 0.003) << Name(quantity);
   }
 }
 
 TEST(SeaResponse, AgreesWithTracingOnAFineGridOverYoungAndSteepSeas) {
-  ExpectAgreement({{4.1, 1170, 25, 24, 1.45},
-                   {15, 1170, 25, 90, 0.832},
-                   {2.5, 15700, 14, 24, 4.39},
-                   {15, 1310, 1, 0, 0.212}},
-                  kApelModel, {.realizations = 1000, .finer = 4});
+  ExpectAgreement(
+      {{4.1, 1170, 25, 24, 1.45}, {15, 1170, 25, 90, 0.832}, {2.5, 15700, 14, 24, 4.39}, {15, 1310, 1, 0, 0.212}},
+      kApelModel, {.realizations = 1000, .finer = 4});
 }
 
 // The nodes of survey.h5 that differ most in refraction along and across, THU and TVU (survey_table_validation_test):
 // by their random errors alone, of which more realizations leave less.
 TEST(SeaResponse, AgreesWithTracingWhereTheTableDiffersMost) {
-  ExpectAgreement({{1.2, 5200, 25, 22, 0.95},
-                   {2.55, 180e3, 25, 79, 4.4},
-                   {2.1, 430e3, 25, 0, 4.4},
-                   {3.8, 2350, 25, 79, 3.85}},
-                  kElfouhailyModel, {.realizations = 4000});
+  ExpectAgreement(
+      {{1.2, 5200, 25, 22, 0.95}, {2.55, 180e3, 25, 79, 4.4}, {2.1, 430e3, 25, 0, 4.4}, {3.8, 2350, 25, 79, 3.85}},
+      kElfouhailyModel, {.realizations = 4000});
 }
 
 }  // namespace

@@ -56,9 +56,8 @@ TEST(RealSeaStudy, FindsElfouhailysSlopesWithinTheScatterOfCoxAndMunkAndApelsAbo
   // of each, up to 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
   const DataTable& simulated = TableOf(*study, "spectra_monte_carlo");
   for (std::size_t row = 0; row < simulated.rows.size(); ++row) {
-    EXPECT_NEAR(
-        Number(simulated, row, "thu_ratio") / Number(simulated, row, "thu_ratio_closed_form"), 1,
-        0.03 + 3 * Number(simulated, row, "thu_ratio_standard_error") / Number(simulated, row, "thu_ratio"))
+    EXPECT_NEAR(Number(simulated, row, "thu_ratio") / Number(simulated, row, "thu_ratio_closed_form"), 1,
+                0.03 + 3 * Number(simulated, row, "thu_ratio_standard_error") / Number(simulated, row, "thu_ratio"))
         << row;
   }
 }
@@ -70,19 +69,15 @@ TEST(CorrectedWavesStudy, AgreesBetweenMonteCarloAndClosedForm) {
   // proportional to the remaining mean square slope. The next order is smaller by about that slope.
   const DataTable& simulated = TableOf(*study, "corrected_waves_monte_carlo");
   for (std::size_t row = 1; row < simulated.rows.size(); ++row) {
-    const auto left = [&](const char* column) {
-      return Number(simulated, row, column) / Number(simulated, 0, column);
-    };
-    EXPECT_NEAR(left("nadir_bias_vertical_m"), left("mean_square_slope"),
-                Number(simulated, 0, "mean_square_slope"))
+    const auto left = [&](const char* column) { return Number(simulated, row, column) / Number(simulated, 0, column); };
+    EXPECT_NEAR(left("nadir_bias_vertical_m"), left("mean_square_slope"), Number(simulated, 0, "mean_square_slope"))
         << row;
     EXPECT_LT(left("nadir_bias_vertical_m"), 1) << row;
   }
   const DataTable& table = TableOf(*study, "corrected_waves");
   for (std::size_t row = 1; row < table.rows.size(); ++row) {
     if (table.rows[row][3] == Cell(std::string("nothing"))) continue;
-    EXPECT_LE(Number(table, row, "thu_per_depth"), Number(table, row - 1, "thu_per_depth") * (1 + 1e-6))
-        << row;
+    EXPECT_LE(Number(table, row, "thu_per_depth"), Number(table, row - 1, "thu_per_depth") * (1 + 1e-6)) << row;
   }
 }
 

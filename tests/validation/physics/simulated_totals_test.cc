@@ -63,17 +63,16 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
   std::vector<BeamOptions> beams;
   for (const double incidence : kIncidences)
     for (const double azimuth : kAzimuths)
-      beams.push_back({.incidence = RadiansOfDegrees(incidence),
-                       .azimuth = RadiansOfDegrees(azimuth),
-                       .footprint = kFootprint});
+      beams.push_back(
+          {.incidence = RadiansOfDegrees(incidence), .azimuth = RadiansOfDegrees(azimuth), .footprint = kFootprint});
   const Discretization grid = ChooseDiscretization(sea, beams);
   const SurfaceModel model(sea, beams.back(), grid);
-  const auto tracing = MakePlainTracing(
-      model, {.beams = beams,
-              .refractive_index = kIndex,
-              .rays = 600,
-              .unresolved_slopes = Eigen::Matrix2d::Zero(),
-              .resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; })});
+  const auto tracing =
+      MakePlainTracing(model, {.beams = beams,
+                               .refractive_index = kIndex,
+                               .rays = 600,
+                               .unresolved_slopes = Eigen::Matrix2d::Zero(),
+                               .resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; })});
   std::vector<std::vector<BeamRealization>> samples(beams.size());
   std::vector<BeamRealization> realized(beams.size());
   const std::vector<bool> all(beams.size(), true);
@@ -83,8 +82,7 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
   }
   std::vector<TracedErrors> traced(beams.size());
   for (std::size_t b = 0; b < beams.size(); ++b) {
-    traced[b].uncertainty =
-        UncertaintyOf(samples[b], beams[b], kIndex, std::nullopt, {kDepths.begin(), kDepths.end()});
+    traced[b].uncertainty = UncertaintyOf(samples[b], beams[b], kIndex, std::nullopt, {kDepths.begin(), kDepths.end()});
     BeamErrors mean;
     for (const BeamRealization& each : samples[b]) {
       const BeamErrors& e = each.parts[0].errors;
@@ -106,8 +104,7 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
 
 // One sea for all tests.
 const SeaState& Sea() {
-  static const SeaState sea(
-      {.waves = WindSea{.wind_speed_10m = kWind, .fetch = kFetch, .model = &kElfouhailyModel}});
+  static const SeaState sea({.waves = WindSea{.wind_speed_10m = kWind, .fetch = kFetch, .model = &kElfouhailyModel}});
   return sea;
 }
 const std::vector<TracedErrors>& Traced() {
@@ -141,12 +138,10 @@ TEST(SeaShare, HasTheCovarianceOfTracedBeams) {
                                             static_cast<float>(waves.uncertainty.refraction_cross_wind.value),
                                             0};
       BudgetInputs inputs{.size = 1};
-      const BudgetInput given[] = {
-          BudgetInput::kIncidence,       BudgetInput::kBeamAzimuth,     BudgetInput::kAltitude,
-          BudgetInput::kDepth,           BudgetInput::kSeaThu,          BudgetInput::kSeaTvu,
-          BudgetInput::kRefractionAlong, BudgetInput::kRefractionCross, BudgetInput::kSeaAxis};
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        inputs[given[i]] = std::span<const float>(&numbers[i], 1);
+      const BudgetInput given[] = {BudgetInput::kIncidence,       BudgetInput::kBeamAzimuth,     BudgetInput::kAltitude,
+                                   BudgetInput::kDepth,           BudgetInput::kSeaThu,          BudgetInput::kSeaTvu,
+                                   BudgetInput::kRefractionAlong, BudgetInput::kRefractionCross, BudgetInput::kSeaAxis};
+      for (std::size_t i = 0; i < numbers.size(); ++i) inputs[given[i]] = std::span<const float>(&numbers[i], 1);
       std::array<float, 6> c;
       BudgetOutputs outputs;
       for (std::size_t i = 0; i < c.size(); ++i) outputs.sea[i] = std::span<float>(&c[i], 1);
@@ -169,8 +164,8 @@ TEST(SeaShare, HasTheCovarianceOfTracedBeams) {
       const double along_beam = std::sqrt(e.dot(horizontal * e));
       EXPECT_NEAR(sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]), 1, 0.025)
           << incidence << " " << azimuth;
-      std::printf("incidence %g, azimuth %g: TVU of the horizontal covariance over TVU %.4f\n", incidence,
-                  -azimuth, sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]));
+      std::printf("incidence %g, azimuth %g: TVU of the horizontal covariance over TVU %.4f\n", incidence, -azimuth,
+                  sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]));
     }
   }
 }
@@ -300,13 +295,12 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
     }
   }
   std::ofstream csv;
-  if (const char* path = std::getenv("ALBTPU_SIMULATED_TOTALS"); path != nullptr)
-    csv.open(path, std::ios::app);
+  if (const char* path = std::getenv("ALBTPU_SIMULATED_TOTALS"); path != nullptr) csv.open(path, std::ios::app);
   const auto check = [&](const char* by, double at, const Held& held) {
     const double thu = 100 * held.thu / held.points, tvu = 100 * held.tvu / held.points;
     const std::string name(kSurfaceLocationNames[static_cast<std::size_t>(located)]);
-    std::printf("%-6s %-10s %4g: %.2f %% within THU, %.2f %% within TVU, %d points\n", name.c_str(), by, at,
-                thu, tvu, held.points);
+    std::printf("%-6s %-10s %4g: %.2f %% within THU, %.2f %% within TVU, %d points\n", name.c_str(), by, at, thu, tvu,
+                held.points);
     if (csv.is_open()) csv << name << "," << by << "," << at << "," << thu << "," << tvu << "\n";
     EXPECT_NEAR(thu, 95, 0.5) << name << " " << by << " " << at;
     EXPECT_NEAR(tvu, 95, 0.5) << name << " " << by << " " << at;
@@ -317,8 +311,7 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Located, SimulatedTotals,
-                         ::testing::Values(SurfaceLocation::kPulse, SurfaceLocation::kLocal,
-                                           SurfaceLocation::kLevel),
+                         ::testing::Values(SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel),
                          [](const auto& test) {
                            return std::string(kSurfaceLocationNames[static_cast<std::size_t>(test.param)]);
                          });

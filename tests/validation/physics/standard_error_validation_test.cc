@@ -30,38 +30,32 @@ const std::vector<Quantity> kQuantities = {
     {"THU, nadir, depth 0", kNadir, [](const auto& beam) { return beam.thu[kNoDepth]; }},
     {"TVU, nadir", kNadir, [](const auto& beam) { return beam.tvu[kDeep]; }},
     {"vertical bias, nadir", kNadir, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
-    {"refraction along wind, 20 degrees", kSlanted,
-     [](const auto& beam) { return beam.refraction_along_wind; }},
-    {"refraction cross wind, 20 degrees", kSlanted,
-     [](const auto& beam) { return beam.refraction_cross_wind; }},
+    {"refraction along wind, 20 degrees", kSlanted, [](const auto& beam) { return beam.refraction_along_wind; }},
+    {"refraction cross wind, 20 degrees", kSlanted, [](const auto& beam) { return beam.refraction_cross_wind; }},
     {"THU, 20 degrees", kSlanted, [](const auto& beam) { return beam.thu[kDeep]; }},
     {"THU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.thu[kNoDepth]; }},
     {"THU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.thu[kShallow]; }},
     {"TVU, 20 degrees", kSlanted, [](const auto& beam) { return beam.tvu[kDeep]; }},
     {"TVU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.tvu[kNoDepth]; }},
     {"TVU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.tvu[kShallow]; }},
-    {"bias along the beam, 20 degrees", kSlanted,
-     [](const auto& beam) { return beam.bias_along_beam[kDeep]; }},
+    {"bias along the beam, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_along_beam[kDeep]; }},
     {"vertical bias, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
 };
 
 std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, std::uint32_t cell) {
   SeaCase sea_case;
   sea_case.sea.waves = WindSea{.wind_speed_10m = 5};
-  sea_case.beams = {{.footprint = 0.5},
-                    {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
+  sea_case.beams = {{.footprint = 0.5}, {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
   sea_case.depths = {0, 0.1, 10};
-  return Simulate(sea_case,
-                  {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
+  return Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
                   5, cell)
       .beams;
 }
 
 TEST(StandardErrors, MatchTheScatterOfTheEstimatesAboutTracingAlone) {
   std::vector<std::vector<BeamUncertainty>> repetitions;
-  for (int i = 0; i < kRepetitions; ++i) {
+  for (int i = 0; i < kRepetitions; ++i)
     repetitions.push_back(Simulated(kRealizations, Estimator::kControlVariate, 1 + i));
-  }
   const std::vector<BeamUncertainty> plain = Simulated(6000, Estimator::kPlain, 0);
   for (const Quantity& quantity : kQuantities) {
     Eigen::ArrayXd values(kRepetitions);
@@ -73,8 +67,7 @@ TEST(StandardErrors, MatchTheScatterOfTheEstimatesAboutTracingAlone) {
     }
     claimed = std::sqrt(claimed);
     const Estimate mean = Mean(values), twin = quantity.of(plain[quantity.beam]);
-    EXPECT_NEAR(mean.value, twin.value, 3.5 * std::hypot(mean.standard_error, twin.standard_error))
-        << quantity.name;
+    EXPECT_NEAR(mean.value, twin.value, 3.5 * std::hypot(mean.standard_error, twin.standard_error)) << quantity.name;
     // The scatter of 200 values is known to 5 %, a little worse for means of heavy-tailed products.
     EXPECT_NEAR(0.5 * TwoSigma(values).value / claimed, 1, 3 * 0.06) << quantity.name;
   }

@@ -32,8 +32,8 @@ namespace {
 
 // The values of all quantities by the theory, in the layout of the table: NaN in the seas that are not tried, of which
 // there are `stride` - 1 between two that are.
-std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::Axes& axes,
-                                                        const SpectrumModel& model, std::size_t stride) {
+std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::Axes& axes, const SpectrumModel& model,
+                                                        std::size_t stride) {
   const auto radians = [&](AxisId id) {
     std::vector<double> angles = axes[Index(id)].nodes();
     for (double& angle : angles) angle = RadiansOfDegrees(angle);
@@ -55,13 +55,11 @@ std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::
     values[Index(quantity)][next[Index(quantity)]++] = static_cast<float>(value);
   };
   for (std::size_t s = 0; s < seas; s += stride) {
-    for (const Quantity quantity : kQuantities)
-      next[Index(quantity)] = values[Index(quantity)].size() / seas * s;
+    for (const Quantity quantity : kQuantities) next[Index(quantity)] = values[Index(quantity)].size() / seas * s;
     const WindSea waves{
         .wind_speed_10m = winds[s / fetches.size()], .fetch = fetches[s % fetches.size()], .model = &model};
-    const HarmonicSpectrum spectrum = waves.wind_speed_10m == 0
-                                          ? FlatSea(SeaWavenumbers(), 1)
-                                          : Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 1);
+    const HarmonicSpectrum spectrum =
+        waves.wind_speed_10m == 0 ? FlatSea(SeaWavenumbers(), 1) : Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 1);
     const SeaResponse sea(spectrum, kRefractiveIndex);
     for (const double incidence : incidences) {
       for (const double azimuth : azimuths) {
@@ -91,12 +89,10 @@ std::vector<float> Unbalanced(const UncertaintyTable::Axes& axes, Quantity quant
   constexpr int kSteps = 10;
   std::vector<float> guess = balanced;
   for (int i = 0; i < kSteps; ++i) {
-    const double factor =
-        (kMost + kLeast) / 2 + (kMost - kLeast) / 2 * std::cos(std::numbers::pi * (i + 0.5) / kSteps);
+    const double factor = (kMost + kLeast) / 2 + (kMost - kLeast) / 2 * std::cos(std::numbers::pi * (i + 0.5) / kSteps);
     std::vector<float> again = guess;
     BalanceNodes(axes, quantity, again);
-    for (std::size_t j = 0; j < guess.size(); ++j)
-      guess[j] += static_cast<float>((balanced[j] - again[j]) / factor);
+    for (std::size_t j = 0; j < guess.size(); ++j) guess[j] += static_cast<float>((balanced[j] - again[j]) / factor);
   }
   return guess;
 }
@@ -118,8 +114,8 @@ std::string NodeOf(const UncertaintyTable& table, std::size_t beam) {
   for (const AxisId id :
        {AxisId::kFootprint, AxisId::kAzimuth, AxisId::kIncidence, AxisId::kFetch, AxisId::kWindSpeed}) {
     const std::vector<double>& nodes = table.axis(id).nodes();
-    words = absl::StrFormat("%s %.4g%s%s", Describe(id).name, nodes[beam % nodes.size()],
-                            words.empty() ? "" : ", ", words);
+    words =
+        absl::StrFormat("%s %.4g%s%s", Describe(id).name, nodes[beam % nodes.size()], words.empty() ? "" : ", ", words);
     beam /= nodes.size();
   }
   return words;
@@ -195,8 +191,7 @@ TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
       ASSERT_GT(count, 500 / stride);
       const double rms = std::sqrt(squares / count), stated = std::sqrt(variances / count);
       std::printf("%-22s depth %4g m: rms %.2f %%, worst %.2f %%, standard error %.2f %%, %d nodes\n",
-                  std::string(Describe(quantity).name).c_str(), depths[d], 100 * rms, 100 * worst,
-                  100 * stated, count);
+                  std::string(Describe(quantity).name).c_str(), depths[d], 100 * rms, 100 * worst, 100 * stated, count);
       std::printf("  theory over table %.4f +- %.4f: %s\n", ours[worst_node] / traced[worst_node],
                   variable.standard_errors[worst_node] / std::abs(traced[worst_node]),
                   NodeOf(*table, worst_node / columns).c_str());

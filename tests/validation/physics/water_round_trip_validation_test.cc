@@ -48,8 +48,7 @@ struct Case {
 // As ComputeWaterColumn, with a receiver that accepts the same cone.
 std::vector<Echo> PairsOf(const Case& c) {
   const WaterColumn column = c.Column();
-  const double refracted = RefractedAngle(column.incidence, column.refractive_index),
-               depths[] = {column.scattering};
+  const double refracted = RefractedAngle(column.incidence, column.refractive_index), depths[] = {column.scattering};
   const EchoSetup setup{.incidence = column.incidence,
                         .group_index = column.group_index,
                         .absorption = column.absorption,
@@ -74,8 +73,8 @@ class WaterRoundTrip : public testing::TestWithParam<Case> {};
 TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
   const Case& c = GetParam();
   const double pulses[] = {c.PulseLength()};
-  const WaterColumnBias trips = BiasOfEchoes(
-      TraceRoundTrips(kOcean, c.Trip(), pulses[0] / 30, kPools, kPhotons, 1), c.Column(), pulses);
+  const WaterColumnBias trips =
+      BiasOfEchoes(TraceRoundTrips(kOcean, c.Trip(), pulses[0] / 30, kPools, kPhotons, 1), c.Column(), pulses);
   const WaterColumnBias pairs = BiasOfEchoes(PairsOf(c), c.Column(), pulses);
   // Lengths are in units of the depth; `allowed` is in metres.
   const auto agree = [&](const std::string& name, const Estimate& trip, const Estimate& pair, double allowed,

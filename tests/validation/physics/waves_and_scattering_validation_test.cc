@@ -38,14 +38,12 @@ TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
   for (const Detector detector : kDetectors) {
     const std::size_t d = Index(detector);
     const ReportedBottom &waves = found.waves[d], &both = found.both[d], &scattering = found.scattering[d];
-    std::printf(
-        "%-14s %-8s along: sigma %.3f by waves, %.3f with scattering; mean %.3f + %.3f, %.3f together\n",
-        c.name.c_str(), std::string(kDetectorNames[d]).c_str(), waves.sigma_along, both.sigma_along,
-        waves.mean_along, scattering.mean_along, both.mean_along);
-    std::printf(
-        "%-14s %-8s vertical: sigma %.3f by waves, %.3f with scattering; mean %.3f + %.3f, %.3f together\n",
-        "", "", waves.sigma_vertical, both.sigma_vertical, waves.mean_vertical, scattering.mean_vertical,
-        both.mean_vertical);
+    std::printf("%-14s %-8s along: sigma %.3f by waves, %.3f with scattering; mean %.3f + %.3f, %.3f together\n",
+                c.name.c_str(), std::string(kDetectorNames[d]).c_str(), waves.sigma_along, both.sigma_along,
+                waves.mean_along, scattering.mean_along, both.mean_along);
+    std::printf("%-14s %-8s vertical: sigma %.3f by waves, %.3f with scattering; mean %.3f + %.3f, %.3f together\n", "",
+                "", waves.sigma_vertical, both.sigma_vertical, waves.mean_vertical, scattering.mean_vertical,
+                both.mean_vertical);
     // Scattering blurs the tilts of the waves: independent shares overstate what the waves do, and never understate it.
     EXPECT_LT(both.sigma_along, waves.sigma_along * 1.02);
     EXPECT_GT(both.sigma_along, waves.sigma_along * 0.6);
@@ -57,8 +55,7 @@ TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, WavesOverTurbidWater,
                          testing::Values(Case{"wide", 0.1, 16, 5, 2}, Case{"wide_turbid", 0.2, 16, 5, 2},
-                                         Case{"narrow", 0.1, 3, 1.5, 0.5},
-                                         Case{"narrow_turbid", 0.2, 3, 1.5, 0.5}),
+                                         Case{"narrow", 0.1, 3, 1.5, 0.5}, Case{"narrow_turbid", 0.2, 3, 1.5, 0.5}),
                          [](const auto& of) { return of.param.name; });
 
 }  // namespace

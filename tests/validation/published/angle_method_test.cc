@@ -12,8 +12,7 @@ constexpr double kDegree = 0.017453292519943295;
 // 2 sigma of f(theta + delta) to second order in the variance V of delta, from the derivatives of f:
 // Var f = f'^2 V + (f''^2 / 2 + f' f''') V^2.
 double TwoSigmaToSecondOrder(double first, double second, double third, double variance) {
-  return 2 *
-         std::sqrt(first * first * variance + (0.5 * second * second + first * third) * variance * variance);
+  return 2 * std::sqrt(first * first * variance + (0.5 * second * second + first * third) * variance * variance);
 }
 
 TEST(AngleMethod, FollowsTheFirstDerivativesForSmallAngles) {
@@ -30,12 +29,11 @@ TEST(AngleMethod, FollowsTheSecondOrderForLargerAngles) {
   const double t = std::tan(theta), s = 1 / std::cos(theta);
   const AngleMethodUncertainty result = AngleMethod(theta, 2 * sigma);
   // The error of the expansion is some 10 sigma^4, 2e-6.
-  EXPECT_NEAR(result.thu_per_depth /
-                  TwoSigmaToSecondOrder(s * s, 2 * s * s * t, 2 * s * s * (1 + 3 * t * t), sigma * sigma),
-              1, 1e-5);
   EXPECT_NEAR(
-      result.tvu_per_depth / TwoSigmaToSecondOrder(t, 1 + 2 * t * t, t * (5 + 6 * t * t), sigma * sigma), 1,
-      1e-4);  // a small slope and a large curvature
+      result.thu_per_depth / TwoSigmaToSecondOrder(s * s, 2 * s * s * t, 2 * s * s * (1 + 3 * t * t), sigma * sigma), 1,
+      1e-5);
+  EXPECT_NEAR(result.tvu_per_depth / TwoSigmaToSecondOrder(t, 1 + 2 * t * t, t * (5 + 6 * t * t), sigma * sigma), 1,
+              1e-4);  // a small slope and a large curvature
 }
 
 TEST(AngleMethod, HasATvuOfSecondOrderAtNadir) {
@@ -69,8 +67,7 @@ TEST(AngleMethod, ByDrawsScattersAboutTheQuadratureWithItsStandardError) {
   double mean = 0, square = 0;
   for (int i = 0; i < kSamples; ++i) {
     const NormalStream stream(1, 0, i);
-    const double departure =
-        AngleMethodByDraws(theta, angle, kDraws, stream).thu_per_depth / exact.thu_per_depth - 1;
+    const double departure = AngleMethodByDraws(theta, angle, kDraws, stream).thu_per_depth / exact.thu_per_depth - 1;
     mean += departure / kSamples;
     square += departure * departure / kSamples;
   }

@@ -19,8 +19,7 @@ TEST(PublishedAngles, HoldTheTablesOfThePaper) {
   EXPECT_EQ(table_3->At(0, 1).along, 2.49);
   EXPECT_EQ(table_3->At(4, 0).cross, 2.25);
   int doubtful = 0;
-  for (const PublishedAngles::Cell& cell : table_3->cells)
-    doubtful += !cell.along_is_clean + !cell.cross_is_clean;
+  for (const PublishedAngles::Cell& cell : table_3->cells) doubtful += !cell.along_is_clean + !cell.cross_is_clean;
   EXPECT_EQ(doubtful, 3);
   EXPECT_FALSE(table_3->At(5, 1).along_is_clean);
 

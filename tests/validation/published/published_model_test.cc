@@ -11,10 +11,9 @@ namespace {
 
 TEST(AngleModel, IsRecoveredFromItsOwnAngles) {
   std::vector<AngleSample> samples;
-  for (const double wind_speed : {2.0, 3.0, 5.25}) {
+  for (const double wind_speed : {2.0, 3.0, 5.25})
     for (const double incidence : {0.0, 10.0, 20.0})
       samples.push_back({wind_speed, incidence, kPublishedAlongWind(wind_speed, incidence)});
-  }
   const AngleModel fit = FitAngleModel(samples);
   EXPECT_NEAR(fit.wind_incidence, 0.003, 1e-10);
   EXPECT_NEAR(fit.wind, 0.4193, 1e-10);

@@ -17,8 +17,7 @@ class PublishedTableTest : public ::testing::Test {
 };
 
 TEST_F(PublishedTableTest, ReadsItsColumnsAsNumbersAndWords) {
-  const auto table =
-      PublishedTable::Read(File("# attribution\nwind_m_s,reading\n2.5,clean\n5.25,doubtful\n"));
+  const auto table = PublishedTable::Read(File("# attribution\nwind_m_s,reading\n2.5,clean\n5.25,doubtful\n"));
   EXPECT_EQ(table->size(), 2);
   EXPECT_THAT(*table->Numbers("wind_m_s"), ElementsAre(2.5, 5.25));
   EXPECT_THAT(*table->Words("reading"), ElementsAre("clean", "doubtful"));

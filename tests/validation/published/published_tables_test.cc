@@ -42,8 +42,7 @@ TEST(PublishedTables, AnswerWithTheAnglesOfTable4) {
   const PublishedAngles paper = Table4();
   for (std::size_t w = 0; w < paper.wind_speeds.size(); ++w) {
     for (std::size_t i = 0; i < paper.incidences.size(); ++i) {
-      const PulseUncertainty answer =
-          Interpolate(table, AlongWind(paper.wind_speeds[w], paper.incidences[i], 0.25, 3));
+      const PulseUncertainty answer = Interpolate(table, AlongWind(paper.wind_speeds[w], paper.incidences[i], 0.25, 3));
       EXPECT_EQ(answer.outcome, Outcome::kInterpolated);
       EXPECT_EQ(answer[Quantity::kRefractionAlongWind], static_cast<float>(paper.At(w, i).along));
       EXPECT_EQ(answer[Quantity::kRefractionCrossWind], static_cast<float>(paper.At(w, i).cross));
@@ -76,16 +75,14 @@ TEST(PublishedTables, DescribeThemselves) {
     const Provenance provenance = Shipped(file).provenance();
     EXPECT_THAT(provenance.title, HasSubstr("Birkebak et al. (2018)"));
     EXPECT_THAT(std::get<std::string>(provenance.attributes.at("license")), HasSubstr("CC BY 4.0"));
-    EXPECT_THAT(std::get<std::string>(provenance.attributes.at("references")),
-                HasSubstr("doi:10.3390/rs10030453"));
+    EXPECT_THAT(std::get<std::string>(provenance.attributes.at("references")), HasSubstr("doi:10.3390/rs10030453"));
     EXPECT_THAT(std::get<std::string>(provenance.attributes.at("comment")), HasSubstr("ask with azimuth 0"));
     EXPECT_EQ(provenance.campaign, "");
   }
 }
 
 TEST(PublishedTables, EndWhereThePublishedNumbersEnd) {
-  const UncertaintyTable measured = Shipped("birkebak2018_measured.h5"),
-                         model = Shipped("birkebak2018_model.h5");
+  const UncertaintyTable measured = Shipped("birkebak2018_measured.h5"), model = Shipped("birkebak2018_model.h5");
   EXPECT_EQ(Interpolate(measured, AlongWind(3, 10, 0.5, 5)).axis, AxisId::kFootprint);
   for (const UncertaintyTable& table : {measured, model}) {
     EXPECT_EQ(Interpolate(table, AlongWind(6, 10, 0.25, 5)).axis, AxisId::kWindSpeed);
@@ -102,15 +99,12 @@ TEST(PublishedTables, FollowTheModelBetweenNodes) {
   for (const double wind_speed : {2.25, 3.7, 4.6}) {
     for (const double incidence : {0.5, 7.5, 19.5}) {
       for (const double footprint : {0.272, 0.77, 3.67}) {
-        const double along =
-            kPublishedAlongWind(wind_speed, incidence) * PublishedAlongWindDiameterFactor(footprint);
-        const double cross =
-            kPublishedCrossWind(wind_speed, incidence) * PublishedCrossWindDiameterFactor(footprint);
-        const AngleMethodUncertainty exact = AngleMethod(
-            StillWaterRefraction(incidence * kDegree, kRefractiveIndex), std::hypot(along, cross) * kDegree);
+        const double along = kPublishedAlongWind(wind_speed, incidence) * PublishedAlongWindDiameterFactor(footprint);
+        const double cross = kPublishedCrossWind(wind_speed, incidence) * PublishedCrossWindDiameterFactor(footprint);
+        const AngleMethodUncertainty exact = AngleMethod(StillWaterRefraction(incidence * kDegree, kRefractiveIndex),
+                                                         std::hypot(along, cross) * kDegree);
         const double depth = 6.5;
-        const PulseUncertainty answer =
-            Interpolate(table, AlongWind(wind_speed, incidence, footprint, depth));
+        const PulseUncertainty answer = Interpolate(table, AlongWind(wind_speed, incidence, footprint, depth));
         EXPECT_NEAR(answer[Quantity::kRefractionAlongWind] / along, 1, 0.005);
         EXPECT_NEAR(answer[Quantity::kRefractionCrossWind] / cross, 1, 0.005);
         EXPECT_NEAR(answer[Quantity::kThu] / (depth * exact.thu_per_depth), 1, 0.005);

@@ -11,8 +11,7 @@ const GridOptions kTwoByTwo = {{3, 5}, {0, 20}};
 
 // One row for each wind, two incidences; along, cross.
 RefractionGrid GridOfAngles(double a, double b, double c, double d, double cross) {
-  return {kTwoByTwo,
-          {{{a, 0}, {cross, 0}}, {{b, 0}, {cross, 0}}, {{c, 0}, {cross, 0}}, {{d, 0}, {cross, 0}}}};
+  return {kTwoByTwo, {{{a, 0}, {cross, 0}}, {{b, 0}, {cross, 0}}, {{c, 0}, {cross, 0}}, {{d, 0}, {cross, 0}}}};
 }
 
 TEST(RefractionGrid, CountsRisingAngles) {

@@ -21,8 +21,7 @@ Study Example() {
   study.title = "Table 9: <slopes> & angles";
   study.paragraphs = {"It is less than 1 < 2."};
   study.comparisons = {{"THU", "m", 1.0, 1.5, 0.125, Verdict::kDiffers, "beyond, by far"}};
-  study.tables = {
-      {"table_9", "Angles", {"wind_m_s", "reading"}, {{2.5, "a \"clean\", one"}, {kNoNumber, "b"}}}};
+  study.tables = {{"table_9", "Angles", {"wind_m_s", "reading"}, {{2.5, "a \"clean\", one"}, {kNoNumber, "b"}}}};
   study.figures = {{"figure_9", "Wind and angle"}};
   return study;
 }
@@ -64,9 +63,8 @@ TEST_F(ReportTest, WritesPageTablesAndFigures) {
   EXPECT_EQ(testing::ReadFile(options.folder / "table_9.csv"), CsvOf(Example().tables[0]));
   EXPECT_EQ(testing::ReadFile(options.folder / "summary.csv"), CsvOf(SummaryOf({Example()})));
   EXPECT_EQ(testing::ReadFile(options.folder / "figure_9.svg"), "<svg/>");
-  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(options.folder))
     EXPECT_NE(entry.path().filename().string()[0], '.') << "temporary file left behind: " << entry.path();
-  }
 }
 
 TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
@@ -74,8 +72,8 @@ TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
   ASSERT_TRUE(PrepareReport(options).ok());
   const auto missing = WriteReport({Example()}, options);
   EXPECT_EQ(*missing, "no matplotlib");
-  EXPECT_THAT(Page(), AllOf(HasSubstr("Figures are missing:</strong> no matplotlib"),
-                            HasSubstr("figure_9 is missing"), HasSubstr("a &quot;clean&quot;, one")));
+  EXPECT_THAT(Page(), AllOf(HasSubstr("Figures are missing:</strong> no matplotlib"), HasSubstr("figure_9 is missing"),
+                            HasSubstr("a &quot;clean&quot;, one")));
 }
 
 TEST_F(ReportTest, ReplacesFilesOnlyIfTold) {

@@ -107,9 +107,7 @@ TEST(ArithmeticDecoder, CountsTheBytesThatAreMissing) {
 class FailingSource : public ByteSource {
  public:
   std::uint64_t size() const override { return 1000; }
-  absl::Status ReadAt(std::uint64_t, std::span<char>) const override {
-    return absl::UnavailableError("no disk");
-  }
+  absl::Status ReadAt(std::uint64_t, std::span<char>) const override { return absl::UnavailableError("no disk"); }
 };
 
 TEST(ArithmeticDecoder, KeepsTheFailureOfItsSource) {

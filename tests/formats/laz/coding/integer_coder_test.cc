@@ -56,15 +56,12 @@ TEST(IntegerCoder, DecodesAllThatItEncodes) {
 TEST(IntegerCoder, CodesTheLimitsOfItsRange) {
   constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min(), kMost = ~kLeast;
   std::vector<Prediction> wide;
-  for (const std::int32_t predicted : {kLeast, kLeast + 1, -1, 0, 1, kMost}) {
-    for (const std::int32_t actual : {kLeast, kLeast + 1, -1, 0, 1, kMost})
-      wide.push_back({predicted, actual, 0});
-  }
+  for (const std::int32_t predicted : {kLeast, kLeast + 1, -1, 0, 1, kMost})
+    for (const std::int32_t actual : {kLeast, kLeast + 1, -1, 0, 1, kMost}) wide.push_back({predicted, actual, 0});
   ExpectRoundTrip<32>(wide);
   std::vector<Prediction> narrow;
-  for (const std::int32_t predicted : {0, 1, 0x7FFF, 0x8000, 0xFFFF}) {
+  for (const std::int32_t predicted : {0, 1, 0x7FFF, 0x8000, 0xFFFF})
     for (const std::int32_t actual : {0, 1, 0x7FFF, 0x8000, 0xFFFF}) narrow.push_back({predicted, actual, 0});
-  }
   ExpectRoundTrip<16>(narrow);
 }
 

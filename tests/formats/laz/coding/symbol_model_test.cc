@@ -18,8 +18,7 @@ TEST(SymbolModel, LearnsTheSymbolThatIsCoded) {
   model.Prepare();
   for (int i = 0; i < 30000; ++i) model.Count(5);
   // Each other symbol keeps a share.
-  for (std::uint32_t symbol = 0; symbol < 7; ++symbol)
-    EXPECT_LT(model.Below(symbol), model.Below(symbol + 1));
+  for (std::uint32_t symbol = 0; symbol < 7; ++symbol) EXPECT_LT(model.Below(symbol), model.Below(symbol + 1));
   EXPECT_GT(model.Below(6) - model.Below(5), 32000u);
 }
 

@@ -15,8 +15,8 @@ using ::testing::HasSubstr;
 
 TEST(LaszipRecord, HasTheItemsOfEachPointFormat) {
   const Item point{ItemType::kPoint10, 20, 2}, time{ItemType::kGpsTime11, 8, 2}, rgb{ItemType::kRgb12, 6, 2},
-      packet{ItemType::kWavePacket13, 29, 1}, point14{ItemType::kPoint14, 30, 3},
-      rgb14{ItemType::kRgb14, 6, 3}, nir{ItemType::kRgbNir14, 8, 3}, packet14{ItemType::kWavePacket14, 29, 3};
+      packet{ItemType::kWavePacket13, 29, 1}, point14{ItemType::kPoint14, 30, 3}, rgb14{ItemType::kRgb14, 6, 3},
+      nir{ItemType::kRgbNir14, 8, 3}, packet14{ItemType::kWavePacket14, 29, 3};
   EXPECT_THAT(RecordFor(0, 20, 50000).items, ElementsAre(point));
   EXPECT_THAT(RecordFor(1, 28, 50000).items, ElementsAre(point, time));
   EXPECT_THAT(RecordFor(2, 26, 50000).items, ElementsAre(point, rgb));
@@ -65,19 +65,15 @@ TEST(LaszipRecord, MayHaveAnyOptionsAndVersionOfItsWriter) {
 }
 
 TEST(LaszipRecord, IsRefusedWithEachLie) {
-  constexpr auto kInvalid = absl::StatusCode::kInvalidArgument,
-                 kUnimplemented = absl::StatusCode::kUnimplemented;
+  constexpr auto kInvalid = absl::StatusCode::kInvalidArgument, kUnimplemented = absl::StatusCode::kUnimplemented;
   ExpectRefusal(WithLie<std::uint16_t>(0, 0), kUnimplemented, "compressor 0 (expected 1, 2 or 3)");
   ExpectRefusal(WithLie<std::uint16_t>(0, 4), kUnimplemented, "compressor 4 (expected 1, 2 or 3)");
-  ExpectRefusal(WithLie<std::uint16_t>(0, 3), kUnimplemented,
-                "compressor 3 for point format 3 (expected 1 or 2)");
+  ExpectRefusal(WithLie<std::uint16_t>(0, 3), kUnimplemented, "compressor 3 for point format 3 (expected 1 or 2)");
   ExpectRefusal(WithLie<std::uint16_t>(2, 1), kUnimplemented, "coder 1 (expected 0)");
   ExpectRefusal(WithLie<std::uint32_t>(12, 0), kInvalid, "chunks of 0 points (expected 1 or more)");
-  ExpectRefusal(WithLie<std::uint16_t>(0, 1), kInvalid,
-                "chunks of 50000 points (expected 0 for compressor 1)");
+  ExpectRefusal(WithLie<std::uint16_t>(0, 1), kInvalid, "chunks of 50000 points (expected 0 for compressor 1)");
   ExpectRefusal(WithLie<std::uint16_t>(32, 3), kInvalid, "58 bytes (expected 52 for its 3 items)");
-  ExpectRefusal(WithLie<std::uint16_t>(32, 0xFFFF), kInvalid,
-                "58 bytes (expected 393244 for its 65535 items)");
+  ExpectRefusal(WithLie<std::uint16_t>(32, 0xFFFF), kInvalid, "58 bytes (expected 393244 for its 65535 items)");
   ExpectRefusal(WithLie<std::uint16_t>(34, 10), kInvalid, "items 10 of 20 bytes, 7 of 8 bytes");
   ExpectRefusal(WithLie<std::uint16_t>(36, 21), kInvalid, "expected 6 of 20 bytes, 7 of 8 bytes");
   ExpectRefusal(WithLie<std::uint16_t>(54, 3), kInvalid, "for point format 3 and records of 36 bytes");

@@ -25,8 +25,7 @@ using albtpu::testing::BusyRecords;
 using albtpu::testing::CalmRecords;
 
 LaszipRecord LayeredRecord(int format, std::size_t extra_bytes, int version = 3) {
-  LaszipRecord record =
-      RecordFor(format, albtpu::testing::RecordLength({format, extra_bytes}), kCommonChunkSize);
+  LaszipRecord record = RecordFor(format, albtpu::testing::RecordLength({format, extra_bytes}), kCommonChunkSize);
   for (Item& item : record.items) item.version = static_cast<std::uint16_t>(version);
   return record;
 }
@@ -49,8 +48,7 @@ TEST(Layered, ChunksOfOtherProgramsAreEncodedToTheSameBytes) {
     const std::string file = albtpu::testing::SampleBytes(name);
     if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
     const auto extent = albtpu::testing::ExtentOf(file);
-    const auto table =
-        ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
+    const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
     ASSERT_FALSE(table->chunks.empty()) << name;
     LayeredDecoder decoder(extent->record);
     LayeredEncoder encoder(extent->record);
@@ -122,8 +120,7 @@ TEST_F(WantedReturns, AreDecodedWhateverTheOtherLayersAre) {
     chunk_.replace(LayerBegin(layer), 100, 100, '\xB7');
     EXPECT_TRUE(DecodeInSteps(returns_, chunk_, length_, kPoints, kPoints, decoded_).ok()) << layer;
     EXPECT_TRUE(decoded_ == sound) << layer;
-    EXPECT_FALSE(DecodeInSteps(all_, chunk_, length_, kPoints, kPoints, decoded_).ok() &&
-                 decoded_ == records_)
+    EXPECT_FALSE(DecodeInSteps(all_, chunk_, length_, kPoints, kPoints, decoded_).ok() && decoded_ == records_)
         << layer;
     chunk_ = kept;
   }
@@ -154,8 +151,7 @@ TEST_P(LayeredRoundTrip, PointsAreDecodedAsTheyWere) {
        {BusyRecords({format, extra_bytes}, points), CalmRecords({format, extra_bytes}, points),
         BusyRecords({format, extra_bytes}, points, 2)}) {
     encoder.Encode(records, chunk);
-    for (const std::size_t step :
-         {points, std::size_t{509}, points < 2000 ? std::size_t{1} : std::size_t{20011}}) {
+    for (const std::size_t step : {points, std::size_t{509}, points < 2000 ? std::size_t{1} : std::size_t{20011}}) {
       const absl::Status status = DecodeInSteps(decoder, chunk, length, points, step, decoded);
       ASSERT_TRUE(status.ok()) << status;
       ASSERT_TRUE(decoded == records);
@@ -195,8 +191,7 @@ TEST(Layered, AChunkThatContradictsItselfIsRefused) {
   std::string longer = chunk;
   longer += '\0';
   Store(Load<std::uint32_t>(chunk, 71) + 1, &longer[71]);  // Of layer 10.
-  EXPECT_EQ(message(longer, 100),
-            "its layer 10 has 1 bytes after its last point; get another copy of the file");
+  EXPECT_EQ(message(longer, 100), "its layer 10 has 1 bytes after its last point; get another copy of the file");
   std::string shorter = chunk.substr(0, chunk.size() - 1);
   Store(Load<std::uint32_t>(chunk, 71) - 1, &shorter[71]);
   EXPECT_EQ(message(shorter, 100), "its layer 10 ends before its points; get another copy of the file");

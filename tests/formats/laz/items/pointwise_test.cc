@@ -16,8 +16,8 @@ using albtpu::testing::RecordLength;
 using ::testing::HasSubstr;
 
 // The records of a chunk, decoded `step` at a time.
-absl::StatusOr<std::string> Decode(PointwiseDecoder& decoder, std::size_t record_length,
-                                   std::string_view chunk, std::size_t points, std::size_t step = 50000) {
+absl::StatusOr<std::string> Decode(PointwiseDecoder& decoder, std::size_t record_length, std::string_view chunk,
+                                   std::size_t points, std::size_t step = 50000) {
   const MemorySource source(chunk);
   if (absl::Status status = decoder.Begin(source, 0, chunk.size(), points); !status.ok()) return status;
   std::string records(points * record_length, '\0');
@@ -39,8 +39,7 @@ TEST_P(PointwiseSample, DecodesToItsTwinAndEncodesToItself) {
   if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
   const auto extent = albtpu::testing::ExtentOf(file);
   const std::size_t length = extent->record.record_length();
-  const auto table =
-      ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
+  const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
   PointwiseDecoder decoder(extent->record);
   PointwiseEncoder encoder(extent->record);
   std::string points, encoded;
@@ -56,13 +55,14 @@ TEST_P(PointwiseSample, DecodesToItsTwinAndEncodesToItself) {
   EXPECT_TRUE(points == albtpu::testing::TakeApart(albtpu::testing::SampleBytes(twin_name))->points);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Files, PointwiseSample,
-    ::testing::Values(std::pair{"1815.laz", "1815.las"}, std::pair{"extrabytes.laz", "extrabytes.las"},
-                      std::pair{"point-color.las.laz", "point-color.las"},
-                      std::pair{"point-time.las.laz", "point-time.las"},
-                      std::pair{"point10.las.laz", "point10.las"}, std::pair{"simple.laz", "simple.las"},
-                      std::pair{"plane.laz", nullptr}, std::pair{"autzen_trim.laz", nullptr}));
+INSTANTIATE_TEST_SUITE_P(Files, PointwiseSample,
+                         ::testing::Values(std::pair{"1815.laz", "1815.las"},
+                                           std::pair{"extrabytes.laz", "extrabytes.las"},
+                                           std::pair{"point-color.las.laz", "point-color.las"},
+                                           std::pair{"point-time.las.laz", "point-time.las"},
+                                           std::pair{"point10.las.laz", "point10.las"},
+                                           std::pair{"simple.laz", "simple.las"}, std::pair{"plane.laz", nullptr},
+                                           std::pair{"autzen_trim.laz", nullptr}));
 
 struct DamagedChunk {
   RecordLayout layout{5, 3};

@@ -30,9 +30,8 @@ struct Paths {
 // Of points in these scanner channels, without the first one.
 Paths PathsOf(const std::vector<int>& channels) {
   std::string points(channels.size() * kPoint14Size, '\0');
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < channels.size(); ++i)
     points[i * kPoint14Size + kFlagsOffset] = static_cast<char>(channels[i] << 4);
-  }
   ReturnsLayer<ArithmeticEncoder> layer;
   layer.Begin(points.data());
   ArithmeticEncoder encoder;
@@ -41,9 +40,8 @@ Paths PathsOf(const std::vector<int>& channels) {
   layer.Code(encoder, {points.data() + kPoint14Size, kPoint14Size, channels.size() - 1}, *contexts);
   Paths paths;
   const auto expand = [](const ChannelRuns& runs, std::vector<Path>& of_points) {
-    for (const ChannelRun& run : runs) {
+    for (const ChannelRun& run : runs)
       of_points.insert(of_points.end(), run.end - run.begin, {run.models, run.from, run.to});
-    }
   };
   expand(contexts->runs, paths.common);
   expand(contexts->version3_runs, paths.version3);
@@ -57,13 +55,12 @@ TEST(ReturnsLayer, APointFollowsTheLastOneOfItsChannelOrTheOneBeforeANewChannel)
 
 TEST(ReturnsLayer, ItemsOfVersion3FallBackToChannelZeroAndTakeTheLastPointAlong) {
   EXPECT_EQ(PathsOf({0, 0, 1, 1, 0, 1, 2}).version3,
-            (std::vector<Path>{
-                {0, 0, 0},     // Channel 0 goes on.
-                {1, 0, 1},     // Channel 1 begins after the last point of channel 0.
-                {0, 1, 1},     // It is not stated again: back to the models of 0, with the last point of 1.
-                {0, 0, 0},     // Stated, and the models are those of 0 already.
-                {1, 0, 0},     // The models of 1 are in use: with the last point of 0.
-                {2, 1, 2}}));  // Channel 2 begins after the last point of channel 1.
+            (std::vector<Path>{{0, 0, 0},  // Channel 0 goes on.
+                               {1, 0, 1},  // Channel 1 begins after the last point of channel 0.
+                               {0, 1, 1},  // It is not stated again: back to the models of 0, with the last point of 1.
+                               {0, 0, 0},  // Stated, and the models are those of 0 already.
+                               {1, 0, 0},  // The models of 1 are in use: with the last point of 0.
+                               {2, 1, 2}}));  // Channel 2 begins after the last point of channel 1.
 }
 
 TEST(ReturnsLayer, ItemsOfVersion3LeaveTheChannelOfTheFirstPoint) {

@@ -16,13 +16,11 @@ std::string Problem(std::string_view text) { return std::string(Tokens::Parse(te
 TEST(Tokens, AcceptOnlyTheTokensOfTheirFile) {
   const Tokens tokens = Tokens::Parse(kToken).value();
   EXPECT_TRUE(tokens.Accept("Bearer c0ffee00c0ffee00c0ffee00c0ffee00"));
-  for (const char* wrong :
-       {"", "Bearer", "Bearer ", "c0ffee00c0ffee00c0ffee00c0ffee00", "Basic c0ffee00c0ffee00c0ffee00c0ffee00",
-        "Bearer c0ffee00c0ffee00c0ffee00c0ffee01", "Bearer c0ffee00c0ffee00c0ffee00c0ffee0",
-        "Bearer c0ffee00c0ffee00c0ffee00c0ffee000", "Bearer C0FFEE00C0FFEE00C0FFEE00C0FFEE00",
-        "Bearer  c0ffee00c0ffee00c0ffee00c0ffee00"}) {
+  for (const char* wrong : {"", "Bearer", "Bearer ", "c0ffee00c0ffee00c0ffee00c0ffee00",
+                            "Basic c0ffee00c0ffee00c0ffee00c0ffee00", "Bearer c0ffee00c0ffee00c0ffee00c0ffee01",
+                            "Bearer c0ffee00c0ffee00c0ffee00c0ffee0", "Bearer c0ffee00c0ffee00c0ffee00c0ffee000",
+                            "Bearer C0FFEE00C0FFEE00C0FFEE00C0FFEE00", "Bearer  c0ffee00c0ffee00c0ffee00c0ffee00"})
     EXPECT_FALSE(tokens.Accept(wrong)) << wrong;
-  }
 }
 
 TEST(Tokens, AcceptTheSchemeInAnyCase) {  // RFC 7235, 2.1

@@ -52,14 +52,12 @@ TEST_F(Admin, NamesADamagedTableButNotItsFolder) {
 }
 
 TEST(AdminCallers, AreLocalByTheirAddress) {
-  for (const char* peer : {"ipv4:127.0.0.1:4242", "ipv4:127.0.0.2:1", "ipv6:%5B::1%5D:4242",
-                           "ipv6:[::1]:4242", "unix:/run/albtpu"}) {
+  for (const char* peer :
+       {"ipv4:127.0.0.1:4242", "ipv4:127.0.0.2:1", "ipv6:%5B::1%5D:4242", "ipv6:[::1]:4242", "unix:/run/albtpu"})
     EXPECT_TRUE(IsLocalPeer(peer)) << peer;
-  }
-  for (const char* peer : {"", "ipv4:192.0.2.1:127", "ipv4:12.7.0.1:1", "ipv6:%5B2001:db8::1%5D:1",
-                           "ipv6:%5B::1:2%5D:1", "unknown"}) {
+  for (const char* peer :
+       {"", "ipv4:192.0.2.1:127", "ipv4:12.7.0.1:1", "ipv6:%5B2001:db8::1%5D:1", "ipv6:%5B::1:2%5D:1", "unknown"})
     EXPECT_FALSE(IsLocalPeer(peer)) << peer;
-  }
 }
 
 }  // namespace

@@ -79,9 +79,8 @@ TEST_F(StreamColumns, ReadsNoRequestsWhileItsAnswersAreNotRead) {
   constexpr int kMany = 200;  // 200 answers have 300 MB, more than any window of HTTP/2 or TCP.
   const v1::StreamColumnsRequest request = [] {
     v1::StreamColumnsRequest r = Request(kMaxPulses, 3);
-    for (v1::Quantity q : {v1::QUANTITY_THU, v1::QUANTITY_TVU, v1::QUANTITY_BIAS_VERTICAL}) {
+    for (v1::Quantity q : {v1::QUANTITY_THU, v1::QUANTITY_TVU, v1::QUANTITY_BIAS_VERTICAL})
       r.mutable_query()->add_quantities(q);
-    }
     return r;
   }();
   grpc::CompletionQueue events;
@@ -124,9 +123,7 @@ TEST_F(StreamColumns, FreesEverythingWhenItsCallerCancels) {
     stream->Write(Request(kMaxPulses, 1));
     stream->Write(Request(kMaxPulses, 2));
     v1::StreamColumnsResponse response;
-    if (i % 2 == 0) {
-      ASSERT_TRUE(stream->Read(&response));
-    }
+    if (i % 2 == 0) ASSERT_TRUE(stream->Read(&response));
     context.TryCancel();
     EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }
@@ -184,9 +181,8 @@ TEST_P(InvalidBytes, AreRejected) {
   context.set_wait_for_ready(true);
   grpc::CompletionQueue events;
   const grpc::Slice slice("\x0a\x7fshort");  // A field of 127 bytes, of which there are 5.
-  const auto call =
-      generic.PrepareUnaryCall(&context, std::string("/albtpu.v1.UncertaintyService/") + GetParam(),
-                               grpc::ByteBuffer(&slice, 1), &events);
+  const auto call = generic.PrepareUnaryCall(&context, std::string("/albtpu.v1.UncertaintyService/") + GetParam(),
+                                             grpc::ByteBuffer(&slice, 1), &events);
   call->StartCall();
   grpc::ByteBuffer response;
   grpc::Status status;
@@ -198,8 +194,7 @@ TEST_P(InvalidBytes, AreRejected) {
   EXPECT_THAT(status.error_message(), HasSubstr("do not parse"));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, InvalidBytes,
-                         ::testing::Values("QueryPulses", "QueryColumns", "StreamColumns"));
+INSTANTIATE_TEST_SUITE_P(All, InvalidBytes, ::testing::Values("QueryPulses", "QueryColumns", "StreamColumns"));
 
 }  // namespace
 }  // namespace albtpu::server

@@ -59,8 +59,7 @@ TEST_F(InvalidQueries, OfColumnsAreRefusedByEachMethod) {
     SCOPED_TRACE(message);
     ExpectRefused({}, pulses, grpc::StatusCode::INVALID_ARGUMENT, field, HasSubstr(message));
   };
-  refuse([](v1::PulseColumns& pulses) { pulses.Clear(); }, "pulses",
-         "there are no pulses: send at least one");
+  refuse([](v1::PulseColumns& pulses) { pulses.Clear(); }, "pulses", "there are no pulses: send at least one");
   refuse(
       [](v1::PulseColumns& pulses) {
         pulses.set_incidence(Column({1, 2, 3}));
@@ -68,8 +67,7 @@ TEST_F(InvalidQueries, OfColumnsAreRefusedByEachMethod) {
       "pulses.incidence", "column 'incidence' has 3 numbers, column 'wind_speed' has 5");
   refuse([](v1::PulseColumns& pulses) { pulses.mutable_azimuth()->append("x"); }, "pulses.azimuth",
          "column 'azimuth' has 21 bytes");
-  refuse([](v1::PulseColumns& pulses) { pulses.set_depth("xyz"); }, "pulses.depth",
-         "column 'depth' has 3 bytes");
+  refuse([](v1::PulseColumns& pulses) { pulses.set_depth("xyz"); }, "pulses.depth", "column 'depth' has 3 bytes");
   refuse([](v1::PulseColumns& pulses) { pulses.clear_depth(); }, "pulses.depth", "column 'depth' is empty");
   refuse([](v1::PulseColumns& pulses) { pulses = WireColumns(kMaxPulses + 1); }, "pulses.wind_speed",
          "column 'wind_speed' has 65537 numbers: ");

@@ -47,8 +47,7 @@ class QueryBudget : public ServedTables {
   }
 
   // The request fails because of this field.
-  void ExpectRefused(const v1::QueryBudgetRequest& request, const std::string& field,
-                     const std::string& message) {
+  void ExpectRefused(const v1::QueryBudgetRequest& request, const std::string& field, const std::string& message) {
     v1::QueryBudgetResponse response;
     const grpc::Status status = Call(&v1::UncertaintyService::Stub::QueryBudget, request, response);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << field;
@@ -64,8 +63,7 @@ void ExpectSame(const v1::QueryBudgetResponse& response, const BudgetMemory& exp
   EXPECT_EQ(response.outcomes(), std::string(expected.outcomes.begin(), expected.outcomes.end()));
   EXPECT_EQ(response.outcome_axes(), std::string(expected.outcome_axes.begin(), expected.outcome_axes.end()));
   const v1::BudgetColumns& budget = response.budget();
-  EXPECT_EQ(budget.best_s44_orders(),
-            std::string(expected.best_s44_orders.begin(), expected.best_s44_orders.end()));
+  EXPECT_EQ(budget.best_s44_orders(), std::string(expected.best_s44_orders.begin(), expected.best_s44_orders.end()));
   const auto same = [&](const std::string& column, BudgetQuantity quantity) {
     std::string bytes;
     for (std::size_t i = 0; i < ColumnCount(quantity); ++i)
@@ -226,9 +224,8 @@ TEST_F(QueryBudget, IsCountedByOutcome) {
   double invalid = 0;
   for (const prometheus::MetricFamily& family : metrics_.registry->Collect()) {
     if (family.name != "albtpu_pulses_total") continue;
-    for (const prometheus::ClientMetric& metric : family.metric) {
+    for (const prometheus::ClientMetric& metric : family.metric)
       for (const auto& label : metric.label) invalid += label.value == "aircraft" ? metric.counter.value : 0;
-    }
   }
   EXPECT_EQ(invalid, 1);
 }

@@ -40,18 +40,15 @@ std::vector<int> Bytes(const std::string& column) { return {column.begin(), colu
 
 // A number in a row and in a column: the same bits, or absent in both.
 void ExpectSame(bool present, float row, float column) {
-  if (present) {
+  if (present)
     EXPECT_EQ(std::bit_cast<std::uint32_t>(row), std::bit_cast<std::uint32_t>(column));
-  } else {
+  else
     EXPECT_TRUE(std::isnan(column));
-  }
 }
 
 void ExpectSame(const v1::SeaSurface& row, const v1::SeaSurfaceColumns& columns, int i) {
-  ExpectSame(row.has_refraction_along_wind(), row.refraction_along_wind(),
-             Floats(columns.refraction_along_wind())[i]);
-  ExpectSame(row.has_refraction_cross_wind(), row.refraction_cross_wind(),
-             Floats(columns.refraction_cross_wind())[i]);
+  ExpectSame(row.has_refraction_along_wind(), row.refraction_along_wind(), Floats(columns.refraction_along_wind())[i]);
+  ExpectSame(row.has_refraction_cross_wind(), row.refraction_cross_wind(), Floats(columns.refraction_cross_wind())[i]);
   ExpectSame(row.has_thu(), row.thu(), Floats(columns.thu())[i]);
   ExpectSame(row.has_tvu(), row.tvu(), Floats(columns.tvu())[i]);
   ExpectSame(row.has_bias_along_beam(), row.bias_along_beam(), Floats(columns.bias_along_beam())[i]);
@@ -70,10 +67,8 @@ void ExpectSame(const v1::QueryPulsesResponse& rows, const v1::QueryColumnsRespo
     ExpectSame(row.sea_surface(), columns.sea_surface(), i);
     ExpectSame(row.sea_surface_standard_error(), columns.sea_surface_standard_error(), i);
     EXPECT_EQ(row.s44().best_order(), Bytes(columns.s44().best_orders())[i]);
-    ExpectSame(row.s44().has_remaining_thu(), row.s44().remaining_thu(),
-               Floats(columns.s44().remaining_thu())[i]);
-    ExpectSame(row.s44().has_remaining_tvu(), row.s44().remaining_tvu(),
-               Floats(columns.s44().remaining_tvu())[i]);
+    ExpectSame(row.s44().has_remaining_thu(), row.s44().remaining_thu(), Floats(columns.s44().remaining_thu())[i]);
+    ExpectSame(row.s44().has_remaining_tvu(), row.s44().remaining_tvu(), Floats(columns.s44().remaining_tvu())[i]);
   }
 }
 
@@ -82,9 +77,7 @@ std::vector<v1::Pulse> RandomPulses(std::size_t count, bool with_azimuth) {
   std::mt19937 random(1);
   const auto draw = [&](float from, float to) {
     const unsigned special = random() % 40;
-    return special == 0   ? kNaN
-           : special == 1 ? kInfinity
-                          : std::uniform_real_distribution<float>(from, to)(random);
+    return special == 0 ? kNaN : special == 1 ? kInfinity : std::uniform_real_distribution<float>(from, to)(random);
   };
   std::vector<v1::Pulse> pulses(count);
   for (v1::Pulse& pulse : pulses) {

@@ -48,12 +48,10 @@ class QueryPulses : public ServedTables {
 
 // The server computes in single precision, within 1e-5 of the reference implementation (column_query.h).
 void ExpectNear(const v1::SeaSurface& wire, const std::array<float, kQuantityCount>& values) {
-  const float answered[] = {
-      wire.refraction_along_wind(), wire.refraction_cross_wind(), wire.thu(), wire.tvu(),
-      wire.bias_along_beam(),       wire.bias_vertical()};
-  for (std::size_t q = 0; q < kQuantityCount; ++q) {
+  const float answered[] = {wire.refraction_along_wind(), wire.refraction_cross_wind(), wire.thu(), wire.tvu(),
+                            wire.bias_along_beam(),       wire.bias_vertical()};
+  for (std::size_t q = 0; q < kQuantityCount; ++q)
     EXPECT_NEAR(answered[q], values[q], 1e-5 * std::abs(values[q])) << Describe(kQuantities[q]).name;
-  }
 }
 
 TEST_F(QueryPulses, InterpolatesTheTable) {
@@ -159,12 +157,11 @@ TEST_F(QueryPulses, NamesTheAxisThatIsOutOfDomainAndGivesNoNumbers) {
     float value;
     v1::Axis axis;
   };
-  for (const Case& c : {Case{&v1::Pulse::set_wind_speed, -1, v1::AXIS_WIND_SPEED},
-                        Case{&v1::Pulse::set_wind_speed, 10.1f, v1::AXIS_WIND_SPEED},
-                        Case{&v1::Pulse::set_fetch, 999, v1::AXIS_FETCH},
-                        Case{&v1::Pulse::set_incidence, -0.1f, v1::AXIS_INCIDENCE},
-                        Case{&v1::Pulse::set_footprint, 0, v1::AXIS_FOOTPRINT},
-                        Case{&v1::Pulse::set_depth, -0.5f, v1::AXIS_DEPTH}}) {
+  for (const Case& c :
+       {Case{&v1::Pulse::set_wind_speed, -1, v1::AXIS_WIND_SPEED},
+        Case{&v1::Pulse::set_wind_speed, 10.1f, v1::AXIS_WIND_SPEED}, Case{&v1::Pulse::set_fetch, 999, v1::AXIS_FETCH},
+        Case{&v1::Pulse::set_incidence, -0.1f, v1::AXIS_INCIDENCE},
+        Case{&v1::Pulse::set_footprint, 0, v1::AXIS_FOOTPRINT}, Case{&v1::Pulse::set_depth, -0.5f, v1::AXIS_DEPTH}}) {
     v1::Pulse pulse = WirePulse();
     (pulse.*c.set)(c.value);
     v1::QueryOptions options;

@@ -91,8 +91,7 @@ TEST_F(SeaQueries, GetTheTableAsAFile) {
 
 TEST_F(SeaQueries, NeedASeaToCompile) {
   v1::CompileSeaResponse response;
-  const grpc::Status status =
-      Call(&v1::UncertaintyService::Stub::CompileSea, v1::CompileSeaRequest(), response);
+  const grpc::Status status = Call(&v1::UncertaintyService::Stub::CompileSea, v1::CompileSeaRequest(), response);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(status.error_message(), HasSubstr("sea is missing"));
 }

@@ -47,8 +47,7 @@ TEST(SeaRequest, NamesAWrongNumberOfTheSea) {
   state.set_water_depth(0);
   state.set_tail_from(1e6);
   state.set_tail_rule(static_cast<v1::TailRule>(17));
-  EXPECT_THAT(PathsIn(state),
-              ElementsAre("wind_speed", "wind_from", "water_depth", "tail_from", "tail_rule"));
+  EXPECT_THAT(PathsIn(state), ElementsAre("wind_speed", "wind_from", "water_depth", "tail_from", "tail_rule"));
 }
 
 TEST(SeaRequest, NamesAWrongNumberOfAComponent) {
@@ -61,9 +60,9 @@ TEST(SeaRequest, NamesAWrongNumberOfAComponent) {
   second.set_travels_towards(500);
   second.set_spread(2);
   EXPECT_THAT(PathsIn(state),
-              ElementsAre("components.components[1].significant_wave_height",
-                          "components.components[1].peak_period", "components.components[1].gamma",
-                          "components.components[1].travels_towards", "components.components[1].spread"));
+              ElementsAre("components.components[1].significant_wave_height", "components.components[1].peak_period",
+                          "components.components[1].gamma", "components.components[1].travels_towards",
+                          "components.components[1].spread"));
 }
 
 TEST(SeaRequest, TakesOneToSixteenComponents) {
@@ -97,8 +96,7 @@ TEST(SeaRequest, NamesTheFirstWrongNumberOfAList) {
               ElementsAre("frequency_spectrum.densities"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_cosines(3, 2 * spectrum.densities(3)); }),
               ElementsAre("frequency_spectrum.cosines[3]"));
-  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_sines(3, kNaN); }),
-              ElementsAre("frequency_spectrum.cosines[3]"));
+  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_sines(3, kNaN); }), ElementsAre("frequency_spectrum.cosines[3]"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.add_cosines(0); }),
               ElementsAre("frequency_spectrum.cosines", "frequency_spectrum.sines"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.clear_sines(); }), ElementsAre("frequency_spectrum.sines"));

@@ -42,8 +42,7 @@ class SeaTablesTest : public ::testing::Test {
     for (const prometheus::MetricFamily& family : registry_.Collect()) {
       if (family.name != name) continue;
       for (const prometheus::ClientMetric& metric : family.metric)
-        if (result.empty() || metric.label.at(0).value == result)
-          sum += metric.counter.value + metric.gauge.value;
+        if (result.empty() || metric.label.at(0).value == result) sum += metric.counter.value + metric.gauge.value;
     }
     return sum;
   }

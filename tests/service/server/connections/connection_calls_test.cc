@@ -53,9 +53,8 @@ TEST_F(ConnectionCallsTest, IdentifiesTheCallerByItsAddress) {
   const std::string text = ToText(connections[0].caller);
   EXPECT_EQ(text.substr(0, 15), "ipv4:127.0.0.1:") << text;
   int descriptors = 0;  // Of the server's end; the peer of the client's end is the server.
-  for (int descriptor = 0; descriptor < 1024; ++descriptor) {
+  for (int descriptor = 0; descriptor < 1024; ++descriptor)
     descriptors += CallerOf(descriptor) == connections[0].caller ? 1 : 0;
-  }
   EXPECT_EQ(descriptors, 1);
 }
 

@@ -26,9 +26,8 @@ TEST(CallersToDisconnect, AreNoneIfAllAreWithinTheLimits) {
 }
 
 TEST(CallersToDisconnect, AreThoseAboveTheLimitOfAConnection) {
-  EXPECT_EQ(
-      PortsToDisconnect({Connection(1, 1), Connection(2, kMaxCallsInMemory + 1), Connection(3, 100'000)}),
-      std::vector<int>({3, 2}));
+  EXPECT_EQ(PortsToDisconnect({Connection(1, 1), Connection(2, kMaxCallsInMemory + 1), Connection(3, 100'000)}),
+            std::vector<int>({3, 2}));
 }
 
 TEST(CallersToDisconnect, AreThoseWithTheMostCallsIfTheTotalIsTooHigh) {

@@ -21,9 +21,8 @@ std::vector<std::string> Details(const absl::Status& status) {
   for (const google::protobuf::Any& detail : details.details()) {
     google::rpc::BadRequest request;
     EXPECT_TRUE(detail.UnpackTo(&request));
-    for (const auto& violation : request.field_violations()) {
+    for (const auto& violation : request.field_violations())
       texts.push_back(violation.field() + ": " + violation.description());
-    }
   }
   return texts;
 }
@@ -54,8 +53,7 @@ TEST(ToGrpcStatus, PassesOnErrorsThatTheCallerCanCorrect) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(status.error_message(), "send at least one");
   EXPECT_EQ(ToGrpcStatus(absl::NotFoundError("")).error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(ToGrpcStatus(absl::FailedPreconditionError("")).error_code(),
-            grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(ToGrpcStatus(absl::FailedPreconditionError("")).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(ToGrpcStatus(absl::PermissionDeniedError("")).error_code(), grpc::StatusCode::PERMISSION_DENIED);
   EXPECT_EQ(ToGrpcStatus(absl::CancelledError("")).error_code(), grpc::StatusCode::CANCELLED);
 }

@@ -17,11 +17,13 @@ using Text = FileValue<std::string>;
 class FileValueTest : public ::testing::Test {
  protected:
   absl::StatusOr<std::unique_ptr<Text>> Open() {
-    return Text::Open({path_}, [this]() -> absl::StatusOr<std::string> {
-      std::string word;
-      if (std::ifstream(path_) >> word) return word;
-      return absl::InvalidArgumentError("no word: expected one");
-    });
+    return Text::Open(
+        {path_},
+        [this]() -> absl::StatusOr<std::string> {
+          std::string word;
+          if (std::ifstream(path_) >> word) return word;
+          return absl::InvalidArgumentError("no word: expected one");
+        });
   }
 
   // Replaces the file atomically.
@@ -61,12 +63,11 @@ TEST_F(FileValueTest, StaysWhileTheFileIsInvalid) {
 TEST_F(FileValueTest, IsReadAgainAfterATemporaryError) {
   Write("first");
   bool readable = true;
-  const auto value =
-      Text::Open({path_}, [&]() -> absl::StatusOr<std::string> {
-        std::string word;
-        std::ifstream(path_) >> word;
-        return readable ? absl::StatusOr<std::string>(word) : absl::InternalError("too many open files");
-      }).value();
+  const auto value = Text::Open({path_}, [&]() -> absl::StatusOr<std::string> {
+                       std::string word;
+                       std::ifstream(path_) >> word;
+                       return readable ? absl::StatusOr<std::string>(word) : absl::InternalError("too many open files");
+                     }).value();
   readable = false;
   Write("other");
   EXPECT_EQ(*value->Get(), "first");

@@ -31,16 +31,15 @@ TEST(IdleWatch, StartsAgainAfterActivity) {
     watch.NoteActivity();
     active_in_time = steady_clock::now() - begin < limit;
     idle.get_future().wait();
-    if (active_in_time) {
-      EXPECT_GE(steady_clock::now() - begin, 2 * limit);
-    }
+    if (active_in_time) EXPECT_GE(steady_clock::now() - begin, 2 * limit);
   }
 }
 
 TEST(IdleWatch, NoticesNothingAfterItsDestruction) {
   bool noticed = false;
   {
-    const IdleWatch watch(kLong, [&] { noticed = true; });
+    const IdleWatch watch(
+        kLong, [&] { noticed = true; });
   }
   EXPECT_FALSE(noticed);
 }

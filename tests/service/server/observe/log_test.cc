@@ -17,8 +17,7 @@ using ::testing::MatchesRegex;
 class LogLines {
  public:
   explicit LogLines(LogStyle style) : before_(spdlog::default_logger()) {
-    auto logger =
-        std::make_shared<spdlog::logger>("program", std::make_shared<spdlog::sinks::ostream_sink_st>(text_));
+    auto logger = std::make_shared<spdlog::logger>("program", std::make_shared<spdlog::sinks::ostream_sink_st>(text_));
     logger->set_formatter(MakeLogFormatter(style));
     spdlog::set_default_logger(logger);
   }

@@ -43,9 +43,7 @@ class LiveTablesTest : public ::testing::Test {
     return kinds;
   }
 
-  std::string DigestOf(std::string_view name) {
-    return OrDie(tables_->current()->Find(name))->table.digest();
-  }
+  std::string DigestOf(std::string_view name) { return OrDie(tables_->current()->Find(name))->table.digest(); }
 
   testing::TemporaryFolder folder_;
   std::optional<LiveTables> tables_;
@@ -53,8 +51,7 @@ class LiveTablesTest : public ::testing::Test {
 
 TEST_F(LiveTablesTest, ShareUnchangedTables) {
   const auto before = tables_->current();
-  EXPECT_EQ(Kinds(Reload()),
-            (std::map<std::string, Kind>{{"quick", Kind::kKept}, {"survey/1", Kind::kKept}}));
+  EXPECT_EQ(Kinds(Reload()), (std::map<std::string, Kind>{{"quick", Kind::kKept}, {"survey/1", Kind::kKept}}));
   const auto after = tables_->current();
   EXPECT_NE(after, before);
   EXPECT_EQ(after->entries(), before->entries());  // The same objects.
@@ -65,9 +62,8 @@ TEST_F(LiveTablesTest, LoadNewAndChangedTablesAndDropRemovedOnes) {
   Put("survey/1.h5", 3);
   std::filesystem::remove(folder_ / "quick.h5");
   const std::string survey = DigestOf("survey");
-  EXPECT_EQ(Kinds(Reload()),
-            (std::map<std::string, Kind>{
-                {"bay", Kind::kLoaded}, {"survey/1", Kind::kLoaded}, {"quick", Kind::kRemoved}}));
+  EXPECT_EQ(Kinds(Reload()), (std::map<std::string, Kind>{
+                                 {"bay", Kind::kLoaded}, {"survey/1", Kind::kLoaded}, {"quick", Kind::kRemoved}}));
   EXPECT_NE(DigestOf("survey"), survey);
   EXPECT_EQ(tables_->current()->Find("quick").status().code(), absl::StatusCode::kNotFound);
 }
