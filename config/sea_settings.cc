@@ -11,10 +11,9 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "formats/text/text.h"
-#include "formats/text/usage_error.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"
-#include "sea/spectra/dispersion.h"
+#include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu::config {
 namespace {

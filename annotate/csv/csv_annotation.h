@@ -12,7 +12,7 @@
 #include "annotate/csv/csv_pulses.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/total_summary.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 
 namespace albtpu::annotate {
 

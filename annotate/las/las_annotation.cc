@@ -15,7 +15,7 @@
 #include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
 #include "formats/las/las_writer.h"
-#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/items/point_encoders.h"
 #include "formats/text/text.h"
 
 namespace albtpu::annotate {

@@ -13,7 +13,7 @@
 #include "annotate/answers/uncertainty_summary.h"
 #include "annotate/las/las_chunk.h"
 #include "annotate/run/file_progress.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
 #include "service/client/uncertainty_source.h"

@@ -10,7 +10,7 @@
 #include "annotate/answers/run_verdict.h"
 #include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::annotate {

@@ -10,7 +10,7 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/answer_counts.h"
 #include "annotate/answers/json_box.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::annotate {

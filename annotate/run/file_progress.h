@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "absl/status/status.h"
-#include "formats/text/usage_error.h"
+#include "formats/text/text.h"
 
 namespace albtpu::annotate {
 

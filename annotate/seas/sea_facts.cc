@@ -12,7 +12,6 @@
 #include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
 #include "sea/sea_time.h"
-#include "sea/spectra/dispersion.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/table/sea_attributes.h"
 

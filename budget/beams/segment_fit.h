@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 
-#include "budget/beams/ray_thinning.h"
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/track_spline.h"

@@ -17,7 +17,6 @@
 #include <string>
 
 #include "budget/beams/displacement_fit.h"
-#include "budget/beams/ray_thinning.h"
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/return_pair.h"
 

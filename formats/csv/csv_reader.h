@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 
 namespace albtpu::formats {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "formats/las/las_header.h"
 #include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/laz_points.h"

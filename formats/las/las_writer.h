@@ -10,7 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_reader.h"
 #include "formats/laz/chunk_table.h"

@@ -8,7 +8,19 @@
 #include <string_view>
 #include <vector>
 
+#include "absl/status/status.h"
+
 namespace albtpu::formats {
+
+// Exit codes of all programs, and the error whose exit code is that of bad usage.
+
+// 0 is success.
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;  // arguments that the program does not take
+
+// An InvalidArgument whose cause is the command line, rather than a file or a server.
+absl::Status UsageError(std::string_view message);
+bool IsUsageError(const absl::Status& status);
 
 // The number of edits that turn `a` into `b`: a character inserted, deleted or replaced, or two neighbours swapped
 // (the optimal string alignment distance, which edits no substring twice).

@@ -9,7 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "formats/files/mapped_file.h"
+#include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_columns.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"

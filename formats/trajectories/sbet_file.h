@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
-#include "formats/files/mapped_file.h"
+#include "formats/files/file_access.h"
 #include "formats/trajectories/sbet_diagnosis.h"
 #include "formats/trajectories/trajectory.h"
 #include "formats/trajectories/trajectory_time.h"

@@ -14,7 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/crs/proj_crs.h"
-#include "formats/files/mapped_file.h"
+#include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"

@@ -175,8 +175,6 @@ Eigen::Matrix2d HeightSlopeProduct::Covariance(const BeamOptions& beam) const {
 
 namespace {
 
-using Waves = Eigen::MatrixXcd;  // in the layout of ForwardFft
-
 double FarthestOf(const std::vector<Ray>& rays) {
   double farthest = 0;
   for (const Ray& ray : rays) farthest = std::max(farthest, ray.at_zero.cwiseAbs().maxCoeff());

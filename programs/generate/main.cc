@@ -12,7 +12,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "formats/text/usage_error.h"
+#include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
 #include "programs/generate/commands.h"
 #include "programs/generate/point_flags.h"

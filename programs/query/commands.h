@@ -27,5 +27,7 @@ void AddSensorsCommand(CLI::App& program, Run& run);
 void AddKeysCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
+void AddReportCommand(CLI::App& program, Run& run);
+void AddCrossCheckCommand(CLI::App& program, Run& run);
 
 }  // namespace albtpu::programs

@@ -10,7 +10,6 @@
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
-#include "programs/query/report_commands.h"
 #include "tables/version.h"
 
 namespace {

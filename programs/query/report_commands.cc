@@ -1,5 +1,3 @@
-#include "programs/query/report_commands.h"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
@@ -14,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
+#include "programs/query/commands.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/report_folder.h"
 #include "tables/s44.h"

@@ -21,7 +21,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "formats/files/output_file.h"
+#include "formats/files/file_access.h"
 #include "quality/report/grid_file.h"
 #include "tables/default_tables.h"
 

@@ -201,8 +201,6 @@ LagProducts::LagProducts(const LagCovariances& r) {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 // The second derivatives d_xx, d_xy and d_yy of the square of f, of which a ring has the part that is added: by the
 // harmonics of f on the ring and of its derivative by ln s.
 Eigen::Array3d RingOfSquare(const Eigen::VectorXcd& f, const Eigen::VectorXcd& slope) {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sea/spectra/dispersion.h"
 #include "sea/spectra/elfouhaily_spectrum.h"
 #include "sea/spectra/equilibrium_wind.h"
+#include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sea/spectra/dispersion.h"
+#include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sea/spectra/dispersion.h"
+#include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wave_spectrum.h"
 #include "sea/spectra/wave_spreading.h"
 

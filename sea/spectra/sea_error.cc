@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "sea/spectra/binned_spectrum.h"
-#include "sea/spectra/dispersion.h"
 #include "sea/spectra/spectral_tail.h"
 #include "sea/spectra/spectrum_moments.h"
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "sea/spectra/dispersion.h"
+#include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {
 namespace {

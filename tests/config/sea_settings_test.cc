@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "config/survey_settings.h"
-#include "formats/text/usage_error.h"
+#include "formats/text/text.h"
 
 namespace albtpu::config {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "formats/files/mapped_file.h"
+#include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/sbet_file.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "generator/math/random_stream.h"
 
 namespace albtpu {
 
@@ -35,5 +36,31 @@ class PublishedTable {
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };
+
+// The angle method of the paper: THU and TVU from the 2 sigma of a refraction angle. See the section "From an angle
+// to THU and TVU" of docs/physics.md.
+//
+// It converts the tables of published angles to uncertainties of position. The tables made by this program do not
+// need it: they take the errors of position from the traced beams themselves.
+
+// 2 sigma, m per m of depth.
+struct AngleMethodUncertainty {
+  double thu_per_depth, tvu_per_depth;
+};
+
+// Birkebak et al. (2018), Eq. 24-26 at a depth of 1 m: 2 std(tan(theta + delta)) and 2 std(cos(theta) / cos(theta +
+// delta)), with delta normal and `two_sigma_angle` [rad] twice its standard deviation. theta is `refracted`, the
+// angle of the ray in still water; the paper says only "incidence", but this angle reproduces Table 5 and the
+// incidence in air does not.
+//
+// A normal delta has a tiny probability (1e-150 in Table 5) of reaching the horizontal, where tangent and secant have
+// no variance. It is therefore cut at eight standard deviations, beyond which 1e-15 of it lies, and the ray must
+// still go down there: refracted + 4 two_sigma_angle < pi/2. The moments are computed by the trapezoidal rule in
+// delta, which is exact to rounding for a smooth function under a normal density.
+AngleMethodUncertainty AngleMethod(double refracted, double two_sigma_angle);
+
+// The same as the paper computes it: from the sample standard deviations over `draws` (at least 2) random values of
+// delta. Both have a relative standard error of about 1 / sqrt(2 draws).
+AngleMethodUncertainty AngleMethodByDraws(double refracted, double two_sigma_angle, int draws, NormalStream stream);
 
 }  // namespace albtpu

@@ -12,7 +12,7 @@
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "tables/version.h"
-#include "validation/published/angle_method.h"
+#include "validation/published/published_table.h"
 
 namespace albtpu {
 double PublishedAlongWindDiameterFactor(double diameter) {

@@ -9,7 +9,6 @@
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "tables/s44.h"
-#include "validation/published/angle_method.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
 #include "validation/studies/response_comparison.h"

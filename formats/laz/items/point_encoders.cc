@@ -9,7 +9,6 @@
 
 #include "formats/laz/coding/little_endian.h"
 #include "formats/laz/items/chunk_decoder.h"
-#include "formats/laz/items/chunk_encoder.h"
 #include "formats/laz/items/point_contexts.h"
 
 namespace albtpu::laz {

@@ -2,16 +2,29 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "formats/laz/coding/arithmetic_encoder.h"
-#include "formats/laz/items/chunk_encoder.h"
 #include "formats/laz/items/laszip_record.h"
 #include "formats/laz/items/layered_point.h"
 #include "formats/laz/items/pointwise_items.h"
 
 namespace albtpu::laz {
+
+// The compressed bytes of a chunk, from its points.
+
+// Encodes one chunk after the other; the memory for the models is used again.
+class ChunkEncoder {
+ public:
+  // For a record by RecordFor().
+  static std::unique_ptr<ChunkEncoder> For(const LaszipRecord& record);
+  virtual ~ChunkEncoder() = default;
+
+  // Compresses `records`, one point or more, into `chunk`, whose contents it replaces.
+  virtual void Encode(std::string_view records, std::string& chunk) = 0;
+};
 
 class PointwiseEncoder : public ChunkEncoder {
  public:

@@ -11,7 +11,7 @@
 #include "service/column_message.h"
 #include "service/server/calls/query_columns.h"
 #include "service/server/calls/sea_request.h"
-#include "service/server/observe/sea_metrics.h"
+#include "service/server/observe/metric_collectors.h"
 
 namespace albtpu::server {
 

@@ -13,7 +13,7 @@
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/column_message.h"
 #include "service/server/calls/sea_request.h"
-#include "service/server/observe/sea_metrics.h"
+#include "service/server/observe/metric_collectors.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
 

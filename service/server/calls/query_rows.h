@@ -7,7 +7,7 @@
 #include "absl/status/status.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/server/calls/sea_request.h"
-#include "service/server/observe/sea_metrics.h"
+#include "service/server/observe/metric_collectors.h"
 
 namespace albtpu::server {
 

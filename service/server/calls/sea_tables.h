@@ -17,7 +17,7 @@
 #include "service/seas/known_sea.h"
 #include "service/server/ground/limits.h"
 #include "service/server/observe/log.h"
-#include "service/server/observe/sea_metrics.h"
+#include "service/server/observe/metric_collectors.h"
 #include "service/server/tables/wire_enums.h"
 #include "tables/digest.h"
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "service/server/observe/sea_metrics.h"
+#include "service/server/observe/metric_collectors.h"
 #include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {

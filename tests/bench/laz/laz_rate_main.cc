@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/items/point_encoders.h"
 #include "formats/laz/laz_points.h"
 #include "tests/formats/laz/laz_bytes.h"
 

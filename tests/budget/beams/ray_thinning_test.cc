@@ -1,9 +1,9 @@
-#include "budget/beams/ray_thinning.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "budget/beams/return_pair.h"
 
 namespace albtpu {
 namespace {

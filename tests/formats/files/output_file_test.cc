@@ -1,8 +1,7 @@
-#include "formats/files/output_file.h"
-
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "formats/files/file_access.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {

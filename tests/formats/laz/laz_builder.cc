@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/items/point_encoders.h"
 
 namespace albtpu::testing {
 

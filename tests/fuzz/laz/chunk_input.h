@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "formats/laz/items/chunk_decoder.h"
-#include "formats/laz/items/chunk_encoder.h"
 #include "formats/laz/items/laszip_record.h"
+#include "formats/laz/items/point_encoders.h"
 
 namespace albtpu::fuzz {
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <numbers>
 
-#include "sea/spectra/dispersion.h"
 #include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "sea/spectra/binned_spectrum.h"
-#include "sea/spectra/dispersion.h"
 #include "sea/spectra/elfouhaily_spectrum.h"
 #include "sea/spectra/equilibrium_wind.h"
 #include "sea/spectra/jonswap.h"

@@ -1,11 +1,10 @@
-#include "sea/spectra/dispersion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wave_spectrum.h"
 
 namespace albtpu {

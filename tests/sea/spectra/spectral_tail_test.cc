@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "sea/spectra/binned_spectrum.h"
-#include "sea/spectra/dispersion.h"
+#include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sea/response/closed_form.h"
-#include "validation/published/angle_method.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
 #include "validation/published/refraction_grid.h"

@@ -1,8 +1,8 @@
-#include "validation/published/angle_method.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "validation/published/published_table.h"
 
 namespace albtpu {
 namespace {

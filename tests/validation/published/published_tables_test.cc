@@ -7,7 +7,7 @@
 #include "sea/response/closed_form.h"
 #include "tables/file/table_io.h"
 #include "tables/query/interpolation.h"
-#include "validation/published/angle_method.h"
+#include "validation/published/published_table.h"
 
 namespace albtpu {
 namespace {

@@ -1,4 +1,4 @@
-#include "formats/files/mapped_file.h"
+#include "formats/files/file_access.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
@@ -47,6 +48,32 @@ absl::StatusOr<MappedFile> MappedFile::Open(const std::filesystem::path& path, s
 
 MappedFile::~MappedFile() {
   if (mapped_) munmap(const_cast<char*>(data_), size_);
+}
+
+FileStamp FileStamp::Of(int descriptor) {
+  FileStamp stamp;
+  struct stat status;
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return stamp;
+  stamp.is_regular_ = true;
+  stamp.size_ = static_cast<std::uint64_t>(status.st_size);
+  stamp.modified_ = status.st_mtim;
+  return stamp;
+}
+
+absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) const {
+  const FileStamp now = Of(descriptor);
+  if (now.size_ == size_ && now.modified_.tv_sec == modified_.tv_sec && now.modified_.tv_nsec == modified_.tv_nsec)
+    return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrCat(name, ": changed while it was read (", size_, " bytes, then ", now.size_,
+                   "), so nothing was written; run again when no program writes to it"));
+}
+
+absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(input, output, ignored))
+    return absl::FailedPreconditionError(absl::StrCat(output.string(), ": is the input itself; write to another file"));
+  return absl::OkStatus();
 }
 
 }  // namespace albtpu::formats

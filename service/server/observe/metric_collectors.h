@@ -3,6 +3,7 @@
 
 #include <prometheus/collectable.h>
 #include <prometheus/counter.h>
+#include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
@@ -11,9 +12,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "absl/status/statusor.h"
+#include "service/server/ground/listening_sockets.h"
 #include "service/server/tables/table_catalog.h"
 #include "tables/schema.h"
 
@@ -71,6 +76,26 @@ struct OutcomeTally {
 
   // Adds pulses given by their columns on the wire: the numbers of `Outcome` and `Axis`.
   void Add(std::span<const std::uint8_t> outcomes, std::span<const std::uint8_t> outcome_axes);
+};
+
+// The endpoint that Prometheus scrapes: plain HTTP, GET /metrics.
+
+class MetricsEndpoint {
+ public:
+  // Listens until it is destroyed, and serves the metrics of all `sources` that still exist. Unavailable, with the
+  // reason, if it cannot listen.
+  static absl::StatusOr<std::unique_ptr<MetricsEndpoint>> Start(
+      const ListenAddress& address, const std::vector<std::shared_ptr<prometheus::Collectable>>& sources);
+
+  // HOST:PORT with the actual port.
+  const std::string& address() const { return address_; }
+
+ private:
+  MetricsEndpoint(std::unique_ptr<prometheus::Exposer> exposer, std::string address)
+      : exposer_(std::move(exposer)), address_(std::move(address)) {}
+
+  std::unique_ptr<prometheus::Exposer> exposer_;
+  std::string address_;
 };
 
 }  // namespace albtpu::server
