@@ -276,7 +276,8 @@ std::optional<double> ReadNumber(CampaignFile& file, const CampaignKey& key);
 std::optional<std::int64_t> ReadWhole(CampaignFile& file, const CampaignKey& key);
 std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key);  // see NodesProblem
 
-// What is wrong with nodes that ReadNodes gave, of which there is one at least; empty if nothing is. Their order is checked by Axis::Create.
+// What is wrong with nodes that ReadNodes gave, of which there is one at least; empty if nothing is. Their order is
+// checked by Axis::Create.
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);
 
 // "effort.rays".
