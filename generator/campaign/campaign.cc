@@ -24,12 +24,12 @@ WindSea ReadWindSea(CampaignFile& file) {
   const std::string spectrum = ReadText(file, campaign_keys::kSpectrum);
   for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading})
     if (file[campaign_keys::kSeaFile.table].Has(campaign_keys::kSeaFile.name) && file[key.table].Has(key.name))
-      file.Fail(key.table, key.name, "has no effect on the sea of 'sea.file'; leave it out");
+      file[key.table].Fail(key.name, "has no effect on the sea of 'sea.file'; leave it out");
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
   const std::optional<double> spreading = ReadNumber(file, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
-    file.Fail("sea", "spreading",
-              absl::StrCat("is not taken by \"", spectrum, "\", which has a spreading of its own; leave it out"));
+    file["sea"].Fail("spreading", absl::StrCat("is not taken by \"", spectrum,
+                                               "\", which has a spreading of its own; leave it out"));
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
@@ -49,7 +49,7 @@ std::optional<SeaOfFile> ReadSeaOfFile(CampaignFile& file) {
   if (!sea.file.empty()) return sea;
   for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom})
     if (file[key.table].Has(key.name))
-      file.Fail(key.table, key.name, "goes with 'sea.file' only; add the file, or leave it out");
+      file[key.table].Fail(key.name, "goes with 'sea.file' only; add the file, or leave it out");
   return std::nullopt;
 }
 

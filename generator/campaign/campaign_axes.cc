@@ -180,7 +180,7 @@ Nodes ReadNodesOfSea(CampaignFile& file, bool has_sea_file) {
     if (!has_sea_file || !IsOfWindSea(axis))
       nodes[Index(axis)] = InSinglePrecision(ReadNodes(file, key));
     else if (file[key.table].Has(key.name))
-      file.Fail(key.table, key.name, "has no place beside 'sea.file', which is one sea; leave it out");
+      file[key.table].Fail(key.name, "has no place beside 'sea.file', which is one sea; leave it out");
   }
   return nodes;
 }
