@@ -1,5 +1,5 @@
-// A query about a batch of pulses: how its answers are stated, the pulses, and memory for the answers. The memory
-// is reused from batch to batch.
+// A query about a batch of pulses: how its answers are stated, the pulses and their coordinates, the memory for the
+// answers, which is reused from batch to batch, and the source that gives them.
 #pragma once
 
 #include <array>

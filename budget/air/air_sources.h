@@ -1,5 +1,5 @@
 // The errors of the air side of one pulse, source by source, in double precision: the slow and obvious twin of
-// air_covariance-inl.h, and what explains a pulse to a person.
+// air_covariance-inl.h, and what explains a pulse to a person. At the end the constants of that twin.
 #pragma once
 
 #include <Eigen/Core>

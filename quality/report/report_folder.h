@@ -1,4 +1,4 @@
-// The folder of a report: report.json, grid.nc and report.html, which appear together.
+// The folder of a report or a plan: its files, which appear together, its page, and the verdict for the terminal.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +12,8 @@
 #include "tables/file/existing.h"
 
 namespace albtpu::quality {
+
+// The folder of a report: report.json, grid.nc and report.html, which appear together.
 
 // Makes the folder. AlreadyExists if it has files and is to be kept; PermissionDenied if it cannot be written to.
 absl::Status PrepareFolder(const std::filesystem::path& folder, Existing existing);

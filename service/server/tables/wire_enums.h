@@ -1,4 +1,5 @@
-// Converts between the enums of the wire and those of tables/.
+// Tables on the wire: a table that answers, its message, and the conversion between the enums of the wire and those of
+// tables/.
 #pragma once
 
 #include <optional>
