@@ -14,7 +14,7 @@
 //     source = "..."
 //
 // The tables are the sources of error that a sensor may state (budget/air/air_errors.h): standard deviations, of which
-// some are a list of three; and the divergence. What nobody publishes is absent.
+// some are a list of three; and the divergence. What is not published is absent.
 #pragma once
 
 #include <algorithm>
