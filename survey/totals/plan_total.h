@@ -22,8 +22,8 @@ struct TotalContext {
   bool decided = true;
 };
 
-// UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part of
-// the total is not decided. `survey.sensor` must have a name.
+// UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part
+// of the total is not decided. `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 
 // The wind sea by which a table of winds was made, for the height of waves that the location of the surface does not
