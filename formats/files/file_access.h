@@ -47,8 +47,6 @@ class MappedFile {
   bool mapped_ = false;
 };
 
-// The output of a command: a file that appears under its name only when it is complete.
-
 // Detects that an input file was modified while it was read.
 
 // Size and modification time of an open file. Pipes and devices have neither, and count as unchanged.
