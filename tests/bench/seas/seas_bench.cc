@@ -22,6 +22,7 @@ namespace albtpu::bench {
 namespace {
 
 using namespace albtpu::annotate;
+using namespace albtpu::client;
 using namespace albtpu::formats;
 
 constexpr double kHour = 3600, kStart = 1591588800;
