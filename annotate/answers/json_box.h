@@ -9,7 +9,7 @@ namespace albtpu::annotate {
 class JsonBox {
  public:
   JsonBox();  // null
-  JsonBox(nlohmann::ordered_json json);
+  explicit JsonBox(nlohmann::ordered_json json);
   JsonBox(const JsonBox& other);
   JsonBox(JsonBox&& other) noexcept;  // `other` may only be assigned to or destroyed.
   JsonBox& operator=(JsonBox other) noexcept;

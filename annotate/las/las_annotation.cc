@@ -148,7 +148,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
   if (!status.ok()) return status;
   if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok())
     return plausible;
-  annotated.geometry = (*beams)->Json();
+  annotated.geometry = JsonBox((*beams)->Json());
   annotated.notes = (*beams)->Notes();
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
@@ -166,7 +166,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
   }
   if (annotation.seas != nullptr) {
     const auto [first, last] = (*beams)->records();
-    annotated.sea = SeasJson(*annotation.seas, first, last);
+    annotated.sea = JsonBox(SeasJson(*annotation.seas, first, last));
     const std::vector<std::string> notes = SeasNotes(*annotation.seas, first, last);
     annotated.notes.insert(annotated.notes.end(), notes.begin(), notes.end());
   }

@@ -110,8 +110,8 @@ absl::Status RunCsv(const CsvOptions& given) {
     if (!total->has_value())
       return annotate::AnnotatedFile{std::move(csv->file),
                                      annotate::Findings{.input_bytes = csv->input_bytes,
-                                                        .input = answerer->SeaJson(),
-                                                        .answers = csv->summary.Json(),
+                                                        .input = annotate::JsonBox(answerer->SeaJson()),
+                                                        .answers = annotate::JsonBox(csv->summary.Json()),
                                                         .tally = csv->summary.Tally()},
                                      absl::StrCat(" ", outcomes, notes)};
     annotate::TotalPlan plan = (*total)->plan;
@@ -122,8 +122,8 @@ absl::Status RunCsv(const CsvOptions& given) {
     return annotate::AnnotatedFile{
         std::move(csv->file),
         annotate::Findings{.input_bytes = csv->input_bytes,
-                           .input = answerer->SeaJson(),
-                           .answers = annotate::WithTotal(csv->summary.Json(), plan, csv->totals),
+                           .input = annotate::JsonBox(answerer->SeaJson()),
+                           .answers = annotate::JsonBox(annotate::WithTotal(csv->summary.Json(), plan, csv->totals)),
                            .tally = csv->summary.Tally()},
         text + notes};
   };
@@ -137,7 +137,7 @@ absl::Status RunCsv(const CsvOptions& given) {
       {.command = "csv",
        .records = "pulses",
        .record = "pulse",
-       .parameters = parameters,
+       .parameters = annotate::JsonBox(parameters),
        .files = files,
        .resume = options.files.resume,
        .existing = options.existing,

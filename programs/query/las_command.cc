@@ -79,11 +79,12 @@ class LasFiles {
     bathymetric_ += bathymetric;
     return annotate::AnnotatedFile{
         std::move(annotated->file),
-        annotate::Findings{.input_bytes = annotated->input_bytes,
-                           .input = InputJson(*annotated),
-                           .output = nlohmann::ordered_json{{"format", std::string(Name(annotated->output_kind))}},
-                           .answers = AnswersJson(annotation_, *annotated),
-                           .tally = annotated->summary.Tally()},
+        annotate::Findings{
+            .input_bytes = annotated->input_bytes,
+            .input = annotate::JsonBox(InputJson(*annotated)),
+            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", std::string(Name(annotated->output_kind))}}),
+            .answers = annotate::JsonBox(AnswersJson(annotation_, *annotated)),
+            .tally = annotated->summary.Tally()},
         absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
                      absl::StrJoin(annotated->notes, "",
                                    [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
@@ -168,7 +169,7 @@ absl::Status RunLas(const LasOptions& options) {
       {.command = "las",
        .records = "points",
        .record = "chosen point",
-       .parameters = Parameters(*annotation, sea, options.format),
+       .parameters = annotate::JsonBox(Parameters(*annotation, sea, options.format)),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,

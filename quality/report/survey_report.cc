@@ -102,7 +102,7 @@ class Reporter {
     if (all_.points() == 0) return NoBathymetricPoint(files_);
     if (absl::Status status = FillPatches(files_, patches_); !status.ok()) return status;
     const std::optional<CrossCheck> check = CheckPatches(patches_);
-    return SurveyReport{.json = ToJson(check),
+    return SurveyReport{.json = annotate::JsonBox(ToJson(check)),
                         .grid = std::move(grid_),
                         .facts = {.coverage = first_.coverage(),
                                   .crs_name = first_.crs_name(),

@@ -18,7 +18,8 @@ class SummaryFile : public ::testing::Test {
   SummaryFile() {
     folder_.Write("in.las", "input");
     settings_.command = "las";
-    settings_.parameters = nlohmann::ordered_json{{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
+    settings_.parameters =
+        JsonBox(nlohmann::ordered_json{{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}});
     settings_.table.id = "survey";
     settings_.table.digest = "1234";
   }
@@ -29,8 +30,8 @@ class SummaryFile : public ::testing::Test {
     if (!output.ok()) return output.status();
     EXPECT_TRUE(output->Write("output").ok());
     const Findings findings{.input_bytes = 5,
-                            .input = nlohmann::ordered_json{{"points", 1}},
-                            .answers = nlohmann::ordered_json{{"pulses", 1}}};
+                            .input = JsonBox(nlohmann::ordered_json{{"points", 1}}),
+                            .answers = JsonBox(nlohmann::ordered_json{{"pulses", 1}})};
     const std::string text = SummaryText(settings_, job_, findings, output->size());
     return CommitWithSummary(*std::move(output), job_, text, existing);
   }
