@@ -95,7 +95,7 @@ std::vector<UnitId> UnitsOf(const Campaign& campaign) {
 }
 
 UnitOrigin OriginOf(const Campaign& campaign) {
-  return {Hex(DigestOf(campaign.text + (campaign.sea ? campaign.sea->digest : ""))),
+  return {Hex(DigestOf(campaign.text)),
           absl::StrCat(std::string(Version()), " (", std::string(Commit()), ")"), InstructionSet()};
 }
 

@@ -157,6 +157,12 @@ TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
 }
 
+TEST(Campaign, RefersToAnotherCommandForTheTableOfAMeasuredSea) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, inf]\n[sea]\nfile = \"buoy.csv\"")),
+              HasSubstr("'sea.file' is no key of a campaign file; make the table of a measured sea by albtpu-query sea "
+                        "FILE --output TABLE.h5"));
+}
+
 TEST(Campaign, RequiresTheFullyDevelopedSeaAsTheLastFetch) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, 5000]")), HasSubstr("must be inf"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1e7, inf]")), HasSubstr("beyond full development"));
