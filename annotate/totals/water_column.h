@@ -31,8 +31,8 @@ struct WaterPlan {
   double processed_with = 0;
 };
 
-// `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the table
-// refuses. Adds to `numbers` what was taken and where from.
+// `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the
+// table refuses. Adds to `numbers` what was taken and where from.
 absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
                                     std::vector<StatedNumber>& numbers);
 

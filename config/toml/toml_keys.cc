@@ -167,14 +167,10 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
 
 std::vector<double> TomlKeys::Numbers(std::string_view key) {
   const std::string expected = "a list of numbers, such as [1, 2, 5]";
-  const toml::node* const node = Find(key);
+  const toml::array* const list = List(key, expected);
   std::vector<double> numbers;
-  if (node == nullptr) return numbers;
-  if (!node->is_array()) {
-    Wrong(*node, key, expected, "correct it");
-    return numbers;
-  }
-  for (const toml::node& element : *node->as_array()) {
+  if (list == nullptr) return numbers;
+  for (const toml::node& element : *list) {
     const std::optional<double> number = NumberOf(element);
     if (!number.has_value()) WrongElement(element, key, expected);
     numbers.push_back(number.value_or(0));

@@ -72,7 +72,7 @@ class TomlKeys {
 
   // Lists, each element once. Empty if the key is missing or a problem; an empty list is a problem. `what` is what an
   // element is: "the path of a file".
-  std::vector<double> Numbers(std::string_view key);  // May be empty, and have a number twice.
+  std::vector<double> Numbers(std::string_view key);  // May have a number twice.
   std::vector<int> WholeNumbers(std::string_view key, int least, int greatest);
   std::vector<std::string> Texts(std::string_view key, std::string_view what);
 

@@ -25,8 +25,8 @@ WindSea ReadWindSea(CampaignFile& file) {
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
   const std::optional<double> spreading = ReadNumber(file, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
-    file.Fail("sea", "spreading",
-              absl::StrCat("is not taken by \"", spectrum, "\", which has a spreading of its own; leave it out"));
+    file["sea"].Fail("spreading", absl::StrCat("is not taken by \"", spectrum,
+                                               "\", which has a spreading of its own; leave it out"));
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
@@ -116,9 +116,9 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (kind == kWaterColumn.name)
     return ParseWater(file, {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
   if (file["sea"].Has("file")) {
-    file.Fail("sea", "file",
-              "is no key of a campaign file; make the table of a measured sea by albtpu-query sea FILE --output "
-              "TABLE.h5");
+    file["sea"].Fail("file",
+                     "is no key of a campaign file; make the table of a measured sea by albtpu-query sea FILE "
+                     "--output TABLE.h5");
   }
   const Nodes nodes = ReadNodesOfSea(file);
   const std::string profile = ReadText(file, campaign_keys::kProfile);

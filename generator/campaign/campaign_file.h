@@ -23,11 +23,6 @@ class CampaignFile {
   // The keys of a table, "" for those at the top level; of one that the file does not have, an empty table.
   config::TomlKeys& operator[](std::string_view table);
 
-  // A problem of a key that the file has.
-  void Fail(std::string_view table, std::string_view key, const std::string& message) {
-    (*this)[table].Fail(key, message);
-  }
-
   // Remembers that a key is missing. `right` is what to give: "a list of numbers".
   void Miss(std::string_view table, std::string_view key, std::string_view right);
 

@@ -40,7 +40,6 @@ std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key) {
 
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes) {
   const auto& range = std::get<NodeRange>(key.values);
-  if (nodes.empty()) return absl::StrCat("'", FullName(key), "' has no node: give at least one");
   if (range.includes_least ? nodes.front() < range.least : nodes.front() <= range.least) {
     return absl::StrCat("node 0 of '", FullName(key), "' must be ", range.includes_least ? "at least " : "above ",
                         range.least);

@@ -244,7 +244,8 @@ std::optional<double> ReadNumber(CampaignFile& file, const CampaignKey& key);
 std::optional<std::int64_t> ReadWhole(CampaignFile& file, const CampaignKey& key);
 std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key);  // see NodesProblem
 
-// The problem of nodes from ReadNodes; empty if there is none. Their order is checked by Axis::Create.
+// The problem of nodes from ReadNodes, which are at least one; empty if there is none. Their order is checked by
+// Axis::Create.
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);
 
 // "effort.rays".

@@ -18,19 +18,8 @@
 #include "programs/generate/point_flags.h"
 #include "tables/version.h"
 
+namespace albtpu::programs {
 namespace {
-
-using albtpu::AddThreads;
-using albtpu::EndHelp;
-using albtpu::Group;
-using albtpu::kWork;
-using albtpu::MergeOptions;
-using albtpu::PlanOptions;
-using albtpu::PointOptions;
-using albtpu::Shard;
-using albtpu::TableOptions;
-using albtpu::ValidateOptions;
-using albtpu::WholeIn;
 
 // The headings under which --help lists options.
 constexpr char kFiles[] = "Files";
@@ -113,8 +102,7 @@ void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
       ->type_name("DIR");
   validate.add_flag("--overwrite", options.overwrite, "Replace the files of an earlier report");
   validate.add_flag("--quick", options.quick, "Use fewer surfaces: two minutes on two cores instead of ten");
-  validate.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
-      ->check(albtpu::Seed());
+  validate.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
   AddThreads(validate, threads);
   Group(validate, kFiles, {"--output", "--overwrite"});
   Group(validate, kWork, {"--quick", "--seed", "--threads"});
@@ -123,19 +111,19 @@ void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
 
 // Prints what went wrong, if anything, and makes sure that standard output was written.
 int ExitCode(absl::Status status) {
-  if (status.ok()) status = albtpu::FlushStandardOutput();
+  if (status.ok()) status = FlushStandardOutput();
   if (status.ok()) return 0;
   std::cerr << "albtpu-generate: " << std::string(status.message()) << '\n';
-  return albtpu::kExitFailure;
+  return formats::kExitFailure;
 }
 
 int Run(int argc, char** argv) {
   CLI::App app("Computes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry",
                "albtpu-generate");
-  albtpu::SetUpProgram(app, albtpu::Version(), albtpu::Commit());
-  albtpu::EndHelp(app, "albtpu-generate COMMAND --help lists the options of a command.",
-                  "table --campaign survey.toml --output survey.h5",
-                  "point --wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20");
+  SetUpProgram(app, Version(), Commit());
+  EndHelp(app, "albtpu-generate COMMAND --help lists the options of a command.",
+          "table --campaign survey.toml --output survey.h5",
+          "point --wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20");
   app.require_subcommand(1);
   int threads = 0;
 
@@ -152,16 +140,16 @@ int Run(int argc, char** argv) {
   AddPlan(*plan, plan_options, threads);
 
   CLI::App* keys = app.add_subcommand("keys", "Print the reference of the keys of a campaign file (Markdown)");
-  albtpu::EndHelp(*keys, "", "", "> campaign.md");
+  EndHelp(*keys, "", "", "> campaign.md");
 
   PointOptions point_options;
   CLI::App* point = app.add_subcommand("point", "Compute the uncertainty of one beam over one sea");
-  albtpu::AddPoint(*point, point_options, threads);
+  AddPoint(*point, point_options, threads);
 
-  albtpu::WaterPointOptions water_point_options;
+  WaterPointOptions water_point_options;
   CLI::App* water_point =
       app.add_subcommand("water-point", "Compute the bias of one beam that the scattering of the water makes");
-  albtpu::AddWaterPoint(*water_point, water_point_options, threads);
+  AddWaterPoint(*water_point, water_point_options, threads);
 
   ValidateOptions validate_options;
   CLI::App* validate = app.add_subcommand("validate", "Report the tables and figures of the paper beside ours");
@@ -172,29 +160,30 @@ int Run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "albtpu-generate: " << albtpu::UsageMessage(app, error) << '\n';
-    return albtpu::kExitUsage;
+    std::cerr << "albtpu-generate: " << UsageMessage(app, error) << '\n';
+    return formats::kExitUsage;
   }
 
   std::optional<tbb::global_control> limit;
   if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
   if (*table) return ExitCode(RunTable(table_options));
   if (*merge) return ExitCode(RunMerge(merge_options));
-  if (*keys) return ExitCode(albtpu::RunKeys());
+  if (*keys) return ExitCode(RunKeys());
   if (*plan) return ExitCode(RunPlan(plan_options));
-  if (*water_point) return ExitCode(albtpu::RunWaterPoint(water_point_options));
+  if (*water_point) return ExitCode(RunWaterPoint(water_point_options));
   if (*validate) return ExitCode(RunValidate(validate_options));
   return ExitCode(RunPoint(point_options));
 }
 
 }  // namespace
+}  // namespace albtpu::programs
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // A file at the size limit of the process makes write() fail.
   try {
-    return Run(argc, argv);
+    return albtpu::programs::Run(argc, argv);
   } catch (const std::exception& error) {  // out of memory or threads
     std::cerr << "albtpu-generate: " << error.what() << '\n';
-    return albtpu::kExitFailure;
+    return albtpu::formats::kExitFailure;
   }
 }

@@ -12,20 +12,18 @@
 #include "programs/query/commands.h"
 #include "tables/version.h"
 
+namespace albtpu::programs {
 namespace {
 
 int Main(int argc, char** argv) {
-  using namespace albtpu::client;
-
   CLI::App program("Per-pulse total propagated uncertainty of airborne lidar bathymetry");
   program.name("albtpu-query");
   program.require_subcommand(1);
-  albtpu::SetUpProgram(program, albtpu::Version(), albtpu::Commit());
-  albtpu::EndHelp(program,
-                  absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
-                  "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
-                  "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
-                  "--divergence 1");
+  SetUpProgram(program, Version(), Commit());
+  EndHelp(program, absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
+          "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
+          "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
+          "--divergence 1");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
@@ -43,14 +41,15 @@ int Main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
     program.exit(help, std::cout, std::cerr);
-    return Report(albtpu::FlushStandardOutput());
+    return annotate::Report(FlushStandardOutput());
   } catch (const CLI::ParseError& error) {
-    return Report(albtpu::UsageError(albtpu::UsageMessage(program, error)));
+    return annotate::Report(formats::UsageError(UsageMessage(program, error)));
   }
-  return Report(run());
+  return annotate::Report(run());
 }
 
 }  // namespace
+}  // namespace albtpu::programs
 
 int main(int argc, char** argv) {
   // A file that reaches the size limit of the process makes write() fail instead of ending the program.
@@ -62,7 +61,7 @@ int main(int argc, char** argv) {
   setenv("GRPC_VERBOSITY", "NONE",
          0);  // gRPC's log repeats its errors; GRPC_VERBOSITY in the environment turns it on.
   try {
-    return Main(argc, argv);
+    return albtpu::programs::Main(argc, argv);
   } catch (const std::exception& error) {
     return albtpu::annotate::Report(absl::InternalError(absl::StrCat(error.what(), "; please report this")));
   }

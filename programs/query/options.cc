@@ -33,27 +33,19 @@ std::string CheckHostAndPort(const std::string& text) {
   return absl::StrCat("'", text, "' is not an address; give HOST:PORT, such as 127.0.0.1:50051");
 }
 
-const char* DescribeInput(annotate::PulseInput input) {
-  switch (input) {
-    case annotate::PulseInput::kIncidence:
-      return "Angle of the beam from the vertical, in air [degree]";
-    case annotate::PulseInput::kAzimuth:
-      return "Horizontal direction of the beam from downwind [degree] (default: the worse of along and "
-             "across the wind)";
-    case annotate::PulseInput::kFootprint:
-      return "Diameter of the beam at the mean surface, across its axis [m]";
-    case annotate::PulseInput::kDepth:
-      return "Depth below the surface [m]";
-    case annotate::PulseInput::kBeamAzimuth:
-      return "Where the beam travels to [degree, true]; with --wind-from instead of --azimuth";
-    case annotate::PulseInput::kAltitude:
-      return "Altitude above the water [m]; with --divergence instead of --footprint";
-    case annotate::PulseInput::kDivergence:
-      return "Full divergence of the beam [mrad]; with --altitude instead of --footprint";
-    default:
-      return "";
-  }
-}
+// By PulseInput; those of the sea have keys.
+constexpr const char* kInputHelp[annotate::kPulseInputCount] = {
+    "",
+    "",
+    "Angle of the beam from the vertical, in air [degree]",
+    "Horizontal direction of the beam from downwind [degree] (default: the worse of along and across the "
+    "wind)",
+    "Diameter of the beam at the mean surface, across its axis [m]",
+    "Depth below the surface [m]",
+    "Where the beam travels to [degree, true]; with --wind-from instead of --azimuth",
+    "",
+    "Altitude above the water [m]; with --divergence instead of --footprint",
+    "Full divergence of the beam [mrad]; with --altitude instead of --footprint"};
 
 // Each of them means TLS.
 void AddCredentialOptions(CLI::App& command, CLI::Option* server, client::Credentials& credentials) {
@@ -148,7 +140,7 @@ void AddInput(CLI::App& command, annotate::PulseInput input, annotate::FixedInpu
             CheckNumber(annotate::FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative);
             fixed[input] = value;
           },
-          DescribeInput(input))
+          kInputHelp[Index(input)])
       ->type_name("NUMBER")
       ->group(group::kPulse);
 }

@@ -217,7 +217,7 @@ int main(int argc, char** argv) try {
   // A closed log, or one that has reached its maximum size, must not stop the server.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  return albtpu::server::ParseAndRun(argc, argv);
+  return albtpu::programs::ParseAndRun(argc, argv);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "albtpu-serve: %s\n", error.what());
   return 1;

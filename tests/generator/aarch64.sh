@@ -14,7 +14,7 @@ libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev libhw
 
 # The code from a sea's spectrum to traced rays. The rest of the generator needs more libraries.
 sources=(sea/*.cc sea/*/*.cc generator/{math,surface,kernels}/*.cc
-         generator/monte_carlo/{height_slope_product,slope_moments,surface_correlation}.cc
+         generator/monte_carlo/slope_moments.cc
          tests/generator/{math,surface,kernels}/*_test.cc tests/sea/response/refraction_test.cc)
 
 # Needs no root: apt-get keeps its lists of the other architecture in our own folder.

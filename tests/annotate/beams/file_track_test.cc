@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
@@ -77,10 +78,10 @@ class TrackFromFilesTest : public ::testing::Test {
 
 TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
   const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
-  EXPECT_EQ(found->json["check"]["verdict"], "agrees");
-  EXPECT_EQ(found->json["check"]["rays"], 3000);
+  EXPECT_EQ((*found->json)["check"]["verdict"], "agrees");
+  EXPECT_EQ((*found->json)["check"]["rays"], 3000);
   // Linear steps of 0.02 s and single precision of the rays' own geometry: 1 mm of 400 m is 1.4e-4 degrees.
-  EXPECT_NEAR(found->json["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
+  EXPECT_NEAR((*found->json)["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
   const std::vector<double> times = {flight_.start + 50};
   SensorPosition position;
@@ -94,7 +95,7 @@ TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
 TEST_F(TrackFromFilesTest, SaysWhenRaysAreTooFewToCompare) {
   AddRays(10, 0);
   const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
-  EXPECT_EQ(found->json["check"]["verdict"], "too few rays");
+  EXPECT_EQ((*found->json)["check"]["verdict"], "too few rays");
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("not compared with the returns (10 pulses")));
 }
 
@@ -135,7 +136,7 @@ TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
   plan_.trajectory_errors = *errors;
   const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
   // 50 s after its start, 0.04 m (1 + 5) down; 200 samples of a minute place the median within 0.3 s.
-  EXPECT_NEAR(found->json["sigma"]["vertical"].get<double>(), 0.24, 0.04 * 0.031);
+  EXPECT_NEAR((*found->json)["sigma"]["vertical"].get<double>(), 0.24, 0.04 * 0.031);
   EXPECT_THAT(found->notes[0], HasSubstr("trajectory known to 0.2"));
 }
 
@@ -160,13 +161,13 @@ TrackedFile FlownFile(double pairs_per_second) {
 TEST(TrackFromReturns, StatesWhatItFound) {
   const TrackedFile file = FlownFile(500);
   const absl::StatusOr<FileTrack> found = FromReturns(file);
-  EXPECT_EQ(found->json["pairs"], file.pairs);
-  EXPECT_EQ(found->json["rays"], file.rays.size());
-  EXPECT_EQ(found->json["segments"], 1);
+  EXPECT_EQ((*found->json)["pairs"], file.pairs);
+  EXPECT_EQ((*found->json)["rays"], file.rays.size());
+  EXPECT_EQ((*found->json)["segments"], 1);
   // Rays without errors meet at the sensor: what is left is rounding, and the floor of the noise in the fit.
-  EXPECT_NEAR(found->json["height_above_water"].get<double>(), 400, 0.003);
-  EXPECT_NEAR(found->json["speed"].get<double>(), 60, 0.003);
-  EXPECT_LT(found->json["incidence_sigma"].get<double>(), 0.3);
+  EXPECT_NEAR((*found->json)["height_above_water"].get<double>(), 400, 0.003);
+  EXPECT_NEAR((*found->json)["speed"].get<double>(), 60, 0.003);
+  EXPECT_LT((*found->json)["incidence_sigma"].get<double>(), 0.3);
 }
 
 TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {

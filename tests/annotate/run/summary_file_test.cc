@@ -63,10 +63,10 @@ TEST_F(SummaryFile, HasTheSameBytesInEveryFolder) {
 TEST_F(SummaryFile, SaysWhatDiffers) {
   ASSERT_TRUE(Write().ok());
   const OutputSettings original = settings_;
-  settings_.parameters["wind_speed"] = 6;
+  (*settings_.parameters)["wind_speed"] = 6;
   EXPECT_THAT(Difference(), HasSubstr("parameters.wind_speed is 5 there, 6 here"));
   settings_ = original;
-  settings_.parameters["classes"] = {26};
+  (*settings_.parameters)["classes"] = {26};
   EXPECT_THAT(Difference(), HasSubstr("parameters.classes is [26,40] there, [26] here"));
   settings_ = original;
   settings_.table.digest = "5678";

@@ -102,7 +102,8 @@ class SeaSeriesTest(sea_states.Test):
         flags = ("las", source, self.folder / "out.las", *FLIGHT, *WAVES, "--resume")
         query(*flags, check=0)
         self.assertIn("already complete", query(*flags, check=0).stderr)
-        self.assert_fails(query(*flags, "--survey", self.toml("[sea]\ntail = 'wind'\n")), 1, "parameters.sea.tail", "add --overwrite")
+        tail = self.toml("[sea]\ntail = 'wind'\n")
+        self.assert_fails(query(*flags, "--survey", tail), 1, "parameters.sea.tail", "add --overwrite")
 
 
 if __name__ == "__main__":
