@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <string>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/campaign.h"
 
@@ -76,16 +76,14 @@ TEST(CampaignKeys, TakeTheEndsOfTheirRangesAndNothingBeyond) {
     if (const auto* range = std::get_if<NumberRange>(&key.values)) {
       for (const double end : {range->least, range->most}) EXPECT_EQ(ProblemWith(key, Toml(end)), "") << end;
       EXPECT_THAT(ProblemWith(key, Toml(0.99 * range->least)), HasSubstr("(expected "));
-      if (std::isfinite(range->most)) {
-        EXPECT_THAT(ProblemWith(key, Toml(1.01 * range->most)), HasSubstr("(expected "));
-      }
+      EXPECT_TRUE(std::isinf(range->most) ||
+                  absl::StrContains(ProblemWith(key, Toml(1.01 * range->most)), "(expected "));
     }
     if (const auto* range = std::get_if<WholeRange>(&key.values)) {
       EXPECT_THAT(ProblemWith(key, absl::StrCat(range->least - 1)), HasSubstr("(expected a whole number from "));
       EXPECT_EQ(ProblemWith(key, absl::StrCat(range->most)), "");
-      if (range->most < std::numeric_limits<std::int64_t>::max()) {
-        EXPECT_THAT(ProblemWith(key, absl::StrCat(range->most + 1)), HasSubstr("(expected a whole number from "));
-      }
+      EXPECT_TRUE(range->most == std::numeric_limits<std::int64_t>::max() ||
+                  absl::StrContains(ProblemWith(key, absl::StrCat(range->most + 1)), "(expected a whole number from "));
       // `most_realizations` must not be below the default of `realizations`.
       const bool is_most = FullName(key) == "effort.most_realizations";
       EXPECT_EQ(ProblemWith(key, absl::StrCat(is_most ? 1000 : range->least)), "");
