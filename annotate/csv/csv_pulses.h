@@ -1,7 +1,6 @@
 // Pulses from CSV records: which columns have which input of a pulse, and the numbers in their cells.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

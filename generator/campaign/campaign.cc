@@ -1,13 +1,10 @@
 #include "generator/campaign/campaign.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "formats/text/text.h"
-#include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"
 #include "sea/angle.h"

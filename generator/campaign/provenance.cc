@@ -11,8 +11,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "generator/math/random_stream.h"
-#include "generator/math/statistics.h"
-#include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/discretization.h"
 #include "sea/angle.h"
 #include "sea/sea_state.h"

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <functional>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <string>
 
 #include "sea/angle.h"
 #include "sea/spectra/apel_spectrum.h"
