@@ -70,8 +70,8 @@ out/bin/albtpu-query report "$annotated" --output out/report --overwrite
 
 echo "== Done"
 echo "$annotated has total_thu and total_tvu at each bathymetric point, at 95 %, in m: of sensor and trajectory, the"
-echo "location of the surface, the sea surface, the water column and the datum; its contributions, biases and covariance;"
-echo "and the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
+echo "location of the surface, the sea surface, the water column and the datum; its contributions, biases and"
+echo "covariance; and the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
 echo "out/report/report.html states whether the line passes, and where and why not."
 echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

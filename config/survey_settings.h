@@ -1,5 +1,5 @@
-// The settings of a survey: what flags and the survey file give, and the table of the keys of each section. Absent: not
-// given. The sea is in sea_settings.h.
+// The settings of a survey: the table of the keys of each section, the survey file and flags that give them, and the
+// list of all keys for help and documents. Absent: not given. The sea is in sea_settings.h.
 #pragma once
 
 #include <array>

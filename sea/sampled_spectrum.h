@@ -1,4 +1,5 @@
-// Any sea in samples of wavenumber as a spectrum from which waves can be drawn.
+// Any sea in samples of wavenumber as a spectrum from which waves can be drawn, with a spreading that is nowhere
+// negative.
 #pragma once
 
 #include <string>
@@ -39,7 +40,7 @@ struct SpectrumText {
 // Between the samples, k^3 S(k) and k^3 S(k) D(k, psi) are interpolated linearly in ln k, so that the even harmonics up
 // to the last one are those of the samples. (Between samples 5 % apart, S that is linear in k would add 0.25 % to the
 // slope variance of waves that fall as k^-3.) The spreading is that of a frozen surface, the same for waves that travel
-// opposite ways, and nowhere negative (positive_spreading.h). Immutable.
+// opposite ways, and nowhere negative (PositiveSpreading). Immutable.
 class SampledSpectrum final : public WaveSpectrum {
  public:
   SampledSpectrum(const HarmonicSpectrum& spectrum, SpectrumText text);

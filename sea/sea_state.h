@@ -1,4 +1,5 @@
-// The sea as a Gaussian random field: its directional elevation spectrum and the moments of that spectrum.
+// The sea as a Gaussian random field: the description of its waves, its directional elevation spectrum and the moments
+// of that spectrum.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// The outcomes of a file or of a whole run. Outputs of an earlier run count, too, by their summaries.
+// The outcomes of the answers of a file or of a run: their names, their counts, and the cells of an answer in CSV and
+// JSON.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 
 namespace albtpu::annotate {
 
+// The outcomes of a file or of a whole run. Outputs of an earlier run count, too, by their summaries.
 struct AnswerTally {
   // The coordinate that caused an outcome, in the unit of its axis.
   struct Spread {

@@ -93,10 +93,10 @@ constexpr double kRadiansPerMilliradian = 1e-3;
 
 }  // namespace
 
-double FootprintDiameter(double altitude, double divergence, double incidence) {
+double FootprintAtIncidence(double altitude, double divergence, double incidence) {
   return altitude / std::cos(incidence * kRadiansPerDegree) * (divergence * kRadiansPerMilliradian);
 }
 
-double AzimuthFromDownwind(double beam_azimuth, double wind_from) { return beam_azimuth - (wind_from + 180); }
+double DegreesFromDownwind(double beam_azimuth, double wind_from) { return beam_azimuth - (wind_from + 180); }
 
 }  // namespace albtpu::annotate

@@ -1,5 +1,5 @@
-// A query about a batch of pulses: how its answers are stated, the pulses, and memory for the answers. The memory
-// is reused from batch to batch.
+// A query about a batch of pulses: how its answers are stated, the pulses and their coordinates, the memory for the
+// answers, which is reused from batch to batch, and the source that gives them.
 #pragma once
 
 #include <array>
@@ -123,10 +123,10 @@ absl::Status AnswerPulses(const AnswerSource& source, const Query& query, const 
 
 // The diameter [m], across its axis, of a beam with full divergence `divergence` [mrad] where it meets the mean
 // surface, `altitude` [m] below the aircraft: H / cos(incidence) * divergence. `incidence` is in degrees.
-double FootprintDiameter(double altitude, double divergence, double incidence);
+double FootprintAtIncidence(double altitude, double divergence, double incidence);
 
 // The azimuth [degree], from downwind, of a beam that travels towards `beam_azimuth`, in a wind that comes from
 // `wind_from`: both in degrees, true, clockwise from north. Downwind is where the wind blows to.
-double AzimuthFromDownwind(double beam_azimuth, double wind_from);
+double DegreesFromDownwind(double beam_azimuth, double wind_from);
 
 }  // namespace albtpu::annotate

@@ -1,4 +1,5 @@
-// Decides whether a run over files succeeded: a run without answers fails, although its outputs are complete.
+// Whether a run over files succeeded, judged by its outcomes, and the mistake in its inputs that explains why pulses
+// got no number.
 #pragma once
 
 #include <optional>
@@ -33,6 +34,7 @@ struct LikelyCause {
 // brings the median of the coordinate into the table.
 std::optional<LikelyCause> FindLikelyCause(const AnswerTally& tally, const CauseContext& context);
 
+// Decides whether a run over files succeeded: a run without answers fails, although its outputs are complete.
 class RunVerdict {
  public:
   // `record` is what the files contain, for the user, in the singular: "pulse", "chosen point".

@@ -1,5 +1,5 @@
-// A summary of all answers in a file, accumulated in one pass: outcomes, and uncertainty by depth band compared with
-// the S-44 limits. It is printed as text and stored as JSON.
+// A summary of all answers in a file, accumulated in one pass: outcomes, the interpolation error of the table, and the
+// uncertainty by depth band compared with the S-44 limits. It is printed as text and stored as JSON.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// How the user describes the beams of a survey: the source of their incidence, their width, and the water surface.
+// How the user describes the beams of a survey (the source of their incidence, their width, the water surface), and the
+// motion of the aircraft with its uncertainty that follows from it.
 #pragma once
 
 #include <array>

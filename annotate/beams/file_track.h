@@ -1,5 +1,5 @@
-// The track of the sensor for the points of one file: from trajectory files, compared with the rays of pairs of
-// returns, or from these rays alone.
+// The track of the sensor for the points of one file, in the frame of the file: from trajectory files, compared with
+// the rays of pairs of returns, or from these rays alone.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Returns of one pulse that lie far apart in a file, as in one that is sorted by place: found by their times, in
-// bounded memory.
+// Samples of returns in bounded memory: pairs that are spread over the time of a long file, and returns of one pulse
+// that lie far apart, as in a file that is sorted by place, found by their times.
 #pragma once
 
 #include <Eigen/Core>

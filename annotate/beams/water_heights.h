@@ -1,4 +1,5 @@
-// The height of the water surface at each point, from the sources that the user allows.
+// The points of a part of a file, and the height of the water surface at each of them, from the sources that the user
+// allows.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Pulses from CSV records: which columns have which input of a pulse, and the numbers in their cells.
+// Pulses from CSV records: which columns have which input of a pulse or of the aircraft, and the numbers in their
+// cells.
 #pragma once
 
 #include <optional>

@@ -87,9 +87,9 @@ std::optional<PulseInput> FindInput(std::string_view name) {
 float FromOtherWay(AxisId axis, const PulseNumbers& numbers) {
   const auto number = [&](PulseInput input) -> double { return numbers[Index(input)]; };
   if (axis == AxisId::kAzimuth)
-    return Rounded(AzimuthFromDownwind(number(PulseInput::kBeamAzimuth), number(PulseInput::kWindFrom)));
-  return Rounded(FootprintDiameter(number(PulseInput::kAltitude), number(PulseInput::kDivergence),
-                                   number(PulseInput::kIncidence)));
+    return Rounded(DegreesFromDownwind(number(PulseInput::kBeamAzimuth), number(PulseInput::kWindFrom)));
+  return Rounded(FootprintAtIncidence(number(PulseInput::kAltitude), number(PulseInput::kDivergence),
+                                      number(PulseInput::kIncidence)));
 }
 
 bool IsGivenByOtherWay(AxisId axis, const InputOrigins& origins) {

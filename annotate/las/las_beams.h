@@ -1,4 +1,4 @@
-// The beams of a LAS file: everything that is determined before its points are annotated.
+// The place and the beams of a LAS file: everything that is determined before its points are annotated.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The files that a command reads, and the place of each output.
+// The files that a command reads, the place of each output, and the summary beside it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Reports on standard error how far a long run over files has come.
+// What a run over files says on standard error: how far it has come, and why it failed, with the exit code.
 #pragma once
 
 #include <chrono>
@@ -31,6 +31,8 @@ int Report(const absl::Status& status);
 // Prints `albtpu-query: MESSAGE` to standard error, followed by `below`. The message may quote a server or a file
 // name, so it is made printable and put on one line; `below` is our own text and is printed unchanged.
 void Note(std::string_view message, const std::string& below = "");
+
+// Reports on standard error how far a long run over files has come.
 
 // Covers all files of one run. On a terminal it shows a bar with the rate and the time left, which is redrawn in place
 // and erased after each file. Elsewhere it prints a line every ten seconds, so that short runs print nothing and logs

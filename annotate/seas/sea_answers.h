@@ -1,4 +1,4 @@
-// Answers pulses from the sea at their times.
+// The compiled seas of a timeline, and the answers of pulses by the sea at their times.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// From the settings of a survey and the sensor's file to the plan of a total.
+// The plan of a total, made from the settings of a survey and the file of its sensor.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -51,8 +51,8 @@ struct TotalContext {
 // That of a command without a surface of its own: what the settings say.
 TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 
-// UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part of
-// the total is not decided, so that its name is true: the datum, and the water column or that it is left out.
+// UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part
+// of the total is not decided, so that its name is true: the datum, and the water column or that it is left out.
 // `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 

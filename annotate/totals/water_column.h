@@ -1,4 +1,4 @@
-// The share of the water column, from what the user says to the columns of a budget.
+// The water column in a total: from the settings of the user to the columns of a budget.
 #pragma once
 
 #include <memory>

@@ -120,8 +120,8 @@ inline constexpr ErrorSource kErrorSources[] = {
 // clang-format on
 inline constexpr std::size_t kErrorSourceCount = std::size(kErrorSources);
 
-// The height of the surface errs as its location does: that of the own return with the pulse, that of a model with the
-// line, because neighbouring pulses share it, that of a level with the survey.
+// The error of the height of the surface belongs to the group of its location: that of the own return with the pulse,
+// that of a model with the line, because neighbouring pulses share it, that of a level with the survey.
 constexpr ErrorGroup GroupOf(const ErrorSource& source, SurfaceLocation located) {
   return source.group.value_or(static_cast<ErrorGroup>(located));
 }

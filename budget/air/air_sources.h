@@ -1,5 +1,5 @@
 // The errors of the air side of one pulse, source by source, in double precision: the slow and obvious twin of
-// air_covariance-inl.h, and what explains a pulse to a person.
+// air_covariance-inl.h, and what explains a pulse to a person. At the end the constants of that twin.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct AirPulse {
   double index = 1.34;                                  // Refractive index of the water: 1 or more.
 };
 
-// What a source contributes: the reported point errs by `columns` times independent standard normal numbers.
+// What a source contributes: the error of the reported point is `columns` times independent standard normal numbers.
 struct AirSource {
   std::string_view name;  // "position", "attitude", ...: the names of AirErrors.
   ErrorGroup group;
@@ -49,7 +49,7 @@ struct AirSource {
 //     AirSources({.altitude = 400, .depth = 10}, SurfaceLocation::kPulse, {.position = {0.02, 0.02, 0.06}});
 std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located, const AirErrors& errors);
 
-// By how much the point errs for each metre by which the surface at this pulse lies above where it was located, which
+// The error of the point for each metre by which the surface at this pulse lies above where it was located, which
 // is what a wave does that the location does not see: north, east, down.
 Eigen::Vector3d ErrorOfSurfaceHeight(const AirPulse& pulse);
 

@@ -1,5 +1,4 @@
-// The displacement of a given track that makes it agree with rays: Gauss-Newton on the same angles, noise and weights
-// as the fit of a track (ray_track.h), with a few parameters for all rays together.
+// The displacement of a given track that makes it agree with rays, and the mean effect of waves on these rays.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,6 +24,9 @@ struct TrackedRay {
 // The rays for which the track has a position and a velocity at their time plus `shift`, in order.
 std::vector<TrackedRay> FollowTrack(std::span<const AirRay> rays, const TrackPositions& track, double shift);
 
+// The displacement of a given track that makes it agree with rays: Gauss-Newton on the same angles, noise and weights
+// as the fit of a track (ray_track.h), with a few parameters for all rays together.
+
 // Forward and right are horizontal, along and across the course of the track.
 enum class Displacement {
   kOffset,          // Forward, right, up [m].
@@ -35,7 +37,7 @@ enum class Displacement {
 struct DisplacementFit {
   Eigen::VectorXd values, sigmas;  // With errors that are correlated for up to half a second.
   RayNoise noise;                  // Of the rays about the displaced track.
-  double flattening = 0;           // Mean angle by waves per sine of the incidence (facing_slopes.h).
+  double flattening = 0;           // Mean angle by waves per sine of the incidence (FacingSlopesAt).
   double median_angle = 0;         // rad; median angle between rays and directions from the displaced track.
 };
 

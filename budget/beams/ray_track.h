@@ -2,16 +2,16 @@
 //
 // All rays of a recording pass through the sensor. The track is the smooth curve for which the directions from the
 // sensor to the water points of the rays agree with the directions of the rays:
-//   1. Rays are sorted by time, thinned (ray_thinning.h), and divided at gaps in time into segments, each fitted alone.
-//   2. Start: a straight track through a few seconds around each knot (ray_windows.h).
+//   1. Rays are sorted by time, thinned (ThinRays), and divided at gaps in time into segments, each fitted alone.
+//   2. Start: a straight track through a few seconds around each knot (WhereRaysMeet).
 //   3. The residual r of a ray is the angle from v = (S - X) / |S - X| to its direction u, as a vector across v. With
 //      dv/dX = -Q / |S - X|, Q = I - v v', Gauss-Newton minimizes
 //          sum of w |r|^2 + cost of the motion
 //      over the states at knots 1.5 s apart (track_spline.h). Directions have the errors, water points hardly any, so
 //      angles are unbiased where distances from the lines are not.
-//   4. The weights w come from the residuals (ray_noise.h), the spectral density q of the acceleration from the
+//   4. The weights w come from the residuals (RayNoise), the spectral density q of the acceleration from the
 //      roughness of the track, by expectation-maximization: a calm flight is smoothed more.
-//   5. Waves flatten the mean direction of rays a little; facing_slopes.h derives the angle from the estimated slopes.
+//   5. Waves flatten the mean direction of rays a little; FacingSlopesAt derives the angle from the estimated slopes.
 //   6. Posterior. Neighbouring rays meet the same wave, so their errors are not independent. With A = sum of w Q / R^2
 //      and the long-run covariance B of the scores w r / R (over lags up to 0.5 s, with Bartlett's weights), the
 //      covariance of a position from all rays is A^-1 B A^-1 instead of A^-1. The information of each part of the track

@@ -1,14 +1,5 @@
-// Two returns of one pulse, both from below the water, and the ray in air that follows from them.
-//
-// Derivation. The returns of a pulse lie on its straight path in water, so their difference has the direction w of the
-// beam there. Snell's law keeps the horizontal part of n times the direction at a level surface: u_h = n w_h, and the
-// direction u in air, downward and of length 1, follows. The path meets the water where the line through the returns
-// does, S = P + w (h - P_z) / w_z. The line is the best one through two returns of equal error: it passes through both,
-// so S is the same from either of them. All of this is exact for still water.
-//
-// Errors. Errors of `sigma` [m] of each return across the path turn w by sqrt(2) sigma / separation, and u by about n
-// times that. A slope m of the water turns w by g m, with g = 1 - cos(theta) / (n cos(theta_r)), about 1/4, whatever
-// the separation.
+// Rays in air from pairs of returns of one pulse: their derivation, the model of their errors, where several of them
+// meet, and the choice of the most informative ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,6 +48,18 @@ RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> se
 
 // A start for FitRayNoise from medians, which 30 % of outliers do not spoil.
 RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double> separations);
+
+// Two returns of one pulse, both from below the water, and the ray in air that follows from them.
+//
+// Derivation. The returns of a pulse lie on its straight path in water, so their difference has the direction w of the
+// beam there. Snell's law keeps the horizontal part of n times the direction at a level surface: u_h = n w_h, and the
+// direction u in air, downward and of length 1, follows. The path meets the water where the line through the returns
+// does, S = P + w (h - P_z) / w_z. The line is the best one through two returns of equal error: it passes through both,
+// so S is the same from either of them. All of this is exact for still water.
+//
+// Errors. Errors of `sigma` [m] of each return across the path turn w by sqrt(2) sigma / separation, and u by about n
+// times that. A slope m of the water turns w by g m, with g = 1 - cos(theta) / (n cos(theta_r)), about 1/4, whatever
+// the separation.
 
 // Positions in a local frame in metres: x grid east, y grid north, z up in the vertical datum of the points.
 struct ReturnPair {

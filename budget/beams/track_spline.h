@@ -1,12 +1,5 @@
-// A smooth track through time: positions and velocities at knots, joined by cubics, and their normal equations.
-//
-// The prior of the motion is that the acceleration is white noise of the spectral density q [m^2/s^3] in each axis.
-// Given the states (position, velocity) at two neighbouring knots, h apart, the mean of the motion between them is the
-// cubic Hermite polynomial, its variance at the fraction s is q h^3 s^3 (1 - s)^3 / 3, and the states obey
-//     d = x' - F x,  F = [1 h; 0 1],  cov d = q [h^3/3 h^2/2; h^2/2 h].
-// So a cubic with velocities of its own at the knots is the exact form of the most plausible track, its normal
-// equations are block tridiagonal, and between rays that are far apart the variance grows as it should: the reasons to
-// prefer it to a cubic B-spline.
+// The track of a sensor through time: the interface of all tracks, and a smooth track of knots joined by cubics with
+// its normal equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,6 +42,16 @@ class SensorTrack {
 
 using KnotState = Eigen::Matrix<double, 6, 1>;  // Position [m], velocity [m/s].
 using KnotMatrix = Eigen::Matrix<double, 6, 6>;
+
+// A smooth track through time: positions and velocities at knots, joined by cubics, and their normal equations.
+//
+// The prior of the motion is that the acceleration is white noise of the spectral density q [m^2/s^3] in each axis.
+// Given the states (position, velocity) at two neighbouring knots, h apart, the mean of the motion between them is the
+// cubic Hermite polynomial, its variance at the fraction s is q h^3 s^3 (1 - s)^3 / 3, and the states obey
+//     d = x' - F x,  F = [1 h; 0 1],  cov d = q [h^3/3 h^2/2; h^2/2 h].
+// So a cubic with velocities of its own at the knots is the exact form of the most plausible track, its normal
+// equations are block tridiagonal, and between rays that are far apart the variance grows as it should: the reasons to
+// prefer it to a cubic B-spline.
 
 // The place of a time between the knots, and the weights of the position and velocity of the knots `first` and `first`
 // + 1 in the position there and in its rate.

@@ -147,7 +147,7 @@ void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const B
   inputs[BudgetInput::kRefractionCross] = sea[Index(Quantity::kRefractionCrossWind)];
   inputs[BudgetInput::kBiasAlongBeam] = sea[Index(Quantity::kBiasAlongBeam)];
   inputs[BudgetInput::kBiasVertical] = sea[Index(Quantity::kBiasVertical)];
-  // Where no direction is known, the sea errs alike in all directions.
+  // Where no direction is known, the error of the sea is taken as the same in all directions.
   if (inputs[BudgetInput::kBeamAzimuth].empty()) inputs[BudgetInput::kSeaAxis] = {};
   ComputeBudget(inputs, options, outputs);
 }

@@ -1,4 +1,5 @@
-// The ellipse of a horizontal covariance.
+// What follows from a total covariance: the ellipse and the 95 % radius of its horizontal part, and the orders of S-44
+// that are met.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 namespace albtpu {
 
+// The ellipse of a horizontal covariance.
 struct HorizontalEllipse {
   double semi_major, semi_minor;  // m, 1 sigma.
   double major_azimuth;           // degree from north, clockwise, 0 to 180; 0 of a circle.

@@ -1,4 +1,5 @@
-// A sensor: how well it measures, each number with its source. A file of TOML, one number a table:
+// A sensor: how well it measures, each number with its source; the numbers that the sources of error may have in files
+// of TOML, and the sensors that are installed. The file of a sensor has one number a table:
 //
 //     title = "RIEGL VQ-880-G"
 //     [scan]
@@ -13,7 +14,7 @@
 //     source = "..."
 //
 // The tables are the sources of error that a sensor may state (budget/air/air_errors.h): standard deviations, of which
-// some are a list of three; and the divergence. What nobody publishes is absent.
+// some are a list of three; and the divergence. What is not published is absent.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The keys of a table of TOML, read one by one. The first problem is remembered with its line, so that code that reads
-// many keys checks once.
+// Files of TOML, and the keys of their tables read one by one. The first problem is remembered with its line, so that
+// code that reads many keys checks once.
 #pragma once
 
 #include <toml++/toml.h>

@@ -1,4 +1,5 @@
-// The properties of a coordinate system of PROJ that MapFrame needs. Only this file and map_frame.cc use PROJ.
+// A coordinate system of PROJ with the properties that MapFrame needs, and lengths on its ellipsoid. Only this file and
+// map_frame.cc use PROJ.
 #pragma once
 
 #include <proj.h>

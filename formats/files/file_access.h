@@ -1,4 +1,5 @@
-// A whole regular file as read-only memory, or memory in the place of one.
+// Access to files: inputs as read-only memory, checked for a change while they are read, and outputs that appear only
+// when they are complete.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 
 namespace albtpu::formats {
 
+// A whole regular file as read-only memory, or memory in the place of one.
 class MappedFile {
  public:
   // `what` names what the file should be, for messages, such as "an SBET". An empty file has no bytes.
@@ -44,8 +46,6 @@ class MappedFile {
   std::size_t size_ = 0;
   bool mapped_ = false;
 };
-
-// The output of a command: a file that appears under its name only when it is complete.
 
 // Detects that an input file was modified while it was read.
 

@@ -1,4 +1,5 @@
-// The Extra Bytes record of LAS (LASF_Spec 4), which describes the bytes of a point after the fields of its format.
+// The Extra Bytes record of LAS (LASF_Spec 4), which describes the bytes of a point after the fields of its format, and
+// the floats that are appended to each record.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The public header block of LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the sizes of point
-// records. LAZ files have the same header.
+// The public header block of LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), the sizes of point records,
+// and variable length records. LAZ files have the same header.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The fields of LAS points from which pulses are made, and the number of points of each class.
+// The points of LAS and LAZ files: the fields from which pulses are made, the number of points of each class, and runs
+// of points read front to back.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A LAS or LAZ file, which is checked when it is opened. Its points are read by las_point_runs.h.
+// A LAS or LAZ file, which is checked when it is opened. Its points are read by las_points.h.
 #pragma once
 
 #include <cstdint>

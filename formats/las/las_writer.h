@@ -1,5 +1,5 @@
-// Writes a copy of a LAS or LAZ file with more bytes in each point record: the uncertainties and, on request, the
-// geometry of its beam.
+// Copies of LAS and LAZ files with more bytes in each point record, the uncertainties and on request the geometry of
+// its beam: what stands before the points, and the writer of the points.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +46,9 @@ bool HasCopcIndex(const LasReader& reader);
 // them in the copy from byte `to`, without the EVLRs that are not kept.
 void MoveTailStarts(const LasReader& reader, std::uint64_t from, std::uint64_t to, std::string& head);
 
+// Writes a copy of a LAS or LAZ file with more bytes in each point record: the uncertainties and, on request, the
+// geometry of its beam.
+//
 //   LasWriter writer(reader, *head, output);
 //   status = writer.Begin();
 //   status = writer.Write(records, count);  // As often as there are runs of points.

@@ -1,4 +1,4 @@
-// Finds the known word that a misspelt one probably stands for.
+// Numbers, names and errors as text for the messages of all programs, which are one line each, and their exit codes.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +21,8 @@ inline constexpr int kExitUsage = 2;  // arguments that the program does not tak
 // An InvalidArgument whose cause is the command line, rather than a file or a server.
 absl::Status UsageError(std::string_view message);
 bool IsUsageError(const absl::Status& status);
+
+// Finds the known word that a misspelt one probably stands for.
 
 // The number of edits that turn `a` into `b`: a character inserted, deleted or replaced, or two neighbours swapped
 // (the optimal string alignment distance, which edits no substring twice).

@@ -1,5 +1,5 @@
-// Checks whether the records of an ASCII trajectory move as an aircraft does. Without stated velocities this detects
-// angles in radians, exchanged columns and wrong headings.
+// Whether a trajectory moves as an aircraft does: the records of an ASCII trajectory by their speeds and headings, and
+// any trajectory by its stated velocities.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,9 @@
 #include "formats/trajectories/trajectory.h"
 
 namespace albtpu::formats {
+
+// Checks whether the records of an ASCII trajectory move as an aircraft does. Without stated velocities this detects
+// angles in radians, exchanged columns and wrong headings.
 
 // Easting and northing in the map frame that a file was exported in, in the unit of that frame.
 struct GridPosition {

@@ -1,4 +1,5 @@
-// Why the velocities or headings of an SBET disagree with its positions: the mistakes that occur, tried one by one.
+// The record of an SBET, and why velocities or headings disagree with positions: the mistakes that occur, tried one by
+// one.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// An SBET file (smoothed best estimate of trajectory, Applanix POSPac): records of 17 little-endian doubles without a
-// header. The file is mapped, not copied: five hours at 200 Hz are 490 MB.
+// The files of Applanix's post-processing: the trajectory (SBET) and its standard deviations (SMRMSG).
 #pragma once
 
 #include <cstddef>
@@ -18,12 +17,14 @@
 
 namespace albtpu::formats {
 
+// An SBET file (smoothed best estimate of trajectory, Applanix POSPac): records of 17 little-endian doubles without a
+// header. The file is mapped, not copied: five hours at 200 Hz are 490 MB.
 class SbetFile : public Trajectory {
  public:
   // Maps the file and checks every record: its numbers are finite, latitude and longitude are angles on the globe, the
   // height lies between -1 and 20 km, roll and pitch are below 90 degrees, times are not negative and increase. At the
   // end of the GPS week they may continue beyond 604 800 s or start again from 0. Then compares velocities with
-  // differences of position (velocity_check.h) and headings with courses. An error names the cause where exchanging
+  // differences of position (ascii_motion.h) and headings with courses. An error names the cause where exchanging
   // fields, units or the wander angle explains it. Reading every record takes about as long as reading the file from
   // the disk, and 0.1 s for 490 MB that are in memory.
   static absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::filesystem::path& path);

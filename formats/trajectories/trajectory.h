@@ -63,8 +63,8 @@ class Trajectory {
   std::string name_;
 };
 
-// The formats, detected by the content of the file (OpenTrajectory, open_trajectory.h): SbetFile::Open(path) in
+// The formats, detected by the content of the file (OpenTrajectory, trajectory_timeline.h): SbetFile::Open(path) in
 // sbet_file.h, AsciiTrajectory::Open(path) in ascii_trajectory.h. Both check what they open. Both give
-// absl::StatusOr<std::unique_ptr<...>>. velocity_check.h compares velocities with differences of position.
+// absl::StatusOr<std::unique_ptr<...>>. ascii_motion.h compares velocities with differences of position.
 
 }  // namespace albtpu::formats

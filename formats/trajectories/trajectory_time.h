@@ -1,4 +1,4 @@
-// The relation between the times of trajectories and of points: GPS week, the two forms of LAS, leap seconds.
+// GPS time (weeks, dates, leap seconds), and the relation between the times of trajectories and those of points.
 #pragma once
 
 #include <optional>

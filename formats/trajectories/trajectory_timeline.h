@@ -1,4 +1,5 @@
-// Trajectories in the order of their times, as the points of one LAS file count them.
+// The trajectories of a survey: opened by their content, collected from files and folders, and put in the order of
+// their times, as the points of one LAS file count them.
 #pragma once
 
 #include <cstddef>

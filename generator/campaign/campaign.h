@@ -42,8 +42,8 @@ struct Campaign {
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
   std::optional<int> rays;
-  bool balanced_nodes = false;      // see node_balance.h
-  std::size_t checked_pulses = 40;  // see interpolation_check.h
+  bool balanced_nodes = false;      // see table_maker.h
+  std::size_t checked_pulses = 40;  // see provenance.h
 
   const TableSchema& kind() const { return water ? kWaterColumn : kSeaSurface; }
   // Of a sea.

@@ -1,4 +1,4 @@
-// The nodes of a campaign file, and the axes that they make.
+// The sea of a file for tracing, and the nodes of a campaign file with the axes that they make.
 #pragma once
 
 #include <array>

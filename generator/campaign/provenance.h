@@ -1,4 +1,4 @@
-// The provenance of a table: everything needed to judge it and to make it again.
+// The provenance of a table: everything needed to judge it and to make it again, its interpolation error included.
 #pragma once
 
 #include <array>

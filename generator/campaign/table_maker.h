@@ -1,4 +1,4 @@
-// From a campaign to a table.
+// From the units of a campaign to a table, with node values that minimize the error of interpolation.
 #pragma once
 
 #include <functional>

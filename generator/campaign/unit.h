@@ -23,7 +23,7 @@ namespace albtpu {
 enum class UnitKind {
   kSeaCase,    // `index` counts the sea cases of the campaign
   kWaterCase,  // the same for a campaign of the water column
-  kPulse,      // `index` counts the pulses at which the table is checked (interpolation_check.h)
+  kPulse,      // `index` counts the pulses at which the table is checked (provenance.h)
 };
 
 struct UnitId {
@@ -51,7 +51,7 @@ UnitOrigin OriginOf(const Campaign& campaign);  // when computed by this program
 std::string EncodeResult(const SeaCaseResult& result);
 absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes);
 
-// The same for the results of ComputeDirectly (interpolation_check.h, water_cases.h) and of water cases.
+// The same for the results of ComputeDirectly (provenance.h, water_cases.h) and of water cases.
 std::string EncodeEstimates(const std::vector<Estimate>& estimates);
 absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes);
 

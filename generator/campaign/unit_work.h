@@ -1,4 +1,4 @@
-// Computes units on the threads of this process and of the other ranks.
+// Computes units on the threads of this process and of the other ranks, and keeps finished units in a folder.
 #pragma once
 
 #include <filesystem>

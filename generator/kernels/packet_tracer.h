@@ -1,8 +1,8 @@
 // A collimated beam through one piece of sea surface, several rays at a time in single precision.
 //
-// The geometry is that of height_field.h and the means are those of ray_tracer.h, its slow twins. Single precision is
-// enough because all numbers are small: positions and heights are relative to the point where the axis of the beam
-// meets the water, and the sums are of departures from still water, computed without cancellation.
+// Geometry and means are those of ray_tracer.h, its slow twin. Single precision is enough because all numbers are
+// small: positions and heights are relative to the point where the axis of the beam meets the water, and the sums are
+// of departures from still water, computed without cancellation.
 #pragma once
 
 #include <Eigen/Core>

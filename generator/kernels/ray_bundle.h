@@ -1,4 +1,5 @@
-// The rays of a collimated beam in the layout of the packet tracer: in single precision, with neighbours side by side.
+// The rays of a collimated beam in the layout of the packet tracer (single precision, neighbours side by side), and the
+// sums and means that it computes over them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +10,8 @@
 
 namespace albtpu {
 
+// The rays of a collimated beam in the layout of the packet tracer: in single precision, with neighbours side by side.
+//
 // Immutable. All rays have the same direction and enter water of the same refractive index; they differ in where they
 // cross z = 0. A Morton curve through these points is divided into strips of equal length. The rays are stored
 // interleaved: the first of each strip, the second of each strip, and so on. A ray and the one kStrips before it
@@ -97,13 +100,13 @@ struct TracedBundle {
   Eigen::Vector2d unshifted_slope;
   Eigen::Vector3d unshifted_slope_squares;  // as SlopeSquares
   Eigen::Vector2d unshifted_height_slope;   // covariance of height and slope over the rays, m
-  // Rays whose packet did not converge; each was intersected by the exact search of height_field.h.
+  // Rays whose packet did not converge; each was intersected by the exact search of ray_tracer.h.
   int unsettled_rays;
 };
 
 TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums);
 
-// Intersects one ray with the exact search of height_field.h: the height [m], and the rises of the facet in m per step
+// Intersects one ray with the exact search of ray_tracer.h: the height [m], and the rises of the facet in m per step
 // of the grid.
 void IntersectOne(const RayBundle& rays, const HeightView& surface, int ray, float& height, float& rise_x,
                   float& rise_y);

@@ -1,4 +1,4 @@
-// Estimates with standard errors from a sample of realizations.
+// Estimates with standard errors from a sample of realizations, and their rounding for storage.
 #pragma once
 
 #include <Eigen/Core>

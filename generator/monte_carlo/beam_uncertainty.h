@@ -41,7 +41,7 @@ struct BeamRealization {
   };
   std::array<Part, 2> parts;
   // Means over the rays, of the facets above or below the points where they cross z = 0, on the surface of parts[0].
-  // Their statistics are known (slope_moments.h, height_slope_product.h). Zero where only tracing is used.
+  // Their statistics are known (slope_moments.h). Zero where only tracing is used.
   Eigen::Vector2d mean_slope = Eigen::Vector2d::Zero();
   Eigen::Vector3d mean_squares = Eigen::Vector3d::Zero();
   Eigen::Vector2d height_slope = Eigen::Vector2d::Zero();  // covariance of height and slope over the rays, m
@@ -56,7 +56,7 @@ struct BeamUncertainty {
 };
 
 // The known statistics of the slopes over which a beam averages: the expectations of the control variates. The `form`
-// of the moments is SecantCurvature (refraction.h).
+// of the moments is SecantCurvature (closed_form.h).
 struct KnownSlopes {
   // Of the means over the rays.
   SlopeMoments moments;

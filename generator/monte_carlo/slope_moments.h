@@ -1,7 +1,5 @@
-// Statistics of the slopes over which a beam averages, at the facets that its rays would meet if the height of the
-// water did not shift them. The mean slope is then linear in the heights and the mean square quadratic, so the
-// statistics of both are known without drawing a surface. A beam's refraction follows them to first and second order:
-// they are the control variates of the Monte Carlo.
+// Known statistics of the slopes under a beam, the control variates of the Monte Carlo: the covariances of heights and
+// slopes, their product within a footprint, and the moments of slopes over the facets of a beam.
 #pragma once
 
 #include <Eigen/Core>
@@ -93,6 +91,10 @@ class HeightSlopeProduct {
   std::array<Eigen::MatrixXcd, 3> products_;  // C R_ab - G_a G_b
 };
 
+// Statistics of the slopes over which a beam averages, at the facets that its rays would meet if the height of the
+// water did not shift them. The mean slope is then linear in the heights and the mean square quadratic, so the
+// statistics of both are known without drawing a surface. A beam's refraction follows them to first and second order:
+// they are the control variates of the Monte Carlo.
 struct SlopeMoments {
   Eigen::Matrix2d covariance;        // of the mean slope
   Eigen::Vector3d expected_squares;  // of the mean of (m_x^2, m_y^2, m_x m_y)

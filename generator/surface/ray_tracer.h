@@ -1,4 +1,5 @@
-// A beam through one piece of sea surface: where its rays meet the water and how they are refracted.
+// A beam through one piece of sea surface: the triangles of the surface, where rays meet them, and how they are
+// refracted.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,9 +1,10 @@
-// A random sea surface under a beam, from the longest wave down to the spacing of the grid.
+// A random sea surface under a beam, from the longest wave, as plane waves, down to the spacing of the grid.
 //
 // No single grid can hold the sea: at 15 m/s under a beam of 0.25 m it would need 20 000 points along a side. The
 // spectrum is therefore divided by wavelength. Short waves form a periodic patch, made by FFT, a few times as wide as
 // the beam. Long waves are plane waves, exact at any distance, evaluated where the beam meets the water and
-// interpolated to the grid of the patch. Waves shorter than the grid are not drawn: see unresolved_waves.h.
+// interpolated to the grid of the patch. Waves shorter than the grid are not drawn: see UnresolvedWaves
+// (closed_form.h).
 #pragma once
 
 #include <Eigen/Core>

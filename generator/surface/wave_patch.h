@@ -18,9 +18,9 @@
 namespace albtpu {
 
 // The fraction of the waves' power at wavenumber k that the patch holds; the rest belongs to the plane waves of
-// long_waves.h. The fraction is 0 for waves longer than `all_long` and 1 for waves shorter than `all_patch`, with a
-// smooth transition in the logarithm of the wavenumber. A sharp cut would fall through the cells of the patch's lattice
-// of wavenumbers.
+// LongWaveModel (sea_surface.h). The fraction is 0 for waves longer than `all_long` and 1 for waves shorter than
+// `all_patch`, with a smooth transition in the logarithm of the wavenumber. A sharp cut would fall through the cells of
+// the patch's lattice of wavenumbers.
 class CrossFade {
  public:
   CrossFade(double all_long, double all_patch) : all_long_(all_long), all_patch_(all_patch) {}  // rad/m, increasing

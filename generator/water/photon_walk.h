@@ -1,9 +1,5 @@
-// Photons on their way down through water, in units of length that do not depend on the water for a given phase
-// function.
-//
-// The walk scatters once per unit of length on average (b = 1) and absorbs nothing. Where a real water scatters b times
-// a metre, a photon has walked its path times 1 / b m; in water of absorption a the fraction exp(-a / b path) of it
-// remains. So one pool of photons serves every depth, attenuation and albedo.
+// Photons on their way down through water: the phase function by which they scatter, and walks in units of length that
+// do not depend on the water for a given phase function.
 #pragma once
 
 #include <cstdint>
@@ -52,6 +48,13 @@ class PhaseFunction {
   std::vector<double> psi_, sin2_half_, share_;
   std::vector<std::uint32_t> guide_;  // The last node whose fraction is not above i / (size - 1).
 };
+
+// Photons on their way down through water, in units of length that do not depend on the water for a given phase
+// function.
+//
+// The walk scatters once per unit of length on average (b = 1) and absorbs nothing. Where a real water scatters b times
+// a metre, a photon has walked its path times 1 / b m; in water of absorption a the fraction exp(-a / b path) of it
+// remains. So one pool of photons serves every depth, attenuation and albedo.
 
 // The photons of a pool that reached a plane, where each met it first. Lengths in mean free paths of scattering.
 struct Crossings {

@@ -1,4 +1,5 @@
-// Checks of option values that several programs use. Each returns the problem, as CLI11 requires.
+// What the programs share on the command line: checks of option values, --help and --version, messages about wrong
+// arguments, and the end of standard output.
 #pragma once
 
 #include <string>
@@ -9,6 +10,8 @@
 #include "programs/command_line/cli_fwd.h"
 
 namespace albtpu::programs {
+
+// Checks of option values that several programs use. Each returns the problem, as CLI11 requires.
 
 // A text that is not empty, such as the name of a `what`.
 CLI::Validator NotEmpty(const std::string& what);

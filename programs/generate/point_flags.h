@@ -1,4 +1,4 @@
-// The flags of albtpu-generate point.
+// The flags of the commands point and water-point of albtpu-generate, and those of more than one command.
 #pragma once
 
 #include "programs/command_line/cli_fwd.h"

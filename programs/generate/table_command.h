@@ -1,4 +1,4 @@
-// The progress of a long computation and the time left, on standard error.
+// What commands share that make a table: the progress of a long computation, and the file that is written.
 #pragma once
 
 #include <chrono>
@@ -10,6 +10,8 @@
 #include "tables/table.h"
 
 namespace albtpu::programs {
+
+// The progress of a long computation and the time left, on standard error.
 
 // On a terminal a bar, which is redrawn in place and erased at the end; elsewhere a line every ten seconds.
 class Progress {

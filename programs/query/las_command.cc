@@ -81,7 +81,7 @@ class LasFiles {
         std::move(annotated->file),
         annotate::Findings{.input_bytes = annotated->input_bytes,
                            .input = InputJson(*annotated),
-                           .output = {{"format", std::string(Name(annotated->output_kind))}},
+                           .output = nlohmann::ordered_json{{"format", std::string(Name(annotated->output_kind))}},
                            .answers = AnswersJson(annotation_, *annotated),
                            .tally = annotated->summary.Tally()},
         absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),

@@ -1,5 +1,5 @@
 // Small square patches of the bottom that several lines saw, found in one reading of the points and filled in a second
-// one.
+// one, and the pairs of neighbouring points of two lines in them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The depths that a flight can reach, over the sea and each of the conditions that a planner chooses.
+// The depths to which the orders of S-44 can be met by a planned flight, over the sea and each of the conditions that a
+// planner chooses.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The folder of a report: report.json, grid.nc and report.html, which appear together.
+// The folder of a report or a plan: its files, which appear together, its page, and the verdict for the terminal.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +12,8 @@
 #include "tables/file/output_folder.h"
 
 namespace albtpu::quality {
+
+// The folder of a report: report.json, grid.nc and report.html, which appear together.
 
 // Whether `folder` has the complete report of these files with these options, which are not newer than it.
 bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,

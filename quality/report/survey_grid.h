@@ -1,4 +1,5 @@
-// Annotated points gathered in square cells, in memory that grows with the cells that have points.
+// Annotated points gathered in square cells, in memory that grows with the cells that have points, and the statistics
+// of the points by class of each specification and by depth.
 #pragma once
 
 #include <array>

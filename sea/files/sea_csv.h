@@ -1,3 +1,15 @@
+// The canonical text of a sea; the limits of all sea files, and text that may be compressed by gzip.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "sea/files/sea_series.h"
+
+namespace albtpu {
+
 // The canonical text of a sea: comma-separated, one line for each frequency or wavenumber.
 //
 //     f,E,r2,alpha2                      k,S,a2,b2,a4,b4
@@ -12,17 +24,6 @@
 // Such a sea is complete: no tail is joined.
 //
 // Lines that begin with # are comments.
-#pragma once
-
-#include <cstddef>
-#include <string>
-#include <string_view>
-
-#include "absl/status/statusor.h"
-#include "sea/files/sea_series.h"
-
-namespace albtpu {
-
 bool IsSeaCsv(std::string_view first_line);
 
 absl::StatusOr<SeaSeries> ReadSeaCsv(std::string_view text);

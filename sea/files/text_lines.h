@@ -1,4 +1,4 @@
-// The lines of a text in memory, and the numbers and times in them.
+// The lines and the words of a text in memory, and the numbers and times in them.
 #pragma once
 
 #include <cstddef>

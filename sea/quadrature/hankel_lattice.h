@@ -1,5 +1,4 @@
-// Wavenumbers and lags in equal steps of the logarithm, and the Bessel functions that take a spectrum from one to the
-// other. On such a lattice the function of wavenumber times lag depends on the sum of the two indices alone.
+// The integrals of the response theory: Gaussian quadrature, and the lattice that takes a spectrum to lags.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +21,9 @@ std::vector<QuadratureNode> GaussHermite(int count);
 // The integral of exp(-x) f(x) over positive x is the sum of weight f(at): exact up to degree 2 count - 1.
 std::vector<QuadratureNode> GaussLaguerre(int count);
 
+// Wavenumbers and lags in equal steps of the logarithm, and the Bessel functions that take a spectrum from one to the
+// other. On such a lattice the function of wavenumber times lag depends on the sum of the two indices alone.
+//
 // Immutable; one serves all seas and beams.
 class HankelLattice {
  public:

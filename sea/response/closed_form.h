@@ -1,11 +1,5 @@
-// The small-slope theory: the uncertainty of a beam in the limit of small slopes, from the spectrum alone. The
-// section "The limit of small slopes" of docs/physics.md derives it.
-//
-// For a footprint much smaller than the depth the spot moves with the footprint-averaged slope: the tangent of the
-// mean refracted direction is linear in that slope, with the gains of refraction.h. The theory is the oracle of the
-// Monte Carlo, which agrees with it as the slopes vanish and lies below it for steeper seas, because Snell's law is
-// not linear in slope: THU is lower by 0.18 of the mean square slope of the whole sea at nadir (0.189 by the third
-// order in slope) and by another 0.07 of it at 20 degrees, growing with the square of the incidence.
+// A beam on the water in closed form: Snell's law and its response to slopes, the beam and the average over its
+// footprint, the uncertainty in the limit of small slopes, and the mean effect of waves shorter than a grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -139,6 +133,14 @@ double FootprintAverage(const BeamOptions& beam, double k, double psi);
 
 // W^2, the fraction of the wave's power that remains.
 double FootprintPower(const BeamOptions& beam, double k, double psi);
+
+// The small-slope theory: the uncertainty of a beam in the limit of small slopes, from the spectrum alone. The section
+// "The limit of small slopes" of docs/physics.md derives it.  For a footprint much smaller than the depth the spot
+// moves with the footprint-averaged slope: the tangent of the mean refracted direction is linear in that slope, with
+// the gains of SmallSlopeGain. The theory is the oracle of the Monte Carlo, which agrees with it as the slopes vanish
+// and lies below it for steeper seas, because Snell's law is not linear in slope: THU is lower by 0.18 of the mean
+// square slope of the whole sea at nadir (0.189 by the third order in slope) and by another 0.07 of it at 20 degrees,
+// growing with the square of the incidence.
 
 // 2 sigma values: angles in rad, the others in m per m of depth.
 struct SmallSlopeUncertainty {

@@ -1,9 +1,9 @@
 // The response theory: the errors of any beam on any sea, from the spectrum alone.
 //
 // The mean refracted ray of a beam is a function of Gaussian waves. With the gains Gamma and the curvatures H_i of
-// effective_gains.h, tau = tan(incidence) along the azimuth, the covariance R of the slopes at two points of the
-// footprint, half the mean square D of the difference of their heights, <> the mean over these points and V = <R>, its
-// covariance per depth^2 is
+// EffectiveGains (closed_form.h), tau = tan(incidence) along the azimuth, the covariance R of the slopes at two points
+// of the footprint, half the mean square D of the difference of their heights, <> the mean over these points and V =
+// <R>, its covariance per depth^2 is
 //     K_ij = [Gamma (V + <R tau tau^T R> + <D (tau . grad)^2 R>) Gamma^T]_ij + 1/2 <tr(H_i R H_j R)>
 //            - <Gamma_i (tau . grad) R H_j grad D> - <Gamma_j (tau . grad) R H_i grad D>.
 // "Finite slopes" in docs/physics.md derives it and states how well tracing agrees. Left out are terms of the sixth

@@ -1,4 +1,5 @@
-// Covariances of the slopes under a footprint, first and second order, along and across the azimuth of the beam.
+// Covariances of slopes and heights under a footprint, first and second order, along and across the azimuth of the
+// beam, from the spectrum of a sea as a slanted beam sees it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// Moments of a spectrum in samples of wavenumber, by the trapezoidal rule in k.
+// The dispersion relation of gravity waves, and the moments of a spectrum in samples of wavenumber by the trapezoidal
+// rule in k.
 #pragma once
 
 #include "sea/spectra/harmonic_spectrum.h"

@@ -1,4 +1,4 @@
-// A gRPC channel to the servers of an address.
+// A gRPC channel to the servers of an address, the health of a server, and its errors.
 #pragma once
 
 #include <grpcpp/channel.h>

@@ -1,4 +1,5 @@
-// Writes queries as messages, and reads descriptions of tables from messages. answer_reader.h reads answers.
+// Writes queries and seas as messages, and reads descriptions of tables and seas from messages. answer_reader.h reads
+// answers.
 #pragma once
 
 #include "albtpu/v1/sea.pb.h"

@@ -1,4 +1,5 @@
-// The values and standard errors of a block of pulses, before they are restated and written.
+// The values and standard errors of a block of pulses: the records that they are blended from, and the answers that are
+// stated and written of them.
 #pragma once
 
 #include <array>
@@ -52,6 +53,8 @@ struct Needs {
     sets[records.standard_errors[quantity].set] = true;
   }
 };
+
+// The values and standard errors of a block of pulses, before they are restated and written.
 
 // At 2 sigma. Numbers of pulses that are outside the table, and numbers that the table does not hold, are undefined.
 class BlockValues {

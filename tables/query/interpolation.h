@@ -14,8 +14,8 @@ namespace albtpu {
 PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse);
 
 // The answer for a pulse without azimuth, from its answers at two azimuths, such as 0 and 90 degrees: each value is the
-// larger in magnitude, with its standard error. Without numbers at both, the answer that has the worse outcome: kInvalid
-// before kOutOfDomain, then the one whose axis comes first.
+// larger in magnitude, with its standard error. Without numbers at both, the answer that has the worse outcome:
+// kInvalid before kOutOfDomain, then the one whose axis comes first.
 PulseUncertainty LargerOf(const PulseUncertainty& a, const PulseUncertainty& b);
 
 }  // namespace albtpu

@@ -1,4 +1,4 @@
-// The positions of a block of pulses in a table.
+// The grid of a table, and the positions of a block of pulses in it.
 #pragma once
 
 #include <array>

@@ -202,7 +202,8 @@ class Signals(ServeTest):
         process.terminate()
         self.assertEqual(process.wait(PATIENCE), 0)
         with os.fdopen(reader) as log:
-            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out \(the reader of the log did not keep up\)\n")
+            self.assertRegex(log.read(),
+                             r"albtpu-serve: \d+ lines were left out \(the reader of the log did not keep up\)\n")
 
 
 class BusyClient:

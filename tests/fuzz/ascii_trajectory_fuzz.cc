@@ -8,7 +8,7 @@
 #include "tests/fuzz/trajectory_promises.h"
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::formats;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data),

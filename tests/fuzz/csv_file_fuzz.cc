@@ -18,7 +18,9 @@
 namespace {
 
 using namespace albtpu;
+using namespace albtpu::annotate;
 using namespace albtpu::client;
+using namespace albtpu::formats;
 
 struct Record {
   std::string text;  // Without its line ending.

@@ -17,7 +17,8 @@
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::annotate;
+using namespace albtpu::formats;
 
 void MustNameALine(const absl::Status& status) {
   ALBTPU_MUST(absl::IsInvalidArgument(status) && absl::StrContains(status.message(), " line "));

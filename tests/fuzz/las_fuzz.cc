@@ -21,7 +21,9 @@
 namespace {
 
 using namespace albtpu;
+using namespace albtpu::annotate;
 using namespace albtpu::client;
+using namespace albtpu::formats;
 using laz::Load;
 
 // A sensor that flies with the times of the points, is not known at some of them, and stands in another place than most

@@ -14,7 +14,7 @@
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::formats;
 
 const std::string kName = "file";
 

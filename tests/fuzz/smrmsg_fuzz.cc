@@ -13,7 +13,7 @@
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::formats;
 
 constexpr double TrajectorySigma::*kFields[] = {
     &TrajectorySigma::north,          &TrajectorySigma::east,          &TrajectorySigma::down,

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::formats;
 
 void CheckSeries(const WaterLevelSeries& series) {
   ALBTPU_MUST(series.size() >= 2);

@@ -1,4 +1,5 @@
-// Single frames of the virtual tank: the pattern of light under the waves, and its change from frame to frame.
+// Single frames of the virtual tank: the pattern of light under the waves, its change from frame to frame, and its
+// sensitivity to what the paper does not state.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The laboratory of Birkebak et al. (2018), section 2.2: a laser above a wave tank and photodiodes under its water.
+// The laboratory of Birkebak et al. (2018), section 2.2: a laser above a wave tank, waves that evolve in it, and
+// photodiodes under its water.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +19,7 @@
 
 namespace albtpu {
 
-// A patch of sea that evolves in time: random waves that travel by the dispersion of dispersion.h.
+// A patch of sea that evolves in time: random waves that travel by the dispersion of wave_staff.h.
 
 // One realization of a periodic square patch. Immutable.
 //

@@ -1,5 +1,5 @@
-// A wave staff, which records the elevation at one point of an evolving sea, and the usual analysis of such a record:
-// spectrum, peak and significant wave height.
+// A wave staff, which records the elevation at one point of an evolving sea; the dispersion of these waves; and the
+// usual analysis of such a record: spectrum, peak and significant wave height.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
-// A reader of the paper's tables as CSV files: lines of attribution that begin with `#`, a line of column names, rows
-// of numbers and words.
+// The paper's tables: a reader of their CSV files, and the angle method, which makes THU and TVU of their angles.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +11,8 @@
 
 namespace albtpu {
 
+// A reader of the paper's tables as CSV files: lines of attribution that begin with `#`, a line of column names, rows
+// of numbers and words.
 class PublishedTable {
  public:
   // NotFound if there is no such file; InvalidArgument, with file and line, if a row does not match the column names.

@@ -1,5 +1,6 @@
-// The paper's numbers as lookup tables, so that programs can compare them with ours: the published angles, with THU
-// and TVU by the angle method. They hold neither biases nor standard errors, because the paper gives none.
+// The paper's numbers as lookup tables, so that programs can compare them with ours: its fitted model, and the
+// published angles with THU and TVU by the angle method. They hold neither biases nor standard errors, because the
+// paper gives none.
 #pragma once
 
 #include <vector>

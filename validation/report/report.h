@@ -1,4 +1,4 @@
-// The report of a validation: CSV files, figures and one page, in a folder.
+// The report of a validation in a folder: CSV files, figures and one page.
 #pragma once
 
 #include <filesystem>

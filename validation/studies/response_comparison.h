@@ -1,4 +1,4 @@
-// The response theory beside ray tracing, beam by beam.
+// The response theory beside ray tracing, beam by beam, on seas of all kinds.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The arithmetic decoder of LASzip files (A. Said, HPL-2004-76, section 2.3; an interval of 32 bits
-// that is renormalized bytewise).
+// Decoding of compressed bytes: their source, the window through which it is read, the arithmetic decoder of LASzip
+// files, and errors of damaged bytes.
 #pragma once
 
 #include <cstddef>
@@ -77,6 +77,9 @@ class ByteWindow {
   absl::Status status_;
 };
 
+// The arithmetic decoder of LASzip files (A. Said, HPL-2004-76, section 2.3; an interval of 32 bits that is
+// renormalized bytewise).
+//
 // Invariant: value_ < length_ for any bytes, so that no bytes lead outside of a model.
 //
 // Each symbol depends on the one before it. Hot loops therefore work on a local copy, whose members stay in registers

@@ -1,4 +1,5 @@
-// The points of a chunk, from its compressed bytes.
+// The points of a chunk, from its compressed bytes: the interface, and its two implementations for formats 0 to 5 and 6
+// to 10.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The fields of points of formats 6 to 10 that are coded as integers: heights, intensities, scan angles and point
-// sources.
+// The fields of points of formats 6 to 10 that are coded as integers (heights, intensities, scan angles, point sources,
+// GPS times), and the kinds of returns that choose their contexts.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The fields common to point formats 0 to 5: which of them changed, then the changed ones, then the coordinates.
+// The fields common to point formats 0 to 5 and the contexts of their returns. Coded are which fields changed, then the
+// changed ones, then the coordinates.
 #pragma once
 
 #include <algorithm>

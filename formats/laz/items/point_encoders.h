@@ -1,4 +1,5 @@
-// The compressed bytes of a chunk of points of formats 0 to 5.
+// The compressed bytes of a chunk, from its points: the interface, and its two implementations for formats 0 to 5 and 6
+// to 10.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,7 @@ class ChunkEncoder {
   virtual void Encode(std::string_view records, std::string& chunk) = 0;
 };
 
+// The compressed bytes of a chunk of points of formats 0 to 5.
 class PointwiseEncoder : public ChunkEncoder {
  public:
   explicit PointwiseEncoder(const LaszipRecord& record) : record_length_(record.record_length()), items_(record) {}
@@ -38,7 +40,7 @@ class PointwiseEncoder : public ChunkEncoder {
   ArithmeticEncoder encoder_;
 };
 
-// Encodes the chunks of compressor 3; layered_decoder.h describes their parts.
+// Encodes the chunks of compressor 3; LayeredDecoder (chunk_decoder.h) describes their parts.
 
 class LayeredEncoder : public ChunkEncoder {
  public:

@@ -1,4 +1,4 @@
-// The fields of points of formats 0 to 5, in the order of the record.
+// The fields of points of formats 0 to 5, in the order of the record, colours among them.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The certificate of a server, and the authentication of its callers.
+// The certificate of a server, and the authentication of its callers by certificates and tokens.
 #pragma once
 
 #include <grpc/grpc_security.h>
@@ -25,7 +25,7 @@ struct CredentialFiles {
 };
 
 // Plain text if no files are given, otherwise TLS 1.2 or 1.3. With `client_ca` a connection is refused unless its
-// client shows a certificate of that authority; with `tokens` a call is refused unless it carries one (token_guard.h).
+// client shows a certificate of that authority; with `tokens` a call is refused unless it carries one (RequireToken).
 // Files that change while the server runs take effect with the next connection (certificates) or call (tokens). Fails
 // if the files are invalid now. `recorders`, which record refusals and the expiry of the certificate, must outlive the
 // credentials.

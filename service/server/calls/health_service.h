@@ -1,5 +1,4 @@
-// grpc.health.v1.Health. The implementation in gRPC cannot be described by reflection, and it does not end the streams
-// of watchers, for which a drain would wait in vain.
+// The services for operators: grpc.health.v1.Health and albtpu.v1.AdminService.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -14,6 +13,9 @@
 #include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {
+
+// grpc.health.v1.Health. The implementation in gRPC cannot be described by reflection, and it does not end the streams
+// of watchers, for which a drain would wait in vain.
 
 // Reports the server as a whole, and each of its services, as SERVING until StopServing().
 class HealthService final : public grpc::health::v1::Health::CallbackService {

@@ -1,4 +1,4 @@
-// Queries the whole budget of pulses in columns, for `QueryBudget`.
+// Queries the whole budget of pulses in columns, for `QueryBudget`: reads its options and the aircraft, and answers.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Queries pulses in columns, for `QueryColumns` and each request of `StreamColumns`.
+// Queries pulses in columns, for `QueryColumns` and each request of `StreamColumns`: the plan of a query, its columns
+// and its answers.
 #pragma once
 
 #include <array>

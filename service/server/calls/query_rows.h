@@ -1,4 +1,5 @@
-// Queries pulses in rows, one message for each pulse, for `QueryPulses`.
+// From serialized request to serialized response: the handlers of the methods that take many pulses, and the queries of
+// `QueryPulses` and `CompileSea`.
 #pragma once
 
 #include <grpcpp/support/byte_buffer.h>
@@ -10,6 +11,8 @@
 #include "service/server/observe/metric_collectors.h"
 
 namespace albtpu::server {
+
+// Queries pulses in rows, one message for each pulse, for `QueryPulses`.
 
 // Counts the answers in `tally`. Rows are copied into columns and queried as those, so both give the same bits. Fails
 // as documented for `QueryPulses`.

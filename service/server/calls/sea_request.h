@@ -1,4 +1,4 @@
-// The sea of a request: read, checked and named.
+// The sea of a request (read, checked and named), and the tables from which a request may be answered.
 #pragma once
 
 #include <memory>

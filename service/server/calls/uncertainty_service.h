@@ -1,4 +1,5 @@
-// The methods of albtpu.v1.UncertaintyService, which uncertainty_service.proto documents.
+// The methods of albtpu.v1.UncertaintyService, which uncertainty_service.proto documents, and the watch over answers
+// that callers do not read.
 #pragma once
 
 #include <grpcpp/grpcpp.h>

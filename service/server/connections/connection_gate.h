@@ -1,4 +1,5 @@
-// Accepts connections.
+// Limits of connections: accepts them up to a number, counts the calls that each has in memory, and disconnects those
+// with too many.
 #pragma once
 
 #include <grpcpp/server_builder.h>

@@ -1,4 +1,4 @@
-// The sockets on which a server listens.
+// The addresses and sockets on which a server listens.
 #pragma once
 
 #include <string>

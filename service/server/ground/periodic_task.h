@@ -1,4 +1,4 @@
-// A task that runs at intervals on its own thread.
+// The threads of the server: tasks at intervals, the watch for inactivity, and the workers that handle long requests.
 #pragma once
 
 #include <grpcpp/alarm.h>
@@ -18,6 +18,7 @@
 
 namespace albtpu::server {
 
+// A task that runs at intervals on its own thread.
 class PeriodicTask {
  public:
   // Calls `work` whenever `interval` has passed since the last call returned.

@@ -1,4 +1,5 @@
-// The log: lines for people, or JSON objects for machines, with the id of the request that they belong to.
+// The log (lines for people or JSON objects for machines, with the id of their request), and the records of calls and
+// reloads, which feed log and metrics.
 #pragma once
 
 #include <grpcpp/grpcpp.h>

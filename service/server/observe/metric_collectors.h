@@ -1,4 +1,5 @@
-// The metrics of the seas that requests carry. docs/monitoring/README.md lists them and explains their meaning.
+// The metrics of seas and of tables, the count of outcomes, and the endpoint that Prometheus scrapes.
+// docs/monitoring/README.md lists the metrics and explains their meaning.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -24,6 +25,7 @@
 
 namespace albtpu::server {
 
+// The metrics of the seas that requests carry.
 class SeaMetrics {
  public:
   explicit SeaMetrics(prometheus::Registry& registry);

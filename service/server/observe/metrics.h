@@ -1,4 +1,5 @@
-// The metrics of calls, access and reloads. docs/monitoring/README.md lists them and explains their meaning.
+// The metrics of the process, of calls, access and reloads. docs/monitoring/README.md lists them and explains their
+// meaning.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -140,7 +141,7 @@ class ReloadMetrics {
   prometheus::Gauge* last_success_time_;
 };
 
-// All metrics of a server except those of its tables (table_metrics.h).
+// All metrics of a server except those of its tables (metric_collectors.h).
 struct ServerMetrics {
   ServerMetrics();
 

@@ -1,4 +1,4 @@
-// The tables of a server, by name.
+// The tables of a server, by name, and their replacement when their folder has changed.
 #pragma once
 
 #include <condition_variable>

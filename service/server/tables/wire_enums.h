@@ -1,4 +1,4 @@
-// Tables as messages, and the enums of requests.
+// Tables on the wire: a table that answers, its message, and the enums of requests.
 #pragma once
 
 #include <optional>

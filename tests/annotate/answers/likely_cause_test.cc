@@ -83,17 +83,17 @@ TEST_F(LikelyCauseTest, NamesAFootprintInMillimetres) {
 
 TEST_F(LikelyCauseTest, NamesADivergenceInRadiansOrMicroradians) {
   context_.footprint_from_beam = true;
-  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintDiameter(400, 1.5e-3, 20))};
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1.5e-3, 20))};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("is below 0.25 m, the first node"), HasSubstr("divergence in rad?"),
                              HasSubstr("give the altitude in m and the divergence in mrad, full angle")));
   summary_ = UncertaintySummary{AnswerStyle{}};
-  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintDiameter(400, 1500, 20))};
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1500, 20))};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("divergence in urad?"), Not(HasSubstr("feet"))));
 }
 
 TEST_F(LikelyCauseTest, NamesAnAltitudeInFeet) {
   context_.footprint_from_beam = true;
-  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintDiameter(400 / 0.3048, 2, 20))};
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400 / 0.3048, 2, 20))};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("altitude in feet?"), Not(HasSubstr("urad"))));
 }
 

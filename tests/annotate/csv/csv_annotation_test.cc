@@ -180,7 +180,7 @@ TEST_F(CsvAnnotation, TakesDirectionsForAzimuthAndABeamForFootprint) {
   Fix(PulseInput::kAltitude, 400);
   EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,0,7\n"), HasSubstr(",7" + Cells(pulse) + "\n"));
   pulse.incidence = 12.5f;
-  pulse.footprint = static_cast<float>(FootprintDiameter(400, 1.5, 12.5));
+  pulse.footprint = static_cast<float>(FootprintAtIncidence(400, 1.5, 12.5));
   EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,12.5,7\n"), HasSubstr(",7" + Cells(pulse) + "\n"));
 }
 

@@ -20,7 +20,8 @@
 namespace albtpu::bench {
 namespace {
 
-using namespace albtpu::client;
+using namespace albtpu::annotate;
+using namespace albtpu::formats;
 
 constexpr std::size_t kPulses = std::size_t{1} << 20, kBatch = std::size_t{1} << 16;
 constexpr double kPulseRate = 100'000, kPulsesInATurn = 300;

@@ -21,7 +21,9 @@
 namespace albtpu::bench {
 namespace {
 
+using namespace albtpu::annotate;
 using namespace albtpu::client;
+using namespace albtpu::formats;
 
 constexpr double kHour = 3600, kStart = 1591588800;
 constexpr std::size_t kHours = 720, kBatch = 50'000, kBatchesAnHour = 6;

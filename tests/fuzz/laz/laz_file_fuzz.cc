@@ -18,7 +18,7 @@
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::formats;
 
 constexpr std::uint64_t kMostPoints = 40;     // Read of a file, so that inputs run fast.
 constexpr std::size_t kMostExtraBytes = 64;   // Of files whose points are read: each costs some kilobytes.

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace albtpu::client;
+using namespace albtpu::config;
 
 void CheckSensor(const Sensor& sensor) {
   ALBTPU_MUST(!sensor.title.empty());

@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace albtpu::client;
+using namespace albtpu::quality;
 
 void CheckLimit(const Limit& limit) {
   ALBTPU_MUST(limit.constant >= 0 && limit.constant <= 1000);

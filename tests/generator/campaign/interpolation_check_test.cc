@@ -67,7 +67,7 @@ TEST(InterpolationCheck, ComputesPulsesOnTheSurfacesOfTheNodes) {
   EXPECT_EQ(ComputeDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
 }
 
-// A pulse at a node has the same surfaces as the node. Only the rounding of the values remains (rounding.h).
+// A pulse at a node has the same surfaces as the node. Only the rounding of the values remains (Rounded).
 TEST(InterpolationCheck, FindsNoErrorAtANode) {
   std::string text = TwoSeas().text;
   text.replace(text.find("[3, 6]"), 6, "[6]");

@@ -122,7 +122,7 @@ TEST_F(PulseTextTest, SaysThatTheInterpolationErrorIsNotKnown) {
   EXPECT_TRUE(JsonOf(kPulse).at("thu_interpolation_error_rms").is_null());
 }
 
-TEST(annotate::InterpolationErrors, AreNotReadFromAnythingElse) {
+TEST(InterpolationErrors, AreNotReadFromAnythingElse) {
   client::TableSummary table;
   for (const char* text :
        {"", "1", "0.1, 0.2, 0.3, 0.4", "0.1, 0.2, 0.3, 0.4, 5, 6", "nan, 0.2, 0.3, 0.4, 5", "0, 0, 0, 0, 0", "far"}) {
@@ -131,7 +131,7 @@ TEST(annotate::InterpolationErrors, AreNotReadFromAnythingElse) {
   }
 }
 
-TEST(annotate::InterpolationErrors, FitIntoOneLine) {
+TEST(InterpolationErrors, FitIntoOneLine) {
   EXPECT_EQ(annotate::InterpolationErrorNote(Checked()),
             "interpolation error, relative, at random pulses all over the table: thu 0.28 % rms, 1.1 % at the 99th "
             "percentile; tvu 56 % rms, 90 % at the 99th percentile");

@@ -1,5 +1,5 @@
 // The Monte Carlo against the small-slope theory over the domain of surveys: it agrees within the bounds of
-// closed_form_ratio.h and three standard errors, which with the control variate are less than 0.5 %.
+// corrected_waves_study.h and three standard errors, which with the control variate are less than 0.5 %.
 #include <gtest/gtest.h>
 
 #include <cstdint>
