@@ -13,8 +13,6 @@
 
 namespace albtpu::quality {
 
-// The folder of a report: report.json, grid.nc and report.html, which appear together.
-
 // Whether `folder` has the complete report of these files with these options, which are not newer than it.
 bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,
                const ReportOptions& options, bool with_page);
