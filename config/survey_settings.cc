@@ -1,11 +1,9 @@
 #include "config/survey_settings.h"
 
 #include <cassert>
-#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "config/sensors/sensor.h"
 #include "config/toml/toml_keys.h"
 #include "sea/sea_time.h"
 

@@ -8,7 +8,6 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
-#include "annotate/answers/answer_counts.h"
 #include "tables/pulse.h"
 
 namespace albtpu::annotate {
@@ -179,6 +178,9 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
   return cause;
 }
 
+constexpr double kRarelyAllDeeper = 20;  // m
+constexpr double kAboveByWaves = 2;      // m; how far the shallowest point may seem above the right level.
+
 }  // namespace
 
 std::optional<LikelyCause> FindLikelyCause(const AnswerTally& tally, const CauseContext& context) {
@@ -200,13 +202,6 @@ std::optional<LikelyCause> FindLikelyCause(const AnswerTally& tally, const Cause
   if (outcome == "INVALID") return LikelyCause{"a coordinate is not a finite number", "correct the coordinates"};
   return LikelyCause{outcome, "check the coordinates against the axes that `albtpu-query tables` lists"};
 }
-
-namespace {
-
-constexpr double kRarelyAllDeeper = 20;  // m
-constexpr double kAboveByWaves = 2;      // m; how far the shallowest point may seem above the right level.
-
-}  // namespace
 
 std::string RunVerdict::Problem(const AnswerTally& tally) const {
   const std::string how_many = tally.interpolated == 0 ? absl::StrCat("no ", record_, " got a number")

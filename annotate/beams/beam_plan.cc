@@ -1,7 +1,6 @@
 #include "annotate/beams/beam_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -9,10 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/beams/beam_plan.h"
 #include "annotate/beams/projected_track.h"
-#include "budget/beams/ray_track.h"
-#include "budget/beams/return_pair.h"
 #include "budget/beams/track_check.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "sea/angle.h"

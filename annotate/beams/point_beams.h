@@ -2,7 +2,6 @@
 // queried.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>

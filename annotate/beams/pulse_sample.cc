@@ -7,12 +7,7 @@
 #include <utility>
 
 namespace albtpu::annotate {
-std::uint64_t HashOfTime(double time) {
-  auto bits = std::bit_cast<std::uint64_t>(time) + 0x9E3779B97F4A7C15u;
-  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
-  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
-  return bits ^ (bits >> 31);
-}
+std::uint64_t HashOfTime(double time) { return MixBits(std::bit_cast<std::uint64_t>(time) + 0x9e3779b97f4a7c15); }
 
 void PairSample::Add(const ReturnPair& pair) {
   ++seen_;

@@ -6,7 +6,6 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "annotate/answers/answer_counts.h"
-#include "annotate/csv/csv_pulses.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/text/text.h"

@@ -2,7 +2,6 @@
 // cells.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

@@ -12,8 +12,6 @@
 #include "annotate/seas/sea_facts.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
-#include "formats/las/las_points.h"
-#include "formats/las/las_reader.h"
 #include "formats/las/las_writer.h"
 #include "formats/laz/items/point_encoders.h"
 #include "formats/text/text.h"

@@ -2,11 +2,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/beams/file_track.h"
 #include "annotate/beams/water_heights.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_points.h"

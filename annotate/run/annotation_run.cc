@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/run/file_progress.h"
 
 namespace albtpu::annotate {
 namespace {

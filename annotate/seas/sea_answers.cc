@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>

@@ -1,13 +1,10 @@
 #include "budget/beams/displacement_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "budget/beams/return_pair.h"
 #include "sea/response/closed_form.h"
 
 namespace albtpu {

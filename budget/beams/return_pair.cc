@@ -5,11 +5,9 @@
 #include <tbb/parallel_sort.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 namespace albtpu {
 namespace {

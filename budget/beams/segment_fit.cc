@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "budget/beams/displacement_fit.h"
-#include "budget/beams/return_pair.h"
 
 namespace albtpu {
 namespace {

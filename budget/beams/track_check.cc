@@ -7,8 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "budget/beams/displacement_fit.h"
-#include "budget/beams/return_pair.h"
 #include "sea/angle.h"
 
 namespace albtpu {

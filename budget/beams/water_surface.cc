@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "budget/beams/return_pair.h"
+
 namespace albtpu {
 namespace {
 
@@ -27,18 +29,11 @@ using Cell = std::array<Sample, kKept>;
 
 float HeightOf(Sample sample) { return std::bit_cast<float>(static_cast<std::uint32_t>(sample)); }
 
-// The finalizer of SplitMix64: Steele, Lea and Flood (2014), doi:10.1145/2660193.2660195.
-std::uint64_t Mix(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-  return bits ^ (bits >> 31);
-}
-
 Sample SampleOf(double x, double y, double time, double height) {
   const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
   const auto low = std::bit_cast<std::uint32_t>(static_cast<float>(height));
-  const std::uint64_t place = Mix(bits(x) + 0x9e3779b97f4a7c15 * bits(y));
-  const std::uint64_t hash = Mix(place + bits(time) + 0x9e3779b97f4a7c15 * low);
+  const std::uint64_t place = MixBits(bits(x) + 0x9e3779b97f4a7c15 * bits(y));
+  const std::uint64_t hash = MixBits(place + bits(time) + 0x9e3779b97f4a7c15 * low);
   return (hash & 0xffffffff00000000) | low;
 }
 

@@ -1,8 +1,6 @@
 #include "config/sensors/sensor.h"
 
-#include <algorithm>
 #include <cstdlib>
-#include <optional>
 #include <system_error>
 #include <utility>
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/crs/proj_crs.h"
 
 namespace albtpu::formats {
 namespace {

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 
 namespace albtpu::formats {

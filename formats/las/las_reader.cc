@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/arithmetic_decoder.h"
 
 namespace albtpu::formats {
 LasReader::LasReader(std::string name, std::FILE* file)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
-#include <string_view>
 
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"

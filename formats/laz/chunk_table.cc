@@ -10,7 +10,6 @@
 #include <array>
 #include <memory>
 
-#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/arithmetic_encoder.h"
 #include "formats/laz/coding/integer_coder.h"
 #include "formats/laz/coding/little_endian.h"

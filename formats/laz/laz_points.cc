@@ -5,16 +5,13 @@
 #include <cassert>
 #include <cstring>
 #include <exception>
-#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
 
 namespace albtpu::laz {

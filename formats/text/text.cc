@@ -17,6 +17,10 @@ namespace {
 
 constexpr char kUsagePayload[] = "albtpu/usage";
 
+constexpr std::size_t kMaxEdits = 3;
+constexpr std::size_t kEditsPer = 2,
+                      kCharactersPer = 5;  // the maximum number of edits per number of characters
+
 }  // namespace
 
 absl::Status UsageError(std::string_view message) {
@@ -26,14 +30,6 @@ absl::Status UsageError(std::string_view message) {
 }
 
 bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsagePayload).has_value(); }
-
-namespace {
-
-constexpr std::size_t kMaxEdits = 3;
-constexpr std::size_t kEditsPer = 2,
-                      kCharactersPer = 5;  // the maximum number of edits per number of characters
-
-}  // namespace
 
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   // Row i has the distances of the first i characters of `a` from the first j of `b`; three rows are enough.

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -141,6 +139,10 @@ std::string Describe(const Motion& motion) {
       DegreesOfRadians(motion.crab));
 }
 
+constexpr std::size_t kMaxPairs = 4096;
+constexpr double kStretch = 0.1;         // s
+constexpr std::size_t kMaxSteps = 1000;  // In a stretch: disorder costs no more time than order.
+
 }  // namespace
 
 absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid_position) {
@@ -157,14 +159,6 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
   if (motion.fits()) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", Describe(motion)));
 }
-
-namespace {
-
-constexpr std::size_t kMaxPairs = 4096;
-constexpr double kStretch = 0.1;         // s
-constexpr std::size_t kMaxSteps = 1000;  // In a stretch: disorder costs no more time than order.
-
-}  // namespace
 
 std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory) {
   std::vector<RecordPair> pairs;

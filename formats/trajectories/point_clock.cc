@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

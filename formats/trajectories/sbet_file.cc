@@ -14,8 +14,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/trajectories/ascii_motion.h"
-#include "formats/trajectories/sbet_diagnosis.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <filesystem>
 #include <numbers>
 #include <system_error>
 #include <utility>
@@ -18,27 +16,11 @@
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {
 
 constexpr std::size_t kBeginning = 4096;  // Bytes. An SBET has bytes there that no text has, such as zeros.
-
-}  // namespace
-
-absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path) {
-  bool is_text = false;
-  {
-    const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "a trajectory");
-    if (!file.ok()) return file.status();
-    is_text = AsciiTrajectory::Recognizes(file->bytes().substr(0, kBeginning));
-  }
-  if (is_text) return AsciiTrajectory::Open(path);
-  return SbetFile::Open(path);
-}
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -76,6 +58,17 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder) {
 }
 
 }  // namespace
+
+absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path) {
+  bool is_text = false;
+  {
+    const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "a trajectory");
+    if (!file.ok()) return file.status();
+    is_text = AsciiTrajectory::Recognizes(file->bytes().substr(0, kBeginning));
+  }
+  if (is_text) return AsciiTrajectory::Open(path);
+  return SbetFile::Open(path);
+}
 
 absl::StatusOr<TrajectoryFiles> LoadTrajectories(std::span<const std::string> paths) {
   TrajectoryFiles trajectories;

@@ -11,7 +11,6 @@
 #include "absl/strings/str_format.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

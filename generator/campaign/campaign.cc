@@ -1,13 +1,10 @@
 #include "generator/campaign/campaign.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "formats/text/text.h"
-#include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"
 #include "sea/angle.h"
@@ -22,9 +19,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 WindSea ReadWindSea(CampaignFile& file) {
   WindSea sea;
   const std::string spectrum = ReadText(file, campaign_keys::kSpectrum);
-  for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading})
-    if (file[campaign_keys::kSeaFile.table].Has(campaign_keys::kSeaFile.name) && file[key.table].Has(key.name))
-      file[key.table].Fail(key.name, "has no effect on the sea of 'sea.file'; leave it out");
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
   const std::optional<double> spreading = ReadNumber(file, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
@@ -33,24 +27,6 @@ WindSea ReadWindSea(CampaignFile& file) {
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
-}
-
-// Nothing without `sea.file`, which all other keys of that sea need.
-std::optional<SeaOfFile> ReadSeaOfFile(CampaignFile& file) {
-  using namespace campaign_keys;
-  SeaOfFile sea;
-  sea.file = ReadText(file, kSeaFile);
-  if (const std::string time = ReadText(file, kSeaTime); !time.empty()) sea.time = time;
-  sea.water_depth = ReadNumber(file, kSeaDepth);
-  sea.wind_speed = ReadNumber(file, kSeaWindSpeed);
-  sea.wind_from = ReadNumber(file, kSeaWindFrom);
-  sea.tail = FindTailRule(ReadText(file, kSeaTail)).value_or(sea.tail);
-  sea.tail_from = ReadNumber(file, kSeaTailFrom);
-  if (!sea.file.empty()) return sea;
-  for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom})
-    if (file[key.table].Has(key.name))
-      file[key.table].Fail(key.name, "goes with 'sea.file' only; add the file, or leave it out");
-  return std::nullopt;
 }
 
 Effort ReadEffort(CampaignFile& file) {
@@ -112,7 +88,6 @@ absl::StatusOr<Campaign> ParseWater(CampaignFile& file, const CampaignHead& head
                     .axes = *std::move(axes),
                     .refractive_index = *refractive_index,
                     .wind_sea = {},
-                    .sea = std::nullopt,
                     .water = WaterWork{.group_index = *group_index,
                                        .photons = static_cast<std::uint32_t>(*photons),
                                        .pairs_per_photon = static_cast<int>(*pairs)},
@@ -137,8 +112,12 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::optional<std::int64_t> seed = ReadWhole(file, campaign_keys::kSeed);
   if (kind == kWaterColumn.name)
     return ParseWater(file, {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
-  const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(file);
-  const Nodes nodes = ReadNodesOfSea(file, sea_of_file.has_value());
+  if (file["sea"].Has("file")) {
+    file["sea"].Fail("file",
+                     "is no key of a campaign file; make the table of a measured sea by albtpu-query sea FILE "
+                     "--output TABLE.h5");
+  }
+  const Nodes nodes = ReadNodesOfSea(file);
   const std::string profile = ReadText(file, campaign_keys::kProfile);
   const std::optional<double> source_height = ReadNumber(file, campaign_keys::kSourceHeight);
   const std::optional<double> refractive_index = ReadNumber(file, campaign_keys::kRefractiveIndexOfWater);
@@ -150,13 +129,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::optional<std::int64_t> checked_pulses = ReadWhole(file, campaign_keys::kCheckedPulses);
   if (const absl::Status status = file.Finish(); !status.ok()) return status;
 
-  std::optional<TracedSea> sea;
-  if (sea_of_file) {
-    absl::StatusOr<TracedSea> traced = ReadTracedSea(*sea_of_file);
-    if (!traced.ok()) return traced.status();
-    sea = *std::move(traced);
-  }
-  absl::StatusOr<UncertaintyTable::Axes> axes = sea ? MakeAxes(*sea, nodes) : MakeAxes(*wind_sea.model, nodes);
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(*wind_sea.model, nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = std::string(text),
                     .id = id,
@@ -168,7 +141,6 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .source_height = *source_height,
                     .refractive_index = *refractive_index,
                     .wind_sea = wind_sea,
-                    .sea = std::move(sea),
                     .water = std::nullopt,
                     .corrected_above = *corrected_above,
                     .effort = effort,
@@ -204,9 +176,8 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
   sea_case.rays = campaign.rays;
   for (const double incidence : campaign.nodes(AxisId::kIncidence)) {
     for (const double azimuth : campaign.nodes(AxisId::kAzimuth)) {
-      // Over the sea of a file, the beam at 180 degrees is that at 0.
       sea_case.beams.push_back({.incidence = RadiansOfDegrees(incidence),
-                                .azimuth = RadiansOfDegrees(azimuth == 180 ? 0 : azimuth),
+                                .azimuth = RadiansOfDegrees(azimuth),
                                 .footprint = campaign.nodes(AxisId::kFootprint)[index % footprints],
                                 .profile = campaign.profile,
                                 .source_height = campaign.source_height});
@@ -216,7 +187,6 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
 }
 
 SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch) {
-  if (campaign.sea) return {.waves = campaign.sea->waves, .corrected_above = campaign.corrected_above};
   WindSea waves = campaign.wind_sea;
   waves.wind_speed_10m = wind_speed;
   waves.fetch = fetch;

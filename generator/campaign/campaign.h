@@ -37,9 +37,7 @@ struct Campaign {
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;
   WindSea wind_sea;  // without wind and fetch, which are axes
-  // In its place, of a table of one sea: its axes of wind and fetch have one node.
-  std::optional<TracedSea> sea;
-  // In place of any sea, of a table of the water column (water_cases.h).
+  // In its place, of a table of the water column (water_cases.h).
   std::optional<WaterWork> water;
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
@@ -47,14 +45,13 @@ struct Campaign {
   bool balanced_nodes = false;      // see table_maker.h
   std::size_t checked_pulses = 40;  // see provenance.h
 
-  const TableSchema& kind() const { return water ? kWaterColumn : sea ? kOneSea : kSeaSurface; }
+  const TableSchema& kind() const { return water ? kWaterColumn : kSeaSurface; }
   // Of a sea.
   const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }
 };
 
 // InvalidArgument, with the key and the values that it takes, for text that is not TOML (with its line), an unknown
 // or a missing key, a value of another type or out of range, and nodes that do not make an axis.
-// The sea of a file is read: its path is relative to the working directory.
 absl::StatusOr<Campaign> ParseCampaign(std::string_view toml);
 
 // The same from a file. NotFound if there is none; messages begin with the path.
@@ -70,7 +67,7 @@ inline constexpr std::uint32_t kCellOfTables = 0;
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
 
-// The campaign's sea at a wind [m/s] and a fetch [m], which have no effect on the sea of a file.
+// The campaign's sea at a wind [m/s] and a fetch [m].
 SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch);
 
 }  // namespace albtpu

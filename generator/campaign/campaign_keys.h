@@ -64,7 +64,6 @@ inline constexpr int kMaxRealizationsUnlessGiven = 40'000;
 inline constexpr std::string_view kKinds[] = {"sea_surface", "water_column"};
 inline constexpr std::string_view kProfiles[] = {"uniform", "gaussian"};
 inline constexpr std::string_view kEstimators[] = {"control_variate", "plain"};
-inline constexpr std::string_view kTails[] = {"relax", "wind", "level", "none"};
 inline constexpr std::string_view kNodeValues[] = {"exact", "balanced"};
 
 // clang-format off
@@ -86,10 +85,10 @@ inline constexpr CampaignKey kSeed = {
     "same seed."};
 
 inline constexpr CampaignKey kWindSpeed = {
-    "axes", "wind_speed", NodeRange{0, true, kInfinity}, "m/s", Derived{"required, but for the sea of a file"},
+    "axes", "wind_speed", NodeRange{0, true, kInfinity}, "m/s", Required{},
     "Wind speed at 10 m above the sea. A wind of 0 raises no waves: all values there are exactly 0."};
 inline constexpr CampaignKey kFetch = {
-    "axes", "fetch", NodeRange{0, false, kInfinity}, "m", Derived{"required, but for the sea of a file"},
+    "axes", "fetch", NodeRange{0, false, kInfinity}, "m", Required{},
     "Fetch. The last node must be `inf`, the fully developed sea; all others must be below the fetch of full "
     "development of the strongest wind. Interpolated on a log scale."};
 inline constexpr CampaignKey kIncidence = {
@@ -99,7 +98,7 @@ inline constexpr CampaignKey kIncidence = {
 inline constexpr CampaignKey kAzimuth = {
     "axes", "azimuth", NodeRange{0, true, 90, "azimuths are folded into 0 to 90 degrees by symmetry"}, "degree",
     Required{},
-    "Horizontal direction of the beam from downwind. Over the sea of a file: from its x axis, 0 to 180, both given."};
+    "Horizontal direction of the beam from downwind."};
 inline constexpr CampaignKey kFootprint = {
     "axes", "footprint", NodeRange{0, false, kInfinity}, "m", Required{},
     "Diameter of the beam at the mean surface, across its axis. Interpolated on a log scale."};
@@ -129,30 +128,6 @@ inline constexpr CampaignKey kCorrectedAbove = {
     "sea", "corrected_above", NumberRange{0.1, kInfinity}, "m", kInfinity,
     "Waves longer than this are left out: the local slope of the surface was measured and refraction corrected for "
     "it."};
-
-inline constexpr CampaignKey kSeaFile = {
-    "sea", "file", AnyText{"the path of a file"}, "", Derived{"the sea of winds and fetches"},
-    "Spectra or heights of the waves, as NDBC, WAVEWATCH III, SWAN or CSV state them: the table is of this one sea and "
-    "has no `wind_speed`, `fetch`, `spectrum` and `spreading`. The keys below go with it."};
-inline constexpr CampaignKey kSeaTime = {
-    "sea", "time", AnyText{"UTC, such as `2020-06-08T03:50Z`"}, "", Derived{"the file's only one"},
-    "The time of the file's state."};
-inline constexpr CampaignKey kSeaDepth = {
-    "sea", "water_depth", NumberRange{0.1, 20000}, "m", Derived{"the file's, or deep"},
-    "Depth of the water that the waves travel in."};
-inline constexpr CampaignKey kSeaWindSpeed = {
-    "sea", "wind_speed", NumberRange{0, 50}, "m/s", Derived{"the file's, or that of the short waves"},
-    "Wind speed at 10 m, which raises the waves that the file does not resolve."};
-inline constexpr CampaignKey kSeaWindFrom = {
-    "sea", "wind_from", NumberRange{-360, 360}, "degree", Derived{"the file's, or along the short waves"},
-    "Where the wind comes from, of the compass."};
-inline constexpr CampaignKey kSeaTail = {
-    "sea", "tail", Choice{kTails}, "", std::string_view("relax"),
-    "How the level of the resolved waves counts for the wind's short waves: less with every octave, not at all, "
-    "throughout, or there are none."};
-inline constexpr CampaignKey kSeaTailFrom = {
-    "sea", "tail_from", NumberRange{0.05, 10}, "Hz", Derived{"up to where the waves can be trusted"},
-    "Where these short waves begin."};
 
 inline constexpr CampaignKey kRealizations = {
     "effort", "realizations", WholeRange{2, kMaxRealizations}, "", std::int64_t{1000},
@@ -237,13 +212,6 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kSpectrum,
     campaign_keys::kSpreading,
     campaign_keys::kCorrectedAbove,
-    campaign_keys::kSeaFile,
-    campaign_keys::kSeaTime,
-    campaign_keys::kSeaDepth,
-    campaign_keys::kSeaWindSpeed,
-    campaign_keys::kSeaWindFrom,
-    campaign_keys::kSeaTail,
-    campaign_keys::kSeaTailFrom,
     campaign_keys::kRealizations,
     campaign_keys::kRelativeError,
     campaign_keys::kMaxRealizationsOfBeam,

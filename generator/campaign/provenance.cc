@@ -11,8 +11,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "generator/math/random_stream.h"
-#include "generator/math/statistics.h"
-#include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/discretization.h"
 #include "sea/angle.h"
 #include "sea/sea_state.h"
@@ -97,7 +95,7 @@ InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyT
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Estimate& expected = direct[i][checked];
     const Pulse pulse = CheckedPulse(campaign, i);
-    if (expected.value < least || (!campaign.sea && pulse.wind_speed < kMinWind)) continue;
+    if (expected.value < least || pulse.wind_speed < kMinWind) continue;
     const PulseUncertainty interpolated = Interpolate(table, pulse);
     assert(interpolated.outcome == Outcome::kInterpolated);
     errors.push_back(std::abs(interpolated[quantity] / expected.value - 1));
@@ -192,7 +190,6 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"footprint_slope_variance_fraction", Range(results, &SeaCaseResult::footprint_slope_fraction)},
       {"resolved_slope_variance_fraction", Range(results, &SeaCaseResult::resolved_slope_fraction)},
   });
-  if (campaign.sea) provenance.attributes.insert(campaign.sea->attributes.begin(), campaign.sea->attributes.end());
   return provenance;
 }
 

@@ -1,7 +1,5 @@
 #include "generator/campaign/unit.h"
 
-#include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -95,8 +93,8 @@ std::vector<UnitId> UnitsOf(const Campaign& campaign) {
 }
 
 UnitOrigin OriginOf(const Campaign& campaign) {
-  return {Hex(DigestOf(campaign.text + (campaign.sea ? campaign.sea->digest : ""))),
-          absl::StrCat(std::string(Version()), " (", std::string(Commit()), ")"), InstructionSet()};
+  return {Hex(DigestOf(campaign.text)), absl::StrCat(std::string(Version()), " (", std::string(Commit()), ")"),
+          InstructionSet()};
 }
 
 std::string EncodeResult(const SeaCaseResult& result) { return Encode(result); }

@@ -40,7 +40,7 @@ std::vector<UnitId> UnitsOf(const Campaign& campaign);
 
 // Everything on which the last bit of a unit depends. All units of a table have the same origin.
 struct UnitOrigin {
-  std::string campaign;  // SHA-256 of its text, and of the sea of a file, in hexadecimal digits
+  std::string campaign;  // SHA-256 of its text, in hexadecimal digits
   std::string program;   // version and commit
   std::string instruction_set;
 };

@@ -18,11 +18,9 @@
 #include <set>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/provenance.h"
-#include "generator/campaign/unit.h"
 #include "generator/campaign/water_cases.h"
 #include "tables/file/atomic_file.h"
 

@@ -10,7 +10,6 @@
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/provenance.h"
 #include "generator/math/random_stream.h"
-#include "generator/math/statistics.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
 

@@ -1,7 +1,6 @@
 // Traces all beams of a sea case through one realization of the sea after another.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>

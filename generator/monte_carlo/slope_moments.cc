@@ -1,13 +1,11 @@
 #include "generator/monte_carlo/slope_moments.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <complex>
 #include <utility>
 
-#include "generator/math/fft.h"
 #include "generator/surface/ray_tracer.h"
 
 namespace albtpu {

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "sea/response/closed_form.h"
-
 namespace albtpu {
 namespace {
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <functional>
 #include <vector>
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -68,33 +67,6 @@ class Layout : public CLI::Formatter {
     return absl::StrReplaceAll(CLI::Formatter::make_help(app, std::move(name), mode), {{"\n\n\n", "\n\n"}});
   }
 };
-
-}  // namespace
-
-std::string FullName(const CLI::App& app) {
-  const CLI::App* parent = app.get_parent();
-  return parent == nullptr ? app.get_name() : absl::StrCat(FullName(*parent), " ", app.get_name());
-}
-
-void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit) {
-  program.formatter(std::make_shared<Layout>());
-  program.set_version_flag("--version",
-                           absl::StrCat(program.get_name(), " ", std::string(version), " (", std::string(commit), ")"));
-}
-
-void Group(CLI::App& app, const std::string& heading, const std::vector<std::string>& options) {
-  for (const std::string& option : options) app.get_option(option)->group(heading);
-}
-
-void EndHelp(CLI::App& app, std::string_view notes, const std::string& example, const std::string& another_example) {
-  std::string text(notes);
-  absl::StrAppend(&text, notes.empty() ? "" : "\n\n", "Examples:");
-  for (const std::string& arguments : {example, another_example})
-    absl::StrAppend(&text, "\n  ", FullName(app), arguments.empty() ? "" : " ", arguments);
-  app.footer(text);
-}
-
-namespace {
 
 std::string SeeHelp(const CLI::App& app) { return absl::StrCat("see ", FullName(app), " --help"); }
 
@@ -167,6 +139,29 @@ bool MayComeOfAMisspeltWord(const CLI::ParseError& error) {
 }
 
 }  // namespace
+
+std::string FullName(const CLI::App& app) {
+  const CLI::App* parent = app.get_parent();
+  return parent == nullptr ? app.get_name() : absl::StrCat(FullName(*parent), " ", app.get_name());
+}
+
+void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit) {
+  program.formatter(std::make_shared<Layout>());
+  program.set_version_flag("--version",
+                           absl::StrCat(program.get_name(), " ", std::string(version), " (", std::string(commit), ")"));
+}
+
+void Group(CLI::App& app, const std::string& heading, const std::vector<std::string>& options) {
+  for (const std::string& option : options) app.get_option(option)->group(heading);
+}
+
+void EndHelp(CLI::App& app, std::string_view notes, const std::string& example, const std::string& another_example) {
+  std::string text(notes);
+  absl::StrAppend(&text, notes.empty() ? "" : "\n\n", "Examples:");
+  for (const std::string& arguments : {example, another_example})
+    absl::StrAppend(&text, "\n  ", FullName(app), arguments.empty() ? "" : " ", arguments);
+  app.footer(text);
+}
 
 std::string UsageMessage(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> given = program.get_subcommands();

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -20,6 +19,7 @@
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
 #include "tables/default_tables.h"
+#include "tables/file/output_folder.h"
 #include "tables/uncertainty_table.h"
 #include "tables/version.h"
 #include "tables/water/water_schema.h"
@@ -68,7 +68,7 @@ absl::Status CheckPublished(const std::filesystem::path& folder) {
 // The remedy for missing figures; empty if it is not known.
 std::string Remedy(const std::string& why_figures_are_missing) {
   const bool no_library = why_figures_are_missing.find("ModuleNotFoundError") != std::string::npos ||
-                          why_figures_are_missing.find("No such file or directory") == 0;
+                          why_figures_are_missing.find("No such file or directory") != std::string::npos;
   return no_library ? "; install python3-matplotlib for them" : "";
 }
 
@@ -81,9 +81,10 @@ std::string MadeBy(const ValidateOptions& options) {
 
 absl::Status RunValidate(const ValidateOptions& options) {
   const std::filesystem::path data = InstalledDataDirectory() / "validation";
-  const ReportOptions report{options.output, data / "plots", MadeBy(options), options.overwrite};
+  const ReportOptions report{options.output, data / "plots", MadeBy(options)};
   if (const absl::Status status = CheckPublished(data / "paper"); !status.ok()) return status;
-  if (const absl::Status status = PrepareReport(report); !status.ok()) return status;
+  const Existing existing = options.overwrite ? Existing::kReplace : Existing::kKeep;
+  if (const absl::Status status = PrepareFolder(report.folder, existing); !status.ok()) return status;
 
   std::vector<Study> studies;
   for (const NamedStudy& study : kStudies) {
@@ -154,32 +155,6 @@ void PrintText(const WaterColumnBias& bias, const WaterPointOptions& options) {
   std::printf("energy in the field of view   %.4f +- %.4f of unscattered light's\n", bias.energy.value,
               bias.energy.standard_error);
 }
-
-}  // namespace
-
-absl::Status RunWaterPoint(const WaterPointOptions& options) {
-  const double depth = options.depth;
-  const WaterColumn column{.incidence = RadiansOfDegrees(options.incidence),
-                           .refractive_index = options.refractive_index,
-                           .group_index = options.group_index,
-                           .scattering = options.scattering * depth,
-                           .absorption = options.absorption / options.scattering,
-                           .field_of_view = options.field_of_view / depth,
-                           .footprint = options.footprint / depth};
-  const std::array pulse_lengths = {PulseLengthOverDepth(options.pulse_length, depth, options.group_index)};
-  const WaterColumnBias bias =
-      ComputeWaterColumn(PhaseFunction::FournierForand(options.backscatter_fraction), column, pulse_lengths,
-                         {.photons = options.photons / kPools, .pools = kPools, .seed = options.seed});
-  if (!bias.by_pulse.front().has_value() || bias.energy.standard_error > kMaxRelative * bias.energy.value) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "no echo comes back from ", depth, " m that is significant with these photons (the water scatters ",
-        column.scattering, " times on the way down); give a smaller depth, clearer water or more photons"));
-  }
-  options.json ? PrintJson(bias, depth) : PrintText(bias, options);
-  return absl::OkStatus();
-}
-
-namespace {
 
 // The time that `work` takes on one thread.
 template <typename Work>
@@ -257,6 +232,28 @@ void PlanWater(const Campaign& campaign, int cores) {
 }
 
 }  // namespace
+
+absl::Status RunWaterPoint(const WaterPointOptions& options) {
+  const double depth = options.depth;
+  const WaterColumn column{.incidence = RadiansOfDegrees(options.incidence),
+                           .refractive_index = options.refractive_index,
+                           .group_index = options.group_index,
+                           .scattering = options.scattering * depth,
+                           .absorption = options.absorption / options.scattering,
+                           .field_of_view = options.field_of_view / depth,
+                           .footprint = options.footprint / depth};
+  const std::array pulse_lengths = {PulseLengthOverDepth(options.pulse_length, depth, options.group_index)};
+  const WaterColumnBias bias =
+      ComputeWaterColumn(PhaseFunction::FournierForand(options.backscatter_fraction), column, pulse_lengths,
+                         {.photons = options.photons / kPools, .pools = kPools, .seed = options.seed});
+  if (!bias.by_pulse.front().has_value() || bias.energy.standard_error > kMaxRelative * bias.energy.value) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        "no echo comes back from ", depth, " m that is significant with these photons (the water scatters ",
+        column.scattering, " times on the way down); give a smaller depth, clearer water or more photons"));
+  }
+  options.json ? PrintJson(bias, depth) : PrintText(bias, options);
+  return absl::OkStatus();
+}
 
 // Counts cells and bytes. Measures time on one thread and divides it by the number of cores.
 absl::Status RunPlan(const PlanOptions& options) {

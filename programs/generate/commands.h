@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "generator/campaign/campaign_axes.h"
+#include "programs/generate/traced_sea.h"
 #include "sea/sea_state.h"
 
 namespace albtpu::programs {

@@ -7,11 +7,8 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "absl/strings/str_split.h"
-#include "generator/campaign/campaign_axes.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "programs/generate/commands.h"
 #include "sea/angle.h"
@@ -148,11 +145,8 @@ absl::Status RunPoint(const PointOptions& options) {
     absl::StatusOr<TracedSea> read = ReadTracedSea(*options.sea);
     if (!read.ok()) return read.status();
     sea = *std::move(read);
-    if (const auto assumed = sea->attributes.find(std::string(sea_attribute::kAssumptions));
-        assumed != sea->attributes.end()) {
-      const std::vector<std::string> sentences = absl::StrSplit(std::get<std::string>(assumed->second), '\n');
-      for (const std::string& sentence : sentences) std::cerr << "albtpu-generate: " << sentence << '\n';
-    }
+    for (const std::string& sentence : Sentences(sea->described.assumed))
+      std::cerr << "albtpu-generate: " << sentence << '\n';
   }
   const auto start = std::chrono::steady_clock::now();
   const SeaCaseResult result = Simulate(SeaCaseAt(options, sea), effort, options.seed, 0);

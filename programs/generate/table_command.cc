@@ -170,31 +170,6 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   return absl::OkStatus();
 }
 
-}  // namespace
-
-absl::Status RunTable(const TableOptions& options) {
-  // A shard is a process of its own, even if it was started by an MPI launcher.
-  if (options.shard) return Lead(options, *OneRank());
-  absl::StatusOr<std::unique_ptr<Ranks>> joined = Ranks::Join();
-  if (!joined.ok()) return joined.status();
-  Ranks& ranks = **joined;
-  if (ranks.size() == 1) return Lead(options, ranks);
-
-  absl::Status status;
-  try {
-    status = ranks.rank() == 0 ? Lead(options, ranks) : FollowRankZero(ranks);
-  } catch (const std::exception& error) {  // out of memory or threads
-    status = absl::InternalError(error.what());
-  }
-  if (!status.ok()) {
-    std::cerr << "albtpu-generate: rank " << ranks.rank() << ": " << std::string(status.message()) << std::endl;
-    ranks.EndAll();
-  }
-  return status;
-}
-
-namespace {
-
 // A table with a larger interpolation error (rms, relative) is coarse compared with the approximations of the model.
 constexpr double kCoarse = 0.02;
 constexpr double kMostWithin = 0.99;
@@ -241,6 +216,27 @@ void PrintErrorsOfWater(const Provenance& provenance) {
 }
 
 }  // namespace
+
+absl::Status RunTable(const TableOptions& options) {
+  // A shard is a process of its own, even if it was started by an MPI launcher.
+  if (options.shard) return Lead(options, *OneRank());
+  absl::StatusOr<std::unique_ptr<Ranks>> joined = Ranks::Join();
+  if (!joined.ok()) return joined.status();
+  Ranks& ranks = **joined;
+  if (ranks.size() == 1) return Lead(options, ranks);
+
+  absl::Status status;
+  try {
+    status = ranks.rank() == 0 ? Lead(options, ranks) : FollowRankZero(ranks);
+  } catch (const std::exception& error) {  // out of memory or threads
+    status = absl::InternalError(error.what());
+  }
+  if (!status.ok()) {
+    std::cerr << "albtpu-generate: rank " << ranks.rank() << ": " << std::string(status.message()) << std::endl;
+    ranks.EndAll();
+  }
+  return status;
+}
 
 absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite) {
   const std::string name = output.string();

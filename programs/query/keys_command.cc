@@ -76,19 +76,6 @@ absl::Status RunKeys(bool json) {
   return FlushStandardOutput();
 }
 
-}  // namespace
-
-void AddKeysCommand(CLI::App& program, Run& run) {
-  const auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      program.add_subcommand("keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
-  command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
-  EndHelp(*command, "", "", "--json");
-  command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
-}
-
-namespace {
-
 using nlohmann::ordered_json;
 
 struct SensorsCommandOptions {
@@ -184,6 +171,15 @@ absl::Status RunSensors(const SensorsCommandOptions& options) {
 }
 
 }  // namespace
+
+void AddKeysCommand(CLI::App& program, Run& run) {
+  const auto json = std::make_shared<bool>(false);
+  CLI::App* command =
+      program.add_subcommand("keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
+  command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
+  EndHelp(*command, "", "", "--json");
+  command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
+}
 
 void AddSensorsCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SensorsCommandOptions>();

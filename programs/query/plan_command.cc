@@ -245,7 +245,7 @@ absl::Status RunPlan(const PlanOptions& options) {
   std::optional<quality::NewFolder> folder;
   if (!options.output.empty()) {
     folder.emplace(options.output);
-    if (absl::Status status = quality::PrepareFolder(options.output, options.existing); !status.ok()) return status;
+    if (absl::Status status = PrepareFolder(options.output, options.existing); !status.ok()) return status;
   }
   absl::StatusOr<quality::SurveyPlan> plan = Planner(options, *settings).Make();
   if (!plan.ok()) return plan.status();

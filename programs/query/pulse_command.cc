@@ -113,30 +113,6 @@ absl::Status RunPulse(const PulseOptions& options) {
   return FlushStandardOutput();
 }
 
-}  // namespace
-
-void AddPulseCommand(CLI::App& program, Run& run) {
-  const auto options = std::make_shared<PulseOptions>();
-  CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
-  AddInputs(*command, options->inputs);
-  AddSeaFlags(*command, options->flags, {});
-  AddTotalFlags(*command, options->flags);
-  AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]", options->motion.attitude);
-  AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
-  AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
-            options->motion.rates);
-  AddSourceOptions(*command, options->source);
-  AddStyleFlags(*command, options->flags, options->style);
-  command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")
-      ->group(group::kOutput);
-  EndHelp(*command, kWhereAnswersComeFrom, "--wind-speed 7 --incidence 12 --footprint 0.5 --depth 8 --standard-errors",
-          "--wind-speed 7 --fetch 20000 --incidence 12 --azimuth 30 --footprint 0.5 --depth 8 "
-          "--server 127.0.0.1:50051 --json");
-  command->callback([options, &run] { run = [options] { return RunPulse(*options); }; });
-}
-
-namespace {
-
 using Json = nlohmann::ordered_json;
 
 std::string CoordinateText(AxisId axis, std::optional<float> value, const client::TableSummary& table) {
@@ -228,6 +204,26 @@ std::string WhyNoNumber(const annotate::AnswerBatch& answer, const client::Table
 }
 
 }  // namespace
+
+void AddPulseCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<PulseOptions>();
+  CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
+  AddInputs(*command, options->inputs);
+  AddSeaFlags(*command, options->flags, {});
+  AddTotalFlags(*command, options->flags);
+  AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]", options->motion.attitude);
+  AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
+  AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
+            options->motion.rates);
+  AddSourceOptions(*command, options->source);
+  AddStyleFlags(*command, options->flags, options->style);
+  command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")
+      ->group(group::kOutput);
+  EndHelp(*command, kWhereAnswersComeFrom, "--wind-speed 7 --incidence 12 --footprint 0.5 --depth 8 --standard-errors",
+          "--wind-speed 7 --fetch 20000 --incidence 12 --azimuth 30 --footprint 0.5 --depth 8 "
+          "--server 127.0.0.1:50051 --json");
+  command->callback([options, &run] { run = [options] { return RunPulse(*options); }; });
+}
 
 absl::StatusOr<PulseAnswer> AskPulse(const annotate::FixedCoordinates& pulse, annotate::AnswerStyle style,
                                      const annotate::AnswerSource& source, bool azimuth_from_north) {

@@ -35,26 +35,6 @@ absl::Status RunCrossCheck(const CrossCheckOptions& options) {
   return FlushStandardOutput();
 }
 
-}  // namespace
-
-void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run) {
-  const auto options = std::make_shared<CrossCheckOptions>();
-  CLI::App* command = program.add_subcommand(
-      "crosscheck", "Whether the predicted uncertainty explains the differences between overlapping lines");
-  command->add_option("OUT_DIR", options->annotated, "Folder that albtpu-query las --details wrote, or a file in it")
-      ->required();
-  command->add_option("--patch", options->patch, "Side of the patches in which lines are compared [m]")
-      ->check(NumberIn(0.5, 100, "m"))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "JSON, with every band and every two lines");
-  Group(*command, "How points are gathered", {"--patch"});
-  Group(*command, "Output", {"--json"});
-  EndHelp(*command, "Lines are distinguished by the point source ID.", "annotated", "annotated --patch 3 --json");
-  command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
-}
-
-namespace {
-
 struct ReportCommandOptions {
   std::string annotated, output, s44_order, specification, wanted_class;
   double cell = 1, patch = quality::kDefaultPatch, pass_share = quality::kDefaultPassShare;
@@ -119,7 +99,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   }
   const Existing existing = flags.resume ? Existing::kReplace : flags.existing;
   const quality::NewFolder folder(flags.output);
-  if (absl::Status status = quality::PrepareFolder(flags.output, existing); !status.ok()) return status;
+  if (absl::Status status = PrepareFolder(flags.output, existing); !status.ok()) return status;
   absl::StatusOr<quality::SurveyReport> report = quality::MakeReport(*files, *options);
   if (!report.ok()) return report.status();
   const std::string verdict = quality::ReportText(*report->json);
@@ -130,6 +110,22 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
 }
 
 }  // namespace
+
+void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run) {
+  const auto options = std::make_shared<CrossCheckOptions>();
+  CLI::App* command = program.add_subcommand(
+      "crosscheck", "Whether the predicted uncertainty explains the differences between overlapping lines");
+  command->add_option("OUT_DIR", options->annotated, "Folder that albtpu-query las --details wrote, or a file in it")
+      ->required();
+  command->add_option("--patch", options->patch, "Side of the patches in which lines are compared [m]")
+      ->check(NumberIn(0.5, 100, "m"))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "JSON, with every band and every two lines");
+  Group(*command, "How points are gathered", {"--patch"});
+  Group(*command, "Output", {"--json"});
+  EndHelp(*command, "Lines are distinguished by the point source ID.", "annotated", "annotated --patch 3 --json");
+  command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
+}
 
 void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   const auto options = std::make_shared<ReportCommandOptions>();

@@ -8,7 +8,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
-#include "config/survey_settings.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
 

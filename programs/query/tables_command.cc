@@ -45,6 +45,13 @@ absl::Status RunTables(const SourceOptions& options) {
   return FlushStandardOutput();
 }
 
+absl::Status RunHealth(const SourceOptions& options) {
+  const absl::Status status = client::CheckHealth(options.server, options.credentials);
+  if (!status.ok()) return status;
+  std::cout << "SERVING\n";
+  return FlushStandardOutput();
+}
+
 }  // namespace
 
 void AddTablesCommand(CLI::App& program, Run& run) {
@@ -58,17 +65,6 @@ void AddTablesCommand(CLI::App& program, Run& run) {
           "--table-name survey", "--server 127.0.0.1:50051");
   command->callback([options, &run] { run = [options] { return RunTables(*options); }; });
 }
-
-namespace {
-
-absl::Status RunHealth(const SourceOptions& options) {
-  const absl::Status status = client::CheckHealth(options.server, options.credentials);
-  if (!status.ok()) return status;
-  std::cout << "SERVING\n";
-  return FlushStandardOutput();
-}
-
-}  // namespace
 
 void AddHealthCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SourceOptions>();

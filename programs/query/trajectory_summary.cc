@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
+#include "budget/beams/return_pair.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
@@ -28,12 +29,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMaxSamples = 4096;
 
 // NaN without finite values.
-double Median(std::vector<double> values) {
+double MedianOfFinite(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty()) return formats::kNotStated;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? formats::kNotStated : Median(std::move(values));
 }
 
 TimeGaps FindGaps(std::size_t records, double longest_step, const std::function<double(std::size_t)>& time_at) {
@@ -67,7 +65,7 @@ std::optional<formats::TrajectorySigma> MedianSigma(
   }
   formats::TrajectorySigma median;
   for (std::size_t field = 0; field < kFields.size(); ++field)
-    median.*kFields[field] = Median(std::move(values[field]));
+    median.*kFields[field] = MedianOfFinite(std::move(values[field]));
   return median;
 }
 
@@ -93,7 +91,7 @@ TrajectorySummary Summarize(const std::string& format, const formats::Trajectory
         formats::CompareVelocities(trajectory.Record(pair.first), trajectory.Record(pair.second));
     speeds.push_back(std::hypot(velocity.north, velocity.east));
   }
-  if (!speeds.empty()) summary.speed = Median(std::move(speeds));
+  if (!speeds.empty()) summary.speed = MedianOfFinite(std::move(speeds));
   summary.sigma = MedianSigma(trajectory.size(), [&](std::size_t i) { return trajectory.SigmaAt(i); });
   summary.velocity_difference = formats::VelocityDifference(trajectory);
   return summary;

@@ -13,24 +13,18 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "budget/beams/return_pair.h"
 
 namespace albtpu::quality {
 namespace {
 
 constexpr double kMedianOfNormal = 0.6744897501960817;  // Of the magnitude of a standard normal number.
 
-template <typename Value>
-double Median(std::vector<Value>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 double MedianFactor(const std::vector<CrossPair>& pairs, double rough) {
   std::vector<double> ratios;
   for (const CrossPair& pair : pairs)
     ratios.push_back(std::abs(pair.difference) / std::sqrt(PredictedVariance(pair, rough)));
-  return Median(ratios) / kMedianOfNormal;
+  return Median(std::move(ratios)) / kMedianOfNormal;
 }
 
 template <typename Coordinate>

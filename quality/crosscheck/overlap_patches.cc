@@ -4,19 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
+
+#include "budget/beams/return_pair.h"
 
 namespace albtpu::quality {
 namespace {
 
 constexpr double kGreatestIndex = 2e9;  // Of a patch: so that two fit 64 bits.
-
-// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
-std::uint64_t Hash(std::uint64_t key) {
-  key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9U;
-  key = (key ^ key >> 27) * 0x94d049bb133111ebU;
-  return key ^ key >> 31;
-}
 
 std::uint64_t Pack(std::int32_t column, std::int32_t row) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 | static_cast<std::uint32_t>(row);
@@ -30,7 +24,7 @@ std::uint64_t OverlapPatches::KeyOf(const AnnotatedPoint& point) const {
   const double row = std::floor(point.y * metres_per_unit_ / side_);
   if (!(std::abs(column) < kGreatestIndex && std::abs(row) < kGreatestIndex)) return 0;
   const std::uint64_t key = Pack(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
-  return (Hash(key) & mask_) == 0 ? key : 0;
+  return (MixBits(key) & mask_) == 0 ? key : 0;
 }
 
 void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
@@ -49,8 +43,8 @@ void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
 void OverlapPatches::Thin() {
   mask_ = mask_ << 1 | 1;
   std::erase_if(
-      known_, [this](const auto& each) { return (Hash(each.first) & mask_) != 0; });
-  std::erase_if(chosen_, [this](const auto& each) { return (Hash(each.first) & mask_) != 0; });
+      known_, [this](const auto& each) { return (MixBits(each.first) & mask_) != 0; });
+  std::erase_if(chosen_, [this](const auto& each) { return (MixBits(each.first) & mask_) != 0; });
 }
 
 void OverlapPatches::Choose() {

@@ -24,21 +24,6 @@ double Within(double angle, int degrees) {
   return odd ? 2 / std::numbers::pi * (angle + sine * sum) : sine * sum;
 }
 
-}  // namespace
-
-double StudentQuantile(int degrees, double tail) {
-  assert(degrees >= 1 && tail > 0 && tail <= 0.5);
-  degrees = std::min(degrees, 1000);
-  double low = 0, high = std::numbers::pi / 2;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (Within(middle, degrees) < 1 - 2 * tail ? low : high) = middle;
-  }
-  return std::sqrt(static_cast<double>(degrees)) * std::tan(low);
-}
-
-namespace {
-
 constexpr double kTail95 = 0.025, kTail99 = 0.005;  // Of two-sided intervals.
 // Of a variance in weights: no pair may have none, or it would have all weight.
 constexpr double kMinFactor = 0.05;
@@ -219,6 +204,17 @@ double OneFactor(const Sums& sums) {
 }
 
 }  // namespace
+
+double StudentQuantile(int degrees, double tail) {
+  assert(degrees >= 1 && tail > 0 && tail <= 0.5);
+  degrees = std::min(degrees, 1000);
+  double low = 0, high = std::numbers::pi / 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (Within(middle, degrees) < 1 - 2 * tail ? low : high) = middle;
+  }
+  return std::sqrt(static_cast<double>(degrees)) * std::tan(low);
+}
 
 Place PlaceOf(const CrossPair& pair) {
   return {static_cast<int>(std::floor(pair.x / kPlace)), static_cast<int>(std::floor(pair.y / kPlace))};

@@ -1,6 +1,5 @@
 #include "quality/planning/survey_plan.h"
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>

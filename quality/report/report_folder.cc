@@ -1,31 +1,17 @@
 #include "quality/report/report_folder.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "formats/files/file_access.h"
 #include "quality/report/grid_file.h"
-#include "tables/default_tables.h"
-
-extern char** environ;
+#include "tables/file/atomic_file.h"
 
 namespace albtpu::quality {
 namespace {
@@ -39,48 +25,15 @@ constexpr const char* kPage = "report.html";
 constexpr const char* kPlanJson = "plan.json";
 constexpr const char* kPlanPage = "plan.html";
 
-// A hidden folder inside another one, removed by the destructor.
-class HiddenFolder {
- public:
-  explicit HiddenFolder(const fs::path& folder) {
-    std::string name = (folder / ".albtpu-XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~HiddenFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  HiddenFolder(const HiddenFolder&) = delete;
-  HiddenFolder& operator=(const HiddenFolder&) = delete;
-
-  const fs::path& path() const { return path_; }  // Empty if it could not be made.
-
- private:
-  fs::path path_;
-};
-
-absl::Status NotWritable(const fs::path& folder) {
-  return absl::PermissionDeniedError(
-      absl::StrCat(folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
-}
-
 std::string TextOf(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-absl::Status Move(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (!error) return absl::OkStatus();
-  return absl::DataLossError(absl::StrCat(to.string(), ": cannot be written: ", error.message()));
-}
-
 // Writes the JSON, the last of `names`, draws the page, and gives all files their names, the page last.
-absl::Status Finish(const HiddenFolder& hidden, const Json& json, const std::vector<const char*>& names, bool with_page,
+absl::Status Finish(const HiddenFolder& hidden, const Json& json, std::vector<std::string> names, bool with_page,
                     const char* page, const fs::path& folder) {
   absl::Status status = WriteFileAtomically(hidden.path() / names.back(), TextOf(json), Existing::kReplace);
   if (status.ok() && with_page) status = DrawPage(hidden.path());
-  for (const char* const name : names)
-    if (status.ok()) status = Move(hidden.path() / name, folder / name);
-  if (status.ok() && with_page) status = Move(hidden.path() / page, folder / page);
+  if (with_page) names.emplace_back(page);
+  if (status.ok()) status = hidden.Publish(names);
   // The page of an earlier report would show old numbers.
   std::error_code ignored;
   if (status.ok() && !with_page) fs::remove(folder / page, ignored);
@@ -88,20 +41,6 @@ absl::Status Finish(const HiddenFolder& hidden, const Json& json, const std::vec
 }
 
 }  // namespace
-
-absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
-  std::error_code error;
-  fs::create_directory(folder, error);
-  if (!fs::is_directory(folder)) {
-    return absl::NotFoundError(
-        absl::StrCat(folder.string(), ": cannot be made; give a folder, or a new name in a folder that exists"));
-  }
-  if (!fs::is_empty(folder, error) && existing == Existing::kKeep) {
-    return absl::AlreadyExistsError(absl::StrCat(
-        folder.string(), ": is not empty; give another folder, or replace an earlier report by --overwrite"));
-  }
-  return access(folder.c_str(), W_OK) == 0 ? absl::OkStatus() : NotWritable(folder);
-}
 
 bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files, const ReportOptions& options,
                bool with_page) {
@@ -136,62 +75,6 @@ absl::Status WritePlan(const Json& plan, bool with_page, const fs::path& folder)
   if (hidden.path().empty()) return NotWritable(folder);
   return Finish(hidden, plan, {kPlanJson}, with_page, kPlanPage, folder);
 }
-
-namespace {
-
-constexpr const char* kPython = "/usr/bin/python3";  // For which Debian's packages are installed.
-
-// This process's environment, but for where Python finds the package and where matplotlib keeps what it caches.
-std::vector<std::string> Environment() {
-  std::vector<std::string> environment;
-  for (char** each = environ; *each != nullptr; ++each)
-    if (std::strncmp(*each, "PYTHONPATH=", 11) != 0) environment.emplace_back(*each);
-  environment.push_back(absl::StrCat("PYTHONPATH=", (InstalledDataDirectory() / "python").string()));
-  environment.emplace_back("MPLBACKEND=Agg");
-  return environment;
-}
-
-std::vector<char*> Pointers(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-// Runs Python. The message of a failure is the last line of its standard error.
-absl::Status RunPython(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {kPython, "-B"});
-  std::vector<std::string> environment = Environment();
-  std::array<int, 2> pipe_ends;
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
-    return absl::InternalError(absl::StrCat("no pipe to ", kPython, ": ", std::strerror(errno)));
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
-  pid_t child = 0;
-  const int failure =
-      posix_spawn(&child, kPython, &actions, nullptr, Pointers(arguments).data(), Pointers(environment).data());
-  posix_spawn_file_actions_destroy(&actions);
-  close(pipe_ends[1]);
-  std::string said;
-  std::array<char, 4096> bytes;
-  for (ssize_t count; failure == 0 && (count = read(pipe_ends[0], bytes.data(), bytes.size())) != 0;) {
-    if (count > 0) said.append(bytes.data(), static_cast<std::size_t>(count));
-    if (count < 0 && errno != EINTR) break;
-  }
-  close(pipe_ends[0]);
-  if (failure != 0) return absl::FailedPreconditionError(absl::StrCat(kPython, ": ", std::strerror(failure)));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return absl::OkStatus();
-  while (!said.empty() && said.back() == '\n') said.pop_back();
-  const std::string last = said.substr(said.rfind('\n') + 1);
-  return absl::FailedPreconditionError(last.empty() ? absl::StrCat(kPython, " failed") : last);
-}
-
-}  // namespace
 
 absl::Status CheckPageCanBeDrawn() {
   const absl::Status status = RunPython({"-c", "import matplotlib, netCDF4, numpy, albtpu.report"});

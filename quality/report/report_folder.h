@@ -9,14 +9,9 @@
 #include "absl/status/status.h"
 #include "quality/annotated/annotated_points.h"
 #include "quality/report/survey_report.h"
-#include "tables/file/existing.h"
+#include "tables/file/output_folder.h"
 
 namespace albtpu::quality {
-
-// The folder of a report: report.json, grid.nc and report.html, which appear together.
-
-// Makes the folder. AlreadyExists if it has files and is to be kept; PermissionDenied if it cannot be written to.
-absl::Status PrepareFolder(const std::filesystem::path& folder, Existing existing);
 
 // Whether `folder` has the complete report of these files with these options, which are not newer than it.
 bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,

@@ -1,12 +1,7 @@
 // The report of a survey, from its annotated files: whether it meets the specification, and where and why not.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 

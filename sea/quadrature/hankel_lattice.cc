@@ -25,26 +25,6 @@ std::vector<QuadratureNode> NodesOf(int count, const Diagonal& a, const Beside& 
 
 double Zero(double) { return 0; }
 
-}  // namespace
-
-std::vector<QuadratureNode> GaussLegendre(int count, double begin, double end) {
-  std::vector<QuadratureNode> nodes = NodesOf(count, Zero, [](double n) { return n / std::sqrt(4 * n * n - 1); });
-  for (QuadratureNode& node : nodes) node = {begin + (end - begin) * (1 + node.at) / 2, (end - begin) * node.weight};
-  return nodes;
-}
-
-std::vector<QuadratureNode> GaussHermite(int count) {
-  return NodesOf(
-      count, Zero, [](double n) { return std::sqrt(n); });
-}
-
-std::vector<QuadratureNode> GaussLaguerre(int count) {
-  return NodesOf(
-      count, [](double n) { return 2 * n + 1; }, [](double n) { return n; });
-}
-
-namespace {
-
 constexpr int kSamples = 16;       // of a step, for the means
 constexpr double kFarthest = 400;  // beyond it, twenty radians a step, the means of Bessel functions are taken as 0
 // Means below this are taken as 0: it is far below the last digit of a sum in single precision, and products of it with
@@ -80,6 +60,22 @@ Eigen::ArrayXf Means(double start, double step, int count, const Function& f) {
 }
 
 }  // namespace
+
+std::vector<QuadratureNode> GaussLegendre(int count, double begin, double end) {
+  std::vector<QuadratureNode> nodes = NodesOf(count, Zero, [](double n) { return n / std::sqrt(4 * n * n - 1); });
+  for (QuadratureNode& node : nodes) node = {begin + (end - begin) * (1 + node.at) / 2, (end - begin) * node.weight};
+  return nodes;
+}
+
+std::vector<QuadratureNode> GaussHermite(int count) {
+  return NodesOf(
+      count, Zero, [](double n) { return std::sqrt(n); });
+}
+
+std::vector<QuadratureNode> GaussLaguerre(int count) {
+  return NodesOf(
+      count, [](double n) { return 2 * n + 1; }, [](double n) { return n; });
+}
 
 HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
     : wavenumbers_(Eigen::Map<const Eigen::ArrayXd>(wavenumbers.data(), wavenumbers.size())),

@@ -2,8 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <vector>
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sea/quadrature/hankel_lattice.h"
-
 namespace albtpu {
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "sea/response/slope_covariance.h"
-
 namespace albtpu {
 namespace {
 

@@ -4,9 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "sea/response/closed_form.h"
 #include "sea/response/footprint_shift.h"
-#include "sea/response/slope_covariance.h"
 
 namespace albtpu {
 // The tangent t of the deviation is normal with the mean b and the variance K. To third order atan t = t - t^3 / 3, and

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "sea/response/footprint_kernel.h"
-
 namespace albtpu {
 namespace {
 

@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "service/client/wire.h"
+#include "service/wire_values.h"
 
 namespace albtpu::client {
 namespace {

@@ -5,7 +5,6 @@
 #include <grpcpp/support/byte_buffer.h>
 
 #include <cstddef>
-#include <string>
 
 #include "absl/status/statusor.h"
 #include "albtpu/v1/uncertainty_service.pb.h"

@@ -17,6 +17,7 @@
 #include "service/client/channel.h"
 #include "service/client/column_exchange.h"
 #include "service/client/wire.h"
+#include "service/wire_values.h"
 
 namespace albtpu::client {
 namespace {

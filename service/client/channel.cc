@@ -6,7 +6,6 @@
 
 #include <chrono>
 
-#include "absl/status/status.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/cord.h"
 #include "absl/strings/match.h"
@@ -94,6 +93,8 @@ using grpc::health::v1::HealthCheckResponse;
 // Monitoring systems do not wait longer for a health check.
 constexpr std::chrono::seconds kDeadline{4};
 
+absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size()}; }
+
 }  // namespace
 
 absl::Status CheckHealth(const std::string& address, const Credentials& credentials) {
@@ -109,12 +110,6 @@ absl::Status CheckHealth(const std::string& address, const Credentials& credenti
                                                     HealthCheckResponse::ServingStatus_Name(response.status()),
                                                     " (it is about to stop); use another server, or start it again"));
 }
-
-namespace {
-
-absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size()}; }
-
-}  // namespace
 
 absl::Status FromGrpc(const grpc::Status& status) {
   // gRPC and Abseil use the same numbers for the codes.

@@ -14,7 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "service/error_message.h"
-#include "tables/coverage.h"
+#include "service/wire_values.h"
 
 namespace albtpu::client {
 namespace {
@@ -53,28 +53,15 @@ v1::ForwardRightDown ForwardRightDown(const std::array<double, 3>& numbers) {
 
 }  // namespace
 
-v1::Coverage ToWire(Coverage coverage) {
-  switch (coverage) {
-    case Coverage::kTwoSigma:
-      break;
-    case Coverage::kOneSigma:
-      return v1::COVERAGE_ONE_SIGMA;
-    case Coverage::kP95:
-      return v1::COVERAGE_P95;
-  }
-  return v1::COVERAGE_TWO_SIGMA;
-}
-
 void ToWire(const Query& query, const AnswerColumns& requested, v1::QueryColumnsRequest& request) {
   v1::QueryOptions& options = *request.mutable_options();
   options.set_coverage(ToWire(query.coverage));
   options.set_best_s44_order(requested.best_s44_orders != nullptr);
-  if (query.s44_order.has_value())
-    options.set_s44_order(static_cast<v1::S44Order>(static_cast<int>(*query.s44_order) + 1));
+  options.set_s44_order(ToWire(query.s44_order));
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
     if (requested.standard_errors[i] != nullptr) options.set_standard_errors(true);
     if (requested.values[i] == nullptr && requested.standard_errors[i] == nullptr) continue;
-    request.add_quantities(static_cast<v1::Quantity>(i + 1));
+    request.add_quantities(ToWire(kQuantities[i]));
   }
 }
 
@@ -109,13 +96,13 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
   v1::BudgetOptions& message = *request.mutable_options();
   message.set_coverage(ToWire(options.coverage));
   *message.mutable_errors() = ToMessage(options.errors);
-  message.set_located(static_cast<v1::SurfaceLocation>(static_cast<int>(options.located) + 1));
+  message.set_located(ToWire(options.located));
   *message.mutable_lever_arm() = ForwardRightDown(options.lever_arm);
   message.set_refractive_index(options.index);
   message.set_datum(options.datum);
   if (pulses.sea_axis.has_value()) message.set_sea_axis(*pulses.sea_axis);
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i)
-    if (Wants(wanted, static_cast<BudgetQuantity>(i))) request.add_quantities(static_cast<v1::BudgetQuantity>(i + 1));
+    if (Wants(wanted, static_cast<BudgetQuantity>(i))) request.add_quantities(ToWire(static_cast<BudgetQuantity>(i)));
 }
 
 void AddPulses(const BudgetPulses& pulses, ColumnMessage& request) {
@@ -151,20 +138,6 @@ TableSummary FromWire(const v1::Table& table) {
 namespace {
 
 namespace v1 = albtpu::v1;
-
-v1::TailRule ToWire(TailRule rule) {
-  switch (rule) {
-    case TailRule::kWind:
-      return v1::TAIL_RULE_WIND;
-    case TailRule::kRelax:
-      return v1::TAIL_RULE_RELAX;
-    case TailRule::kLevel:
-      return v1::TAIL_RULE_LEVEL;
-    case TailRule::kNone:
-      return v1::TAIL_RULE_NONE;
-  }
-  return v1::TAIL_RULE_UNSPECIFIED;
-}
 
 // The number of harmonics up to the last one that is not +0 in all bins.
 std::size_t HarmonicsOf(const BinnedSpectrum& bins) {

@@ -12,8 +12,6 @@
 
 namespace albtpu::client {
 
-albtpu::v1::Coverage ToWire(Coverage coverage);
-
 // Sets the options and quantities of a request: those that fill the columns of `requested` that are not null.
 void ToWire(const Query& query, const AnswerColumns& requested, albtpu::v1::QueryColumnsRequest& request);
 

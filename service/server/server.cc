@@ -4,14 +4,11 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "service/server/ground/limits.h"
-#include "service/server/ground/listening_sockets.h"
 
 namespace albtpu::server {
 namespace {

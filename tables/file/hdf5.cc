@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "absl/status/status.h"
-#include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
 #include "tables/format.h"
 
@@ -100,23 +98,6 @@ absl::Status CheckChunks(hid_t dataset, hid_t creation, const std::vector<hsize_
   return absl::OkStatus();
 }
 
-}  // namespace
-
-absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape) {
-  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  const H5D_layout_t layout = H5Pget_layout(creation);
-  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0)
-    return Problem("has its values in other files: expected them in this file");
-  if (layout == H5D_CHUNKED) return CheckChunks(dataset, creation, shape);
-  std::size_t count = 1;
-  for (const hsize_t size : shape) count *= size;
-  const hsize_t stored = H5Dget_storage_size(dataset);
-  if (stored == count * sizeof(float)) return absl::OkStatus();
-  return Problem("has %d values in %d bytes: expected %d bytes", count, stored, count * sizeof(float));
-}
-
-namespace {
-
 // HDF5 may be built without thread safety; this lock makes up for it.
 std::mutex& ProcessLock() {
   static std::mutex mutex;
@@ -204,6 +185,19 @@ absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const
 }
 
 }  // namespace
+
+absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0)
+    return Problem("has its values in other files: expected them in this file");
+  if (layout == H5D_CHUNKED) return CheckChunks(dataset, creation, shape);
+  std::size_t count = 1;
+  for (const hsize_t size : shape) count *= size;
+  const hsize_t stored = H5Dget_storage_size(dataset);
+  if (stored == count * sizeof(float)) return absl::OkStatus();
+  return Problem("has %d values in %d bytes: expected %d bytes", count, stored, count * sizeof(float));
+}
 
 // HDF5's exit handler is turned off. We close everything that we open, so that it would find only what HDF5 1.10
 // lost track of in damaged files: parts of object headers that it never frees, for which it prints "infinite loop

@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "config/survey_settings.h"

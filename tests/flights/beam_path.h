@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "tests/flights/aircraft.h"
 #include "tests/flights/wavy_surface.h"

@@ -1,7 +1,6 @@
 // Arbitrary text as an ASCII trajectory is rejected with a message that names the file; or its records keep what a
 // trajectory promises, there is one for each line of numbers, and reading it again gives the same.
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "formats/trajectories/ascii_trajectory.h"

@@ -2,7 +2,6 @@
 // such that every record is kept and followed by the cells of its answer; or it is rejected and nothing is written.
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,5 @@
 // Arbitrary bytes as a LAS file are rejected with a reason, or annotated such that every byte is kept and the output
 // is a LAS file that describes its uncertainties: with incidences from scan angles, and from the positions of a sensor.
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>

@@ -3,7 +3,6 @@
 // Writes FOLDER/TARGET/NUMBER, the inputs with which fuzzing of each target begins. The builders of the tests make
 // them, so they follow the formats.
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>

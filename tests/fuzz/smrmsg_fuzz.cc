@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "formats/trajectories/sbet_file.h"
 #include "tests/fuzz/fuzz_target.h"

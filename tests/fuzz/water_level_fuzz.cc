@@ -1,7 +1,5 @@
 // Arbitrary text as a CSV file of water levels is rejected with a message that names the file, for either form of the
 // times of points; or its times increase, its levels are finite, and columns of times give what single times give.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>

@@ -7,13 +7,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <utility>
 
-#include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
 #include "sea/angle.h"
-#include "sea/response/closed_form.h"
 #include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {

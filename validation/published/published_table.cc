@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"

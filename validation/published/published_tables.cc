@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "generator/campaign/provenance.h"
 #include "sea/angle.h"

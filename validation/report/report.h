@@ -13,15 +13,10 @@
 namespace albtpu {
 
 struct ReportOptions {
-  std::filesystem::path folder;  // created if missing
+  std::filesystem::path folder;  // of PrepareFolder (tables/file/output_folder.h)
   std::filesystem::path plots;   // the folder of draw.py
   std::string made_by;           // a line at the head of the page
-  bool overwrite = false;        // replace the files of an earlier report
 };
-
-// Checks, before the work, that a report can be written to options.folder. AlreadyExists if the folder is not empty,
-// NotFound if there is no parent folder, PermissionDenied if the folder is not writable.
-absl::Status PrepareReport(const ReportOptions& options);
 
 // Writes summary.csv, one CSV file for each table, one SVG file for each figure and, last, report.html. They are made
 // in a hidden folder and moved into place when all are complete. Returns why figures are missing; empty if none is.

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_format.h"
-#include "generator/monte_carlo/monte_carlo.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "sea/sea_state.h"

@@ -11,7 +11,6 @@
 
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
-#include "sea/response/sea_response.h"
 #include "sea/sampled_spectrum.h"
 #include "sea/spectra/described_sea.h"
 #include "sea/spectra/jonswap.h"

@@ -12,7 +12,6 @@
 #include "generator/surface/sea_surface.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
-#include "sea/sea_state.h"
 #include "sea/spectra/apel_spectrum.h"
 #include "validation/laboratory/wave_staff.h"
 #include "validation/published/published_table.h"

@@ -2,10 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Core>
-#include <numbers>
-#include <random>
-
 namespace albtpu {
 std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step, std::uint32_t pools,
                                   std::uint32_t photons, std::uint64_t seed) {

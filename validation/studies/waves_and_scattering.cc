@@ -16,7 +16,6 @@
 #include "sea/response/closed_form.h"
 #include "sea/sea_state.h"
 #include "tables/water/water_schema.h"
-#include "validation/studies/water_round_trip.h"
 
 namespace albtpu {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
 
 namespace albtpu::laz {

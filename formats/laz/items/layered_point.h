@@ -2,7 +2,6 @@
 // others.
 #pragma once
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <memory>

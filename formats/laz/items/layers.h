@@ -3,11 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <memory>
 #include <span>
-#include <utility>
 
 #include "formats/laz/items/point14_fields.h"
 #include "formats/laz/items/point_contexts.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <memory>
 #include <utility>
 
 #include "formats/laz/coding/little_endian.h"

@@ -1,14 +1,11 @@
 #include "service/server/access/credentials.h"
 
 #include <grpc/grpc.h>
-#include <grpc/grpc_security.h>
 #include <grpc/slice.h>
 #include <openssl/crypto.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -16,8 +13,6 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "service/server/ground/file_value.h"
-#include "service/server/observe/log.h"
 #include "service/server/observe/metrics.h"
 #include "service/text_file.h"
 
@@ -95,24 +90,6 @@ class Tls final : public grpc::ServerCredentials {
   std::unique_ptr<grpc_server_credentials, decltype(&grpc_server_credentials_release)> credentials_;
 };
 
-}  // namespace
-
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeCredentials(const CredentialFiles& files,
-                                                                         const Recorders& recorders) {
-  if (!files.HasTls()) return grpc::InsecureServerCredentials();
-  absl::StatusOr<std::unique_ptr<CertificateFile>> certificates =
-      OpenCertificates(files.certificates, recorders.access);
-  if (!certificates.ok()) return certificates.status();
-  auto credentials = std::make_shared<Tls>(*std::move(certificates));
-  if (files.tokens.empty()) return credentials;
-  absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> tokens = OpenTokens(files.tokens);
-  if (!tokens.ok()) return tokens.status();
-  RequireToken(*std::move(tokens), recorders, credentials->get());
-  return credentials;
-}
-
-namespace {
-
 // 128 bits in hexadecimal have 32 digits, in base64 22.
 constexpr std::size_t kMinLength = 20;
 
@@ -129,6 +106,20 @@ bool AreEqual(const std::string& token, absl::string_view text) {
 }
 
 }  // namespace
+
+absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeCredentials(const CredentialFiles& files,
+                                                                         const Recorders& recorders) {
+  if (!files.HasTls()) return grpc::InsecureServerCredentials();
+  absl::StatusOr<std::unique_ptr<CertificateFile>> certificates =
+      OpenCertificates(files.certificates, recorders.access);
+  if (!certificates.ok()) return certificates.status();
+  auto credentials = std::make_shared<Tls>(*std::move(certificates));
+  if (files.tokens.empty()) return credentials;
+  absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> tokens = OpenTokens(files.tokens);
+  if (!tokens.ok()) return tokens.status();
+  RequireToken(*std::move(tokens), recorders, credentials->get());
+  return credentials;
+}
 
 absl::StatusOr<Tokens> Tokens::Parse(std::string_view text) {
   std::vector<std::string> tokens;

@@ -1,7 +1,5 @@
 #include "service/server/calls/health_service.h"
 
-#include <string>
-
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"

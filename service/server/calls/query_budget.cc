@@ -1,16 +1,13 @@
 #include "service/server/calls/query_budget.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
-#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "budget/query/query_check.h"
 #include "service/error_message.h"
 #include "service/seas/sea_pulses.h"
-#include "service/server/calls/query_columns.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"

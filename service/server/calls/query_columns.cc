@@ -1,11 +1,8 @@
 #include "service/server/calls/query_columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
-#include "absl/status/status.h"
-#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "service/seas/sea_pulses.h"
 #include "service/server/ground/errors.h"
@@ -24,23 +21,6 @@ absl::StatusOr<const ServedTable*> FindSource(const v1::QueryOptions& options, c
                                      "' (the request has a sea, whose table is another one); leave out one of "
                                      "the two"));
 }
-
-}  // namespace
-
-absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea, AnswerSources& sources) {
-  const absl::StatusOr<const ServedTable*> source = FindSource(options, sea, sources);
-  if (!source.ok()) return source.status();
-  const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
-  if (!coverage.ok()) return coverage.status();
-  const absl::StatusOr<std::optional<S44Order>> s44_order = FromWire(options.s44_order());
-  if (!s44_order.ok()) return s44_order.status();
-  return QueryPlan{.source = *source,
-                   .query = {.coverage = *coverage, .s44_order = *s44_order},
-                   .standard_errors = options.standard_errors(),
-                   .best_s44_order = options.best_s44_order()};
-}
-
-namespace {
 
 std::string Quoted(const RequestColumn& column) { return absl::StrCat("column '", std::string(column.name), "'"); }
 
@@ -76,6 +56,19 @@ std::string ColumnError(const RequestColumn& column, const RequestColumn& longes
 }
 
 }  // namespace
+
+absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea, AnswerSources& sources) {
+  const absl::StatusOr<const ServedTable*> source = FindSource(options, sea, sources);
+  if (!source.ok()) return source.status();
+  const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
+  if (!coverage.ok()) return coverage.status();
+  const absl::StatusOr<std::optional<S44Order>> s44_order = FromWire(options.s44_order());
+  if (!s44_order.ok()) return s44_order.status();
+  return QueryPlan{.source = *source,
+                   .query = {.coverage = *coverage, .s44_order = *s44_order},
+                   .standard_errors = options.standard_errors(),
+                   .best_s44_order = options.best_s44_order()};
+}
 
 absl::StatusOr<std::size_t> CountPulses(std::span<const RequestColumn> columns) {
   if (absl::Status status = CheckBytes(columns); !status.ok()) return status;

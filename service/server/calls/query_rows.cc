@@ -9,10 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/column_message.h"
 #include "service/seas/sea_pulses.h"
 #include "service/server/calls/query_budget.h"
@@ -141,25 +139,6 @@ class RowColumns {
   std::vector<float> remaining_thu_, remaining_tvu_;
 };
 
-}  // namespace
-
-absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
-                       OutcomeTally& tally) {
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
-  if (!plan.ok()) return plan.status();
-  const absl::Status status = CheckCount(*plan, request.pulses());
-  if (!status.ok()) return status;
-  *response.mutable_table() = WriteReference(*plan->source);
-  response.set_coverage(ToWire(plan->query.coverage));
-  if (plan->source->sea) *response.mutable_sea() = WriteSea(*plan->source->sea);
-  response.mutable_uncertainties()->Reserve(request.pulses_size());
-  for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
-  for (bool with_azimuth : {true, false}) RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
-  return absl::OkStatus();
-}
-
-namespace {
-
 template <typename Message>
 bool Parse(const grpc::ByteBuffer& bytes, Message& message) {
   grpc::ByteBuffer shared = bytes;  // Shares the bytes. The reader requires a buffer that is not const.
@@ -185,6 +164,21 @@ grpc::ByteBuffer Serialize(const google::protobuf::Message& message) {
 }
 
 }  // namespace
+
+absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
+                       OutcomeTally& tally) {
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
+  if (!plan.ok()) return plan.status();
+  const absl::Status status = CheckCount(*plan, request.pulses());
+  if (!status.ok()) return status;
+  *response.mutable_table() = WriteReference(*plan->source);
+  response.set_coverage(ToWire(plan->query.coverage));
+  if (plan->source->sea) *response.mutable_sea() = WriteSea(*plan->source->sea);
+  response.mutable_uncertainties()->Reserve(request.pulses_size());
+  for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
+  for (bool with_azimuth : {true, false}) RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
+  return absl::OkStatus();
+}
 
 grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally) {

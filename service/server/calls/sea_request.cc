@@ -1,12 +1,8 @@
 #include "service/server/calls/sea_request.h"
 
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"

@@ -9,7 +9,6 @@
 
 #include "service/server/calls/column_stream.h"
 #include "service/server/ground/errors.h"
-#include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
 
 namespace albtpu::server {

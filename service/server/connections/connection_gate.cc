@@ -16,7 +16,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -26,7 +25,6 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "service/server/ground/limits.h"
-#include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
 namespace {

@@ -1,6 +1,5 @@
 #include "service/server/ground/periodic_task.h"
 
-#include <atomic>
 #include <utility>
 
 namespace albtpu::server {

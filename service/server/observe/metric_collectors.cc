@@ -10,7 +10,6 @@
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty.pb.h"
 #include "service/server/ground/limits.h"
-#include "service/server/ground/listening_sockets.h"
 
 namespace albtpu::server {
 namespace {

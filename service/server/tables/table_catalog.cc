@@ -4,7 +4,6 @@
 #include <exception>
 #include <utility>
 
-#include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "tables/file/table_io.h"
 

@@ -1,6 +1,5 @@
 #include "service/server/tables/wire_enums.h"
 
-#include <string>
 #include <string_view>
 #include <variant>
 
@@ -96,85 +95,12 @@ v1::Table WriteTableMessage(const ServedTable& served) {
 
 namespace {
 
-// For enums of the wire that list the values of ours in the same order, after "unspecified".
-template <typename WireEnum, typename Enum>
-constexpr WireEnum AfterUnspecified(Enum value) {
-  return static_cast<WireEnum>(static_cast<int>(value) + 1);
-}
-
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kWindSpeed) == v1::AXIS_WIND_SPEED);
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kFetch) == v1::AXIS_FETCH);
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kIncidence) == v1::AXIS_INCIDENCE);
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kAzimuth) == v1::AXIS_AZIMUTH);
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kFootprint) == v1::AXIS_FOOTPRINT);
-static_assert(AfterUnspecified<v1::Axis>(AxisId::kDepth) == v1::AXIS_DEPTH);
-
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionAlongWind) == v1::QUANTITY_REFRACTION_ALONG_WIND);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionCrossWind) == v1::QUANTITY_REFRACTION_CROSS_WIND);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kThu) == v1::QUANTITY_THU);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kTvu) == v1::QUANTITY_TVU);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kBiasAlongBeam) == v1::QUANTITY_BIAS_ALONG_BEAM);
-static_assert(AfterUnspecified<v1::Quantity>(Quantity::kBiasVertical) == v1::QUANTITY_BIAS_VERTICAL);
-
-static_assert(AfterUnspecified<v1::Outcome>(Outcome::kInterpolated) == v1::OUTCOME_INTERPOLATED);
-static_assert(AfterUnspecified<v1::Outcome>(Outcome::kOutOfDomain) == v1::OUTCOME_OUT_OF_DOMAIN);
-static_assert(AfterUnspecified<v1::Outcome>(Outcome::kInvalid) == v1::OUTCOME_INVALID);
-
-static_assert(AfterUnspecified<v1::S44Order>(S44Order::kExclusive) == v1::S44_ORDER_EXCLUSIVE);
-static_assert(AfterUnspecified<v1::S44Order>(S44Order::kSpecial) == v1::S44_ORDER_SPECIAL);
-static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1a) == v1::S44_ORDER_1A);
-static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1b) == v1::S44_ORDER_1B);
-static_assert(AfterUnspecified<v1::S44Order>(S44Order::k2) == v1::S44_ORDER_2);
-
-static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kPulse) == v1::SURFACE_LOCATION_PULSE);
-static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLocal) == v1::SURFACE_LOCATION_LOCAL);
-static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLevel) == v1::SURFACE_LOCATION_LEVEL);
-
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) == v1::BUDGET_QUANTITY_TOTAL_THU);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuSea) == v1::BUDGET_QUANTITY_TVU_SEA);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBiasVertical) == v1::BUDGET_QUANTITY_BIAS_VERTICAL);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceTotal) ==
-              v1::BUDGET_QUANTITY_COVARIANCE_TOTAL);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceSurvey) ==
-              v1::BUDGET_QUANTITY_COVARIANCE_SURVEY);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBestS44Order) ==
-              v1::BUDGET_QUANTITY_BEST_S44_ORDER);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuWater) == v1::BUDGET_QUANTITY_TVU_WATER);
-
 absl::Status NotAValue(std::string_view field, int number, std::string_view enum_name) {
   return FieldViolation(field,
                         absl::StrCat(std::string(field), " is ", number, ": not a value of ", std::string(enum_name)));
 }
 
 }  // namespace
-
-v1::Axis ToWire(AxisId axis) { return AfterUnspecified<v1::Axis>(axis); }
-
-v1::Axis ToWire(std::optional<AxisId> axis) { return axis.has_value() ? ToWire(*axis) : v1::AXIS_UNSPECIFIED; }
-
-v1::Quantity ToWire(Quantity quantity) { return AfterUnspecified<v1::Quantity>(quantity); }
-
-v1::Scale ToWire(Scale scale) { return scale == Scale::kLog ? v1::SCALE_LOG : v1::SCALE_LINEAR; }
-
-v1::Outcome ToWire(Outcome outcome) { return AfterUnspecified<v1::Outcome>(outcome); }
-
-v1::Coverage ToWire(Coverage coverage) {
-  switch (coverage) {
-    case Coverage::kTwoSigma:
-      break;
-    case Coverage::kOneSigma:
-      return v1::COVERAGE_ONE_SIGMA;
-    case Coverage::kP95:
-      return v1::COVERAGE_P95;
-  }
-  return v1::COVERAGE_TWO_SIGMA;
-}
-
-v1::BudgetQuantity ToWire(BudgetQuantity quantity) { return AfterUnspecified<v1::BudgetQuantity>(quantity); }
-
-v1::S44Order ToWire(std::optional<S44Order> order) {
-  return order.has_value() ? AfterUnspecified<v1::S44Order>(*order) : v1::S44_ORDER_UNSPECIFIED;
-}
 
 absl::StatusOr<Coverage> FromWire(v1::Coverage coverage) {
   if (!v1::Coverage_IsValid(coverage)) return NotAValue("options.coverage", coverage, "Coverage");

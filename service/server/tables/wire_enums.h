@@ -1,5 +1,4 @@
-// Tables on the wire: a table that answers, its message, and the conversion between the enums of the wire and those of
-// tables/.
+// Tables on the wire: a table that answers, its message, and the enums of requests.
 #pragma once
 
 #include <optional>
@@ -7,18 +6,9 @@
 #include <utility>
 
 #include "absl/status/statusor.h"
-#include "albtpu/v1/budget.pb.h"
-#include "albtpu/v1/pulse.pb.h"
-#include "albtpu/v1/table.pb.h"
-#include "albtpu/v1/uncertainty.pb.h"
-#include "budget/air/air_errors.h"
-#include "budget/query/budget_query.h"
 #include "service/seas/sea_summary.h"
-#include "tables/coverage.h"
+#include "service/wire_values.h"
 #include "tables/query/column_query.h"
-#include "tables/query/interpolation.h"
-#include "tables/s44.h"
-#include "tables/schema.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu::server {
@@ -41,15 +31,6 @@ v1::SeaSummary WriteSea(const SeaSummary& sea);
 v1::TableReference WriteReference(const ServedTable& served);
 v1::TableSummary WriteSummary(const ServedTable& served);
 v1::Table WriteTableMessage(const ServedTable& served);
-
-v1::Axis ToWire(AxisId axis);
-v1::Axis ToWire(std::optional<AxisId> axis);  // Unspecified if none.
-v1::Quantity ToWire(Quantity quantity);
-v1::Scale ToWire(Scale scale);
-v1::Outcome ToWire(Outcome outcome);
-v1::Coverage ToWire(Coverage coverage);
-v1::BudgetQuantity ToWire(BudgetQuantity quantity);
-v1::S44Order ToWire(std::optional<S44Order> order);  // Unspecified if none.
 
 // A number that is not a value of the enum is an InvalidArgument error that names the field.
 absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);                // Unspecified is 2 sigma.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <vector>
 
 #include "tests/budget/beams/ray_flight.h"
 #include "tests/formats/trajectories/flight_text.h"

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/answers/batch.h"
-#include "annotate/run/file_progress.h"
 #include "formats/text/text.h"
 #include "service/client/local_source.h"
 #include "tests/annotate/answers/test_sources.h"

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <vector>
 
 #include "formats/laz/coding/little_endian.h"
 #include "service/client/local_source.h"

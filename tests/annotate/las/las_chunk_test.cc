@@ -4,15 +4,11 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <vector>
 
 #include "annotate/las/las_annotation.h"
 #include "annotate/las/las_beams.h"
 #include "annotate/las/las_prescan.h"
-#include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_reader.h"
 #include "formats/laz/coding/little_endian.h"
 #include "service/client/local_source.h"

@@ -1,7 +1,6 @@
 // Annotation of the same points as LAS and as LAZ: the same numbers, bit for bit.
 #include <gmock/gmock.h>
 
-#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <string>
 
 #include "sea/sea_time.h"
 #include "tests/annotate/seas/sea_series_text.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "annotate/run/file_progress.h"
-#include "config/survey_settings.h"
 
 namespace albtpu::annotate {
 namespace {

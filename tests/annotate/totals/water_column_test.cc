@@ -6,13 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "annotate/answers/answer_counts.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/pulse_totals.h"
 #include "annotate/totals/total_summary.h"
-#include "config/survey_settings.h"
 
 namespace albtpu::annotate {
 namespace {

@@ -6,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <random>
 #include <vector>

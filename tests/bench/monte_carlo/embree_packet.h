@@ -5,7 +5,6 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <cstddef>
 
 namespace albtpu::bench {
 

@@ -7,7 +7,6 @@
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
-#include <complex>
 #include <cstdint>
 #include <map>
 #include <memory>

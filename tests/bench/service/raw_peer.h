@@ -5,7 +5,6 @@
 // answer is the columns of an AnswerMemory. Both are little-endian, for at most kMostRawPulses pulses.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

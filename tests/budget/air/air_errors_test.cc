@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstddef>
 #include <fstream>
 #include <sstream>
 #include <string>

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <random>
-#include <span>
 #include <vector>
 
 #include "budget/beams/refracted_path.h"

@@ -1,7 +1,6 @@
 #include "tests/budget/beams/ray_flight.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

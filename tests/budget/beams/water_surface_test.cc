@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace albtpu {

@@ -5,10 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "budget/air/air_sources.h"
 #include "budget/total/error_ellipse.h"

@@ -3,7 +3,6 @@
 // Prints for each record of a file of the sea its time in s since 1970 and, in hexadecimal digits, the SeaState that
 // the C++ client sends of it.
 #include <cstdio>
-#include <string>
 
 #include "sea/files/sea_file.h"
 #include "service/client/wire.h"

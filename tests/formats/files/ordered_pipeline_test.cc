@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <atomic>
-#include <vector>
-
 namespace albtpu::formats {
 namespace {
 

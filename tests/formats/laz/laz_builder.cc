@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 #include <string_view>
 
 #include "formats/laz/items/point_encoders.h"

@@ -1,11 +1,9 @@
 #include "tests/formats/laz/laz_bytes.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
-#include "formats/laz/laz_points.h"
 #include "tests/formats/laz/laz_builder.h"
 
 namespace albtpu::testing {

@@ -4,7 +4,6 @@
 // OUT is compressed if its name ends in .laz.
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iterator>

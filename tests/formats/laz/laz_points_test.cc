@@ -6,9 +6,7 @@
 #include <new>
 #include <random>
 #include <string>
-#include <vector>
 
-#include "absl/status/status.h"
 #include "formats/laz/coding/little_endian.h"
 #include "tests/formats/laz/laz_builder.h"
 

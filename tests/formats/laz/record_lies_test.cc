@@ -5,7 +5,6 @@
 #include <cstring>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "formats/laz/items/laszip_record.h"
 #include "tests/formats/las/las_builder.h"

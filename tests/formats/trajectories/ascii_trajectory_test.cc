@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <string>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"

@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <string>
-
-#include "formats/trajectories/trajectory_time.h"
 #include "sea/sea_time.h"
 
 namespace albtpu::formats {

@@ -2,13 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "formats/trajectories/trajectory_time.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {

@@ -2,7 +2,6 @@
 // of chunks change while the rest stays true. Some inputs are mutated byte by byte.
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <random>
 #include <string>

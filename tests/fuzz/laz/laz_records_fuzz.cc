@@ -1,6 +1,5 @@
 // Arbitrary records of every point format are the same after they have been encoded and decoded.
 #include <algorithm>
-#include <string_view>
 
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/laz/chunk_decoding.h"

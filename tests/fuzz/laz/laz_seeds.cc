@@ -1,8 +1,6 @@
 #include "tests/fuzz/laz/laz_seeds.h"
 
 #include <cstdint>
-#include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "formats/laz/coding/little_endian.h"

@@ -1,7 +1,5 @@
 // Arbitrary bytes as the sea of a query are refused with the paths of wrong fields, or are a sea that has a table, or
 // whose numbers no table can hold.
-#include <cstring>
-#include <string>
 
 #include "albtpu/v1/sea.pb.h"
 #include "sea/table/sea_table.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <string>
 
 #include "sea/angle.h"
 #include "sea/spectra/apel_spectrum.h"
@@ -155,6 +154,12 @@ TEST(Campaign, RefusesNodesThatAreNotFiniteOrNegative) {
 TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[-1, 6]")), HasSubstr("'axes.wind_speed' must be at least 0"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
+}
+
+TEST(Campaign, RefersToAnotherCommandForTheTableOfAMeasuredSea) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, inf]\n[sea]\nfile = \"buoy.csv\"")),
+              HasSubstr("'sea.file' is no key of a campaign file; make the table of a measured sea by albtpu-query sea "
+                        "FILE --output TABLE.h5"));
 }
 
 TEST(Campaign, RequiresTheFullyDevelopedSeaAsTheLastFetch) {

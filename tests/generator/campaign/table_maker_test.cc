@@ -4,8 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "generator/math/statistics.h"
 #include "sea/angle.h"

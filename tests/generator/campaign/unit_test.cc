@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 

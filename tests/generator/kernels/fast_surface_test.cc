@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "generator/math/random_stream.h"
-
 namespace albtpu {
 namespace {
 

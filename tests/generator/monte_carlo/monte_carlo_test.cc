@@ -5,10 +5,8 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "sea/response/closed_form.h"
 

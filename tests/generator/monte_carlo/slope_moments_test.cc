@@ -2,17 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <complex>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "generator/math/fft.h"
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
-#include "generator/surface/sea_surface.h"
 #include "sea/response/closed_form.h"
 
 namespace albtpu {

@@ -4,8 +4,6 @@
 
 #include <limits>
 
-#include "generator/surface/sea_surface.h"
-
 namespace albtpu {
 namespace {
 

@@ -4,11 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
-#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -2,11 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
 #include <limits>
-#include <numbers>
-#include <vector>
 
 namespace albtpu {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "generator/math/random_stream.h"
 

@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <string>
 
 #include "sea/files/text_lines.h"

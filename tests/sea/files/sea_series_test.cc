@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <memory>
-
 #include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "sea/response/slope_covariance.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "sea/quadrature/hankel_lattice.h"
-#include "sea/response/closed_form.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {

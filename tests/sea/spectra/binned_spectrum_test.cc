@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 
 #include "sea/spectra/spectrum_moments.h"

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <numbers>
 
 #include "sea/spectra/binned_spectrum.h"

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sea/spectra/wind_sea.h"
-
 namespace albtpu {
 namespace {
 

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wave_spreading.h"

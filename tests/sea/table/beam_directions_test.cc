@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sea/response/closed_form.h"
 #include "tests/sea/table/table_seas.h"
 

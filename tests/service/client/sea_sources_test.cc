@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <thread>
 
 #include "sea/table/sea_table.h"

@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
-
-#include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

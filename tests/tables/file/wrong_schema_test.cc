@@ -1,7 +1,6 @@
 // Files with an intact seal that are not valid tables: written by another program, or by ours with an error.
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 

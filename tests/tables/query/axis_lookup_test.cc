@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <vector>
 
 #include "tests/instruction_sets.h"
 #include "tests/tables/synthetic_table.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <random>
-#include <utility>
 
 #include "tests/tables/synthetic_table.h"
 

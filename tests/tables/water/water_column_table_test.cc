@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace albtpu {
 namespace {

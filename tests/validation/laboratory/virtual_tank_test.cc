@@ -4,7 +4,6 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <vector>
 
 #include "sea/angle.h"
 

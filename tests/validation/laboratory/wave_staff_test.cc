@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <vector>
 
-#include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
 
 namespace albtpu {

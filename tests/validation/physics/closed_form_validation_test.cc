@@ -2,7 +2,6 @@
 // corrected_waves_study.h and three standard errors, which with the control variate are less than 0.5 %.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <cstdint>
 #include <utility>
 #include <vector>
 

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
+#include "tables/file/output_folder.h"
 #include "tests/temporary_folder.h"
-#include "validation/report/study.h"
 
 namespace albtpu {
 namespace {
@@ -41,7 +41,7 @@ class ReportTest : public ::testing::Test {
   // A folder with this text as its draw.py.
   ReportOptions Options(const std::string& drawing) {
     folder_.Write("draw.py", drawing);
-    return {folder_ / "report", folder_.path(), "Made by a test.", false};
+    return {folder_ / "report", folder_.path(), "Made by a test."};
   }
   std::string Page() { return testing::ReadFile(folder_ / "report" / "report.html"); }
 
@@ -54,7 +54,7 @@ constexpr const char* kDrawsNothing = "import sys\nsys.exit('no matplotlib')\n";
 
 TEST_F(ReportTest, WritesPageTablesAndFigures) {
   const ReportOptions options = Options(kDraws);
-  ASSERT_TRUE(PrepareReport(options).ok());
+  ASSERT_TRUE(PrepareFolder(options.folder, Existing::kReplace).ok());
   const auto missing = WriteReport({Example()}, options);
   EXPECT_THAT(*missing, IsEmpty());
   EXPECT_THAT(Page(), AllOf(HasSubstr("Table 9: &lt;slopes&gt; &amp; angles"), HasSubstr("1 &lt; 2"),
@@ -69,7 +69,7 @@ TEST_F(ReportTest, WritesPageTablesAndFigures) {
 
 TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
   const ReportOptions options = Options(kDrawsNothing);
-  ASSERT_TRUE(PrepareReport(options).ok());
+  ASSERT_TRUE(PrepareFolder(options.folder, Existing::kReplace).ok());
   const auto missing = WriteReport({Example()}, options);
   EXPECT_EQ(*missing, "no matplotlib");
   EXPECT_THAT(Page(), AllOf(HasSubstr("Figures are missing:</strong> no matplotlib"), HasSubstr("figure_9 is missing"),
@@ -77,13 +77,12 @@ TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
 }
 
 TEST_F(ReportTest, ReplacesFilesOnlyIfTold) {
-  ReportOptions options = Options(kDraws);
+  const ReportOptions options = Options(kDraws);
   std::filesystem::create_directory(options.folder);
   std::ofstream(options.folder / "table_9.csv") << "mine";
-  EXPECT_TRUE(absl::IsAlreadyExists(PrepareReport(options)));
+  EXPECT_TRUE(absl::IsAlreadyExists(PrepareFolder(options.folder, Existing::kKeep)));
   EXPECT_EQ(testing::ReadFile(options.folder / "table_9.csv"), "mine");
-  options.overwrite = true;
-  ASSERT_TRUE(PrepareReport(options).ok());
+  ASSERT_TRUE(PrepareFolder(options.folder, Existing::kReplace).ok());
   ASSERT_TRUE(WriteReport({Example()}, options).ok());
   EXPECT_THAT(Page(), HasSubstr("Table 9"));
   EXPECT_TRUE(std::filesystem::exists(options.folder / "figure_9.svg"));
@@ -96,9 +95,9 @@ TEST_F(ReportTest, ReplacesFilesOnlyIfTold) {
 TEST_F(ReportTest, RefusesAFolderThatCannotBeCreated) {
   ReportOptions options = Options(kDraws);
   options.folder = folder_ / "none" / "report";
-  EXPECT_TRUE(absl::IsNotFound(PrepareReport(options)));
+  EXPECT_TRUE(absl::IsNotFound(PrepareFolder(options.folder, Existing::kKeep)));
   options.folder = folder_ / "draw.py";
-  EXPECT_TRUE(absl::IsNotFound(PrepareReport(options)));
+  EXPECT_TRUE(absl::IsNotFound(PrepareFolder(options.folder, Existing::kKeep)));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include "formats/laz/chunk_table.h"
 #include "formats/laz/coding/arithmetic_decoder.h"

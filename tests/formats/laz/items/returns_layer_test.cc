@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "formats/laz/coding/arithmetic_encoder.h"
-#include "formats/laz/items/point14_fields.h"
-#include "formats/laz/items/point_contexts.h"
 
 namespace albtpu::laz {
 namespace {

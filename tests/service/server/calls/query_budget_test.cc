@@ -1,7 +1,6 @@
 // The whole budget, through a running server.
 #include <gmock/gmock.h>
 
-#include <bit>
 #include <cmath>
 #include <functional>
 
