@@ -82,7 +82,7 @@ class WaterTableTest(unittest.TestCase):
                 ("[0.01, 0.05, 0.3]", "[0]", "axes.pulse_length"),
                 ("[2, 6]", "[6, 2]", "scattering_over_absorption"),
                 ("photons = 4000", "photons = 1", "effort.photons"),
-                ("[effort]", "[beam]\nprofile = \"gaussian\"\n[effort]", "beam.profile")):
+                ("[effort]", "[beam]\nprofile = \"gaussian\"\n[effort]", "'beam' is no key")):
             self.campaign.write_text(CAMPAIGN.replace(old, new))
             result = generate("table", "--campaign", self.campaign, "--output", self.folder / "no.h5")
             self.assertNotEqual(result.returncode, 0, new)

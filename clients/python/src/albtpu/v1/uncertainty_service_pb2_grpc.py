@@ -129,19 +129,19 @@ class UncertaintyServiceServicer(object):
         from one table must compare the digests.
 
         Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that `QueryColumns`
-        would return. The responses to the requests before it are sent first; the requests after it are not read. A
-        caller that half-closes gets its last responses and OK; a stream without requests ends with OK. A stream without
-        activity for one to two minutes ends: with DEADLINE_EXCEEDED if the next request does not arrive, with CANCELLED
-        if responses are not read.
+        would return. The responses to the requests before it are sent first; the requests after it are not read. A caller
+        that half-closes gets its last responses and OK; a stream without requests ends with OK. A stream without activity
+        for one to two minutes ends: with DEADLINE_EXCEEDED if the next request does not arrive, with CANCELLED if
+        responses are not read.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def QueryBudget(self, request, context):
-        """The whole uncertainty budget of pulses: the share of the sea surface, from a table as in `QueryColumns`, with those
-        of the air side and the vertical datum, in columns. Every request carries all that is known of sensor and
-        trajectory.
+        """The whole uncertainty budget of pulses, in columns: the contribution of the sea surface, from a table as in
+        `QueryColumns`, and those of air side, water column and vertical datum. Every request carries all uncertainties of
+        sensor and trajectory.
 
         Errors:
         * INVALID_ARGUMENT: no pulses; more than 65 536 pulses, or so many that the response would exceed 4 MiB; a required
