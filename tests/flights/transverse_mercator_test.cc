@@ -29,7 +29,9 @@ std::vector<Geodetic> Places() {
 // PROJ's own algorithm is the same series summed by Poder and Engsager, so that they agree to rounding: 1e-9 m is the
 // resolution of a double at 6e6 m.
 TEST(TransverseMercator, AgreesWithProj) {
-  if (std::system("command -v proj >/dev/null") != 0) GTEST_SKIP() << "proj (package proj-bin) is not installed";
+  if (std::system("command -v proj >/dev/null") != 0) {
+    GTEST_SKIP() << "proj (package proj-bin) is not installed";
+  }
   const TemporaryFolder folder;
   for (const auto& [name, definition] : {std::pair("utm17n", "+proj=utm +zone=17 +ellps=WGS84"),
                                          std::pair("florida-east-ft",

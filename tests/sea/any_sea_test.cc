@@ -82,7 +82,9 @@ TEST(AnySea, FollowsTheHeightOfTheWavesAsItsTailDoes) {
 // this station; the calmest and the roughest ones lie beyond.
 TEST(AnySea, OfABuoyRefractsByItsWavesAndMoreByItsTail) {
   const std::filesystem::path file = std::filesystem::path(SEA_SAMPLES) / "41010.data_spec";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no sample files in " << SEA_SAMPLES;
+  if (!std::filesystem::exists(file)) {
+    GTEST_SKIP() << "no sample files in " << SEA_SAMPLES;
+  }
   const auto series = ReadSeaFile(file);
   std::vector<double> measured, whole;
   for (const SeaRecord& record : series->records) {

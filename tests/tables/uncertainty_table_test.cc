@@ -55,9 +55,9 @@ TEST(UncertaintyTable, RefusesMissingRequiredQuantities) {
   for (Quantity quantity : kQuantities) {
     Parts parts = PartsOf(TinyTable());
     parts.variables[Index(quantity)].reset();
-    if (Describe(quantity).is_bias)
+    if (Describe(quantity).is_bias) {
       EXPECT_TRUE(parts.Create().ok());
-    else
+    } else
       EXPECT_THAT(parts.Problem(), HasSubstr("' is missing"));
   }
 }
@@ -98,9 +98,9 @@ TEST(UncertaintyTable, AllowsNegativeBiasesOnly) {
   for (Quantity quantity : kQuantities) {
     Parts parts = PartsOf(TinyTable());
     parts[quantity].values[0] = -1;
-    if (Describe(quantity).is_bias)
+    if (Describe(quantity).is_bias) {
       EXPECT_TRUE(parts.Create().ok());
-    else
+    } else
       EXPECT_THAT(parts.Problem(), HasSubstr("it must not be negative"));
   }
 }

@@ -123,8 +123,12 @@ TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
         }
         // After the points: the same bytes, at the offsets that the header states.
         EXPECT_EQ(output.substr(new_points + count * (old_length + 8)), input.substr(old_points + count * old_length));
-        if (version >= 3) EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 227), 7), "samples");
-        if (version >= 4) EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 235) + 60, 6), "behind");
+        if (version >= 3) {
+          EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 227), 7), "samples");
+        }
+        if (version >= 4) {
+          EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 235) + 60, 6), "behind");
+        }
         // Before the points: the builder's own header and VLRs and one more VLR, apart from the description of that
         // VLR.
         std::string head = output.substr(0, new_points);

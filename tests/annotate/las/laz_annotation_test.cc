@@ -105,8 +105,12 @@ TEST_F(LazAnnotation, GivesTheSameBytesAsLasInEveryVersionAndFormat) {
       EXPECT_TRUE(Annotate(laz) == las_to_laz) << version << " " << format;
       EXPECT_TRUE(RecordsOf(folder_, las_to_laz) == RecordsOf(folder_, las_to_las)) << version << " " << format;
       EXPECT_EQ(static_cast<unsigned char>(las_to_laz[104]), 0x80 | format);
-      if (version >= 3) EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 227), 7), "samples");
-      if (version >= 4) EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 235) + 60, 6), "behind");
+      if (version >= 3) {
+        EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 227), 7), "samples");
+      }
+      if (version >= 4) {
+        EXPECT_EQ(las_to_laz.substr(Load<std::uint64_t>(las_to_laz, 235) + 60, 6), "behind");
+      }
     }
   }
 }

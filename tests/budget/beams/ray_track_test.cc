@@ -103,7 +103,9 @@ TEST(RayTrack, GetsBetterWithMorePairs) {
           FlyMany(18, {.duration = 20, .pairs_per_second = rate, .significant_wave_height = 0.3 * sea});
       const double silent = static_cast<double>(errors.uncertain) / (errors.uncertain + errors.windows);
       std::printf("   %.3f %.3f  %.3f %5.1f %%", errors.Rms(), errors.worst, errors.Sigma(), 100 * silent);
-      if (rate > 10) EXPECT_LT(errors.Rms(), before[sea].Rms() / 1.5) << rate;
+      if (rate > 10) {
+        EXPECT_LT(errors.Rms(), before[sea].Rms() / 1.5) << rate;
+      }
       before[sea] = errors;
     }
     std::printf("\n");

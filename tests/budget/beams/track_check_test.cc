@@ -122,8 +122,12 @@ TEST_P(TrackCheckOf, AVerticalLeverArmIsNamedWhereItMatters) {
   const TrackCheck check = Moved(0, 0, 5);
   EXPECT_NEAR(check.up.value, -5, 2);
   const double change = 5 / check.range * std::sin(check.median_incidence);
-  if (change > RadiansOfDegrees(0.31)) EXPECT_EQ(check.verdict, TrackVerdict::kHeightOffset) << Describe(check);
-  if (change < RadiansOfDegrees(0.25)) EXPECT_EQ(check.verdict, TrackVerdict::kAgrees) << Describe(check);
+  if (change > RadiansOfDegrees(0.31)) {
+    EXPECT_EQ(check.verdict, TrackVerdict::kHeightOffset) << Describe(check);
+  }
+  if (change < RadiansOfDegrees(0.25)) {
+    EXPECT_EQ(check.verdict, TrackVerdict::kAgrees) << Describe(check);
+  }
 }
 
 TEST_P(TrackCheckOf, AnotherFlightIsNamed) {

@@ -54,7 +54,9 @@ TEST(ShippedSensors, HaveASourceForEachNumber) {
       if (!sensor.errors.stated[i]) continue;
       EXPECT_THAT(sensor.origins[i], names_a_source) << sensor.name;
     }
-    if (sensor.divergence.has_value()) EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
+    if (sensor.divergence.has_value()) {
+      EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
+    }
     EXPECT_LT(UnknownOf(sensor).size(), 10u) << sensor.name << " has no number";
   }
 }

@@ -77,9 +77,9 @@ TEST(Sensor, ReadsEachNumberIntoItsOwnPlace) {
     }
     const Sensor sensor = ParseSensor(text).value();
     for (std::size_t k = 0; k < kErrorSourceCount; ++k) EXPECT_EQ(sensor.errors.stated[k], k == i);
-    if (source.size() == 1)
+    if (source.size() == 1) {
       EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(0.0625)) << source.name;
-    else
+    } else
       EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(1, 2, 3.5)) << source.name;
   }
 }

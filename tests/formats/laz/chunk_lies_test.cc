@@ -54,9 +54,9 @@ absl::Status Decode(const LaszipRecord& record, const std::string& bytes, std::u
   }
   if (status.ok()) status = decoder->End(exact);
   EXPECT_LT(testing::MostAllocated(), bytes.size() + kMargin);
-  if (status.ok())
+  if (status.ok()) {
     EXPECT_LE(decoder->position(), bytes.size());
-  else
+  } else
     EXPECT_TRUE(absl::IsDataLoss(status)) << status;
   return status;
 }

@@ -90,7 +90,9 @@ TEST(ChunkTable, OfOtherProgramsIsReadAndWrittenAgainByteForByte) {
   for (const char* name : {"1815.laz", "1_4_w_evlr.laz", "append-bug.laz", "autzen_trim.laz", "extrabytes.laz",
                            "plane.laz", "point-color.las.laz", "simple.copc.laz", "simple.laz"}) {
     const std::string file = albtpu::testing::SampleBytes(name);
-    if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
+    if (file.empty()) {
+      GTEST_SKIP() << "no sample files (" << name << ")";
+    }
     const auto extent = albtpu::testing::ExtentOf(file);
     const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
     EXPECT_EQ(table->chunks.back().offset + table->chunks.back().bytes, table->begin) << name;

@@ -33,7 +33,9 @@ class LazDamage : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     file_ = SampleBytes(GetParam());
-    if (file_.empty()) GTEST_SKIP() << "no sample files (" << GetParam() << ")";
+    if (file_.empty()) {
+      GTEST_SKIP() << "no sample files (" << GetParam() << ")";
+    }
     extent_ = ExtentOf(file_).value();
     table_ = laz::ReadChunkTable(laz::MemorySource(file_), extent_.record, extent_.points_begin, extent_.point_count)
                  .value();
@@ -87,7 +89,9 @@ TEST_P(LazDamage, OfOneBitIsMostlyNoticedInLongChunks) {
   std::cout << GetParam() << ": " << points << " points a chunk; of " << flips << " flips " << outcomes.refused
             << " refused, " << outcomes.other_points << " other points, " << outcomes.same_points
             << " the same points\n";
-  if (points >= kLongChunk) EXPECT_GE(outcomes.refused, flips * 97 / 100);
+  if (points >= kLongChunk) {
+    EXPECT_GE(outcomes.refused, flips * 97 / 100);
+  }
 }
 
 // A flipped bit of the table is refused, or the chunks that it states cannot be decoded, or it changes nothing.

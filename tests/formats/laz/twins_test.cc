@@ -27,7 +27,9 @@ class LazSample : public ::testing::TestWithParam<Sample> {
  protected:
   void SetUp() override {
     file_ = SampleBytes(GetParam().name);
-    if (file_.empty()) GTEST_SKIP() << "no sample files (" << GetParam().name << ")";
+    if (file_.empty()) {
+      GTEST_SKIP() << "no sample files (" << GetParam().name << ")";
+    }
   }
 
   std::string file_;
@@ -49,10 +51,11 @@ TEST_P(LazSample, WrittenAgainIsTheSameAndAsSmall) {
   const auto parts_again = TakeApart(again);
   EXPECT_TRUE(AsLas(*parts_again) == AsLas(*parts));
   const double ratio = static_cast<double>(again.size()) / static_cast<double>(file_.size());
-  if (GetParam().name == "simple.copc.laz")
+  if (GetParam().name == "simple.copc.laz") {
     EXPECT_LT(ratio, 1);  // Its many small chunks become one.
   else
     EXPECT_NEAR(ratio, 1, 0.01);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -96,7 +99,9 @@ std::vector<Values> SortedPoints(const LasParts& parts) {
 // Its chunks are of any size: those of the octree's nodes.
 TEST(CopcSample, HasThePointsOfItsTwinInAnotherOrder) {
   const std::string file = SampleBytes("simple.copc.laz");
-  if (file.empty()) GTEST_SKIP() << "no sample files (simple.copc.laz)";
+  if (file.empty()) {
+    GTEST_SKIP() << "no sample files (simple.copc.laz)";
+  }
   const auto parts = TakeApart(file);
   const auto twin = TakeApart(SampleBytes("simple.las"));
   EXPECT_EQ(SortedPoints(*parts).size(), 1065u);
@@ -105,7 +110,9 @@ TEST(CopcSample, HasThePointsOfItsTwinInAnotherOrder) {
 
 TEST(SampleOfTheFirstCompressor, IsRefused) {
   const std::string file = SampleBytes("simple-laszip-compressor-version-1.2r0.laz");
-  if (file.empty()) GTEST_SKIP() << "no sample files";
+  if (file.empty()) {
+    GTEST_SKIP() << "no sample files";
+  }
   const auto parts = TakeApart(file);
   EXPECT_EQ(parts.status().code(), absl::StatusCode::kUnimplemented);
   EXPECT_NE(parts.status().message().find("version 1"), std::string::npos) << parts.status();

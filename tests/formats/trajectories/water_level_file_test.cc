@@ -65,7 +65,9 @@ TEST(WaterLevels, AreTheSameForColumnsOfTimes) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::optional<double> level = series->At(times[i]);
     ASSERT_EQ(std::isnan(levels[i]), !level.has_value()) << times[i];
-    if (level.has_value()) ASSERT_EQ(levels[i], *level) << times[i];
+    if (level.has_value()) {
+      ASSERT_EQ(levels[i], *level) << times[i];
+    }
   }
 }
 

@@ -51,8 +51,9 @@ TEST_P(EachFastPatch, EqualsThePatchOfTheDoubleTwin) {
   for (const int size : {4, 6, 10, 18, 48, 60, 90, 100, 128, 250, 270, 360, 512}) {
     const WavePatchModel patch = Patch(size);
     for (int points : {1, 3, size / 4 * 2 - 1, size - 1})
-      if (points < size)
+      if (points < size) {
         EXPECT_LT(Distance(patch, points, NormalStream(1, 2, size)), 0x1p-20) << points << " of " << size;
+      }
   }
 }
 

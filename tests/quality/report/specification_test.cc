@@ -36,7 +36,9 @@ class ShippedSpecifications : public ::testing::Test {
     EXPECT_EQ(of.coverage, expected.coverage);
     for (const auto& [limit, value] : {std::pair{of.horizontal, expected.thu}, {of.vertical, expected.tvu}}) {
       ASSERT_EQ(limit.has_value(), !std::isnan(value)) << expected.of_class;
-      if (limit.has_value()) EXPECT_NEAR(limit->At(expected.depth), value, 1e-9) << expected.of_class;
+      if (limit.has_value()) {
+        EXPECT_NEAR(limit->At(expected.depth), value, 1e-9) << expected.of_class;
+      }
     }
   }
 };

@@ -78,7 +78,9 @@ TEST_F(SeaFile, IsKnownByItsFirstLine) {
 class RealSea : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(kSamples)) GTEST_SKIP() << "no sample files in " << kSamples;
+    if (!std::filesystem::exists(kSamples)) {
+      GTEST_SKIP() << "no sample files in " << kSamples;
+    }
   }
 
   static absl::StatusOr<SeaSeries> Read(const std::string& name) { return ReadSeaFile(kSamples / name); }

@@ -35,7 +35,9 @@ TEST(SeaResponse, IsTheClosedFormOfSmallSlopes) {
         EXPECT_NEAR(ours.refraction_along_wind() / exact.refraction_along_wind, 1, 6e-4);
         EXPECT_NEAR(ours.refraction_cross_wind() / exact.refraction_cross_wind, 1, 6e-4);
         EXPECT_NEAR(ours.Thu(1e6) / 1e6 / exact.thu_per_depth, 1, 6e-4);
-        if (incidence > 0) EXPECT_NEAR(ours.Tvu(1e6) / 1e6 / exact.tvu_per_depth, 1, 6e-4);
+        if (incidence > 0) {
+          EXPECT_NEAR(ours.Tvu(1e6) / 1e6 / exact.tvu_per_depth, 1, 6e-4);
+        }
       }
     }
   }

@@ -50,7 +50,9 @@ TEST(AtomicFile, ReportsAMissingFolder) {
 }
 
 TEST(AtomicFile, ReportsAFolderThatIsNotWritable) {
-  if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  if (geteuid() == 0) {
+    GTEST_SKIP() << "root may write anywhere";
+  }
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const absl::Status status = WriteFileAtomically(folder / "file", "bytes", Existing::kKeep);

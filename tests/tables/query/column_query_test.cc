@@ -42,9 +42,9 @@ double Largest(const std::vector<float>& numbers) {
 // If corners of both signs cancel, or a corner of 0 has nearly all of the weight, the error is relative to the
 // largest value.
 void ExpectNear(float ours, double exact, double largest, const std::string& what) {
-  if (std::isnan(exact))
+  if (std::isnan(exact)) {
     ASSERT_TRUE(std::isnan(ours)) << what << " is " << ours;
-  else
+  } else
     ASSERT_NEAR(ours, exact, kTolerance * std::abs(exact) + kCancelled * largest) << what;
 }
 
@@ -203,7 +203,9 @@ TEST_P(ColumnQuery, OfOneSeaRepeatsAfterHalfATurnAndHasNoMirror) {
     const auto expected = answers_at(azimuth);
     for (const float turned : {azimuth + 180, azimuth - 180, azimuth - 360, azimuth + 3600, azimuth - 7200})
       ASSERT_EQ(answers_at(turned), expected) << azimuth << " and " << turned;
-    if (eighth % (8 * 90) != 0) EXPECT_NE(answers_at(-azimuth), expected) << azimuth;
+    if (eighth % (8 * 90) != 0) {
+      EXPECT_NE(answers_at(-azimuth), expected) << azimuth;
+    }
   }
 }
 

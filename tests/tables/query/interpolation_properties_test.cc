@@ -171,13 +171,17 @@ void ExpectMonotone(const UncertaintyTable& table, bool everywhere) {
       const std::vector<float> corners = CornersAround(table, quantity, shallow).values;
       bool grows = true;
       for (std::size_t c = 0; c < corners.size(); c += 2) grows = grows && corners[c] <= corners[c + 1];
-      if (everywhere) ASSERT_TRUE(grows);
+      if (everywhere) {
+        ASSERT_TRUE(grows);
+      }
       if (!grows) continue;
       ++grown;
       ASSERT_GE(answers[1][Index(quantity)], answers[0][Index(quantity)] - asked.Tolerance(quantity, corners));
     }
   }
-  if (everywhere) EXPECT_EQ(grown, 2 * kPulses);
+  if (everywhere) {
+    EXPECT_EQ(grown, 2 * kPulses);
+  }
 }
 
 TEST_P(EveryAnswer, GrowsWithDepthWhereTheNodesDo) {

@@ -42,7 +42,9 @@ TEST(SeaResponse, AgreesWithTracingInAllThatTheReportCompares) {
 
 TEST(SeaResponse, AgreesWithTracingOnAMeasuredSea) {
   const std::filesystem::path buoy = std::filesystem::path(SEA_SAMPLES) / "41010.data_spec";
-  if (!std::filesystem::exists(buoy)) GTEST_SKIP() << buoy << " is not there";
+  if (!std::filesystem::exists(buoy)) {
+    GTEST_SKIP() << buoy << " is not there";
+  }
   const ResponseSea sea = ResponseSeaOf("NDBC 41010", Describe(ReadSeaFile(buoy)->records.front()).spectrum);
   ExpectAgreement(VerdictsOnManySeas(CompareRandomBeams({sea}, !EveryBeam(), {}, kSeed)));
 }

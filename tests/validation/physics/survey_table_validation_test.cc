@@ -152,7 +152,9 @@ class SurveyTable : public testing::TestWithParam<const char*> {};
 
 TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
   const std::filesystem::path file = std::filesystem::path(TABLES_FOLDER) / GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << GetParam() << " does not ship";
+  if (!std::filesystem::exists(file)) {
+    GTEST_SKIP() << GetParam() << " does not ship";
+  }
   const absl::StatusOr<UncertaintyTable> table = ReadTable(file);
   const bool elfouhaily = table->provenance().campaign.find("elfouhaily") != std::string::npos;
   const std::size_t stride = std::getenv("ALBTPU_EVERY_SEA") != nullptr ? 1 : 5;

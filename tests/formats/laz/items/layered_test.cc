@@ -45,7 +45,9 @@ absl::Status DecodeInSteps(LayeredDecoder& decoder, const std::string& chunk, st
 TEST(Layered, ChunksOfOtherProgramsAreEncodedToTheSameBytes) {
   for (const char* name : {"1_4_w_evlr.laz", "append-bug.laz", "simple.copc.laz"}) {
     const std::string file = albtpu::testing::SampleBytes(name);
-    if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
+    if (file.empty()) {
+      GTEST_SKIP() << "no sample files (" << name << ")";
+    }
     const auto extent = albtpu::testing::ExtentOf(file);
     const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
     ASSERT_FALSE(table->chunks.empty()) << name;

@@ -36,7 +36,9 @@ class PointwiseSample : public ::testing::TestWithParam<std::pair<const char*, c
 TEST_P(PointwiseSample, DecodesToItsTwinAndEncodesToItself) {
   const auto [name, twin_name] = GetParam();
   const std::string file = albtpu::testing::SampleBytes(name);
-  if (file.empty()) GTEST_SKIP() << "no sample files (" << name << ")";
+  if (file.empty()) {
+    GTEST_SKIP() << "no sample files (" << name << ")";
+  }
   const auto extent = albtpu::testing::ExtentOf(file);
   const std::size_t length = extent->record.record_length();
   const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);

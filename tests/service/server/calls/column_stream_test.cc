@@ -123,7 +123,9 @@ TEST_F(StreamColumns, FreesEverythingWhenItsCallerCancels) {
     stream->Write(Request(kMaxPulses, 1));
     stream->Write(Request(kMaxPulses, 2));
     v1::StreamColumnsResponse response;
-    if (i % 2 == 0) ASSERT_TRUE(stream->Read(&response));
+    if (i % 2 == 0) {
+      ASSERT_TRUE(stream->Read(&response));
+    }
     context.TryCancel();
     EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }

@@ -70,7 +70,9 @@ TEST_F(Health, SurvivesWatchersThatDisconnect) {
     grpc::ClientContext context;
     const auto watch = health_->Watch(&context, Ask(""));
     HealthCheckResponse response;
-    if (i % 2 == 0) ASSERT_TRUE(watch->Read(&response));
+    if (i % 2 == 0) {
+      ASSERT_TRUE(watch->Read(&response));
+    }
     context.TryCancel();
     EXPECT_EQ(watch->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }

@@ -40,9 +40,9 @@ std::vector<int> Bytes(const std::string& column) { return {column.begin(), colu
 
 // A number in a row and in a column: the same bits, or absent in both.
 void ExpectSame(bool present, float row, float column) {
-  if (present)
+  if (present) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(row), std::bit_cast<std::uint32_t>(column));
-  else
+  } else
     EXPECT_TRUE(std::isnan(column));
 }
 

@@ -31,7 +31,9 @@ TEST(IdleWatch, StartsAgainAfterActivity) {
     watch.NoteActivity();
     active_in_time = steady_clock::now() - begin < limit;
     idle.get_future().wait();
-    if (active_in_time) EXPECT_GE(steady_clock::now() - begin, 2 * limit);
+    if (active_in_time) {
+      EXPECT_GE(steady_clock::now() - begin, 2 * limit);
+    }
   }
 }
 
