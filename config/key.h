@@ -98,8 +98,7 @@ void ReadKeys(TomlKeys& keys, const Table& table, const std::filesystem::path& f
 template <typename Settings>
 bool IsGiven(const Key<Settings>& key, const Settings& settings) {
   const auto is_given = []<typename Member>(const Member& member) {
-    if constexpr (
-        requires { member.has_value(); })
+    if constexpr (requires { member.has_value(); })
       return member.has_value();
     else
       return !member.empty();

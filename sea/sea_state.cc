@@ -72,22 +72,18 @@ WavenumberRange SeaState::energetic_range() const {
 }
 
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea, const std::function<double(double k, double psi)>& weight) {
-  return sea.Integral(
-      Eigen::Matrix2d(Eigen::Matrix2d::Zero()),
-      [&](double k, double psi) {
-        const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
-        return Eigen::Matrix2d(weight(k, psi) * wave * wave.transpose());
-      });
+  return sea.Integral(Eigen::Matrix2d(Eigen::Matrix2d::Zero()), [&](double k, double psi) {
+    const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
+    return Eigen::Matrix2d(weight(k, psi) * wave * wave.transpose());
+  });
 }
 
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea) {
-  return SlopeCovariance(
-      sea, [](double, double) { return 1.0; });
+  return SlopeCovariance(sea, [](double, double) { return 1.0; });
 }
 
 double ElevationVariance(const SeaState& sea) {
-  return sea.Integral(
-      0.0, [](double, double) { return 1.0; });
+  return sea.Integral(0.0, [](double, double) { return 1.0; });
 }
 
 }  // namespace albtpu

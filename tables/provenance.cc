@@ -52,8 +52,7 @@ bool IsId(std::string_view id) {
 
 bool IsAttributeName(std::string_view name) {
   return !name.empty() && !absl::ascii_isdigit(name[0]) &&
-         std::all_of(
-             name.begin(), name.end(), [](char c) { return absl::ascii_isalnum(c) || c == '_'; });
+         std::all_of(name.begin(), name.end(), [](char c) { return absl::ascii_isalnum(c) || c == '_'; });
 }
 
 absl::Status CheckAttribute(std::string_view name, const AttributeValue& value) {

@@ -94,20 +94,20 @@ std::vector<Change> Changes(const formats::MapFrame& frame) {
                      }});
   if (frame.is_geographic()) return changes;
   const double unit = frame.unit();
-  changes.push_back({"the points are in feet, but their coordinate system states metres", unchanged,
-                     [unit](formats::MapPosition p) {
-                       return formats::MapPosition{p.x * unit / kFoot, p.y * unit / kFoot};
-                     }});
+  changes.push_back(
+      {"the points are in feet, but their coordinate system states metres", unchanged, [unit](formats::MapPosition p) {
+         return formats::MapPosition{p.x * unit / kFoot, p.y * unit / kFoot};
+       }});
   changes.push_back({"the points are in metres, but their coordinate system states another unit", unchanged,
                      [unit](formats::MapPosition p) {
                        return formats::MapPosition{p.x * unit, p.y * unit};
                      }});
   if (!frame.is_transverse_mercator()) return changes;
   for (const double sign : {-1.0, 1.0}) {
-    changes.push_back({"the points are in the zone of the other hemisphere", unchanged,
-                       [unit, sign](formats::MapPosition p) {
-                         return formats::MapPosition{p.x, p.y + sign * kSouthernFalseNorthing / unit};
-                       }});
+    changes.push_back(
+        {"the points are in the zone of the other hemisphere", unchanged, [unit, sign](formats::MapPosition p) {
+           return formats::MapPosition{p.x, p.y + sign * kSouthernFalseNorthing / unit};
+         }});
   }
   // A position seen from another central meridian is the position turned by the angle between the two. Gauss-Krueger
   // zones are 3 degrees wide, UTM zones 6.

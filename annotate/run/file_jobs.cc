@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 using Extensions = std::vector<std::string>;
 
 bool HasOneOf(const fs::path& path, const Extensions& extensions) {
-  return std::ranges::any_of(
-      extensions, [&](const std::string& each) { return HasExtension(path, each); });
+  return std::ranges::any_of(extensions, [&](const std::string& each) { return HasExtension(path, each); });
 }
 
 bool IsFolder(const fs::path& path) {

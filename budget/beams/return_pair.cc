@@ -210,8 +210,8 @@ std::vector<AirRay> ThinRays(std::span<const AirRay> rays, const RayThinning& th
   places.reserve(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (IsFinite(rays[i])) places.push_back({rays[i].time, static_cast<std::uint32_t>(i)});
-  tbb::parallel_sort(
-      places, [](const Place& a, const Place& b) { return a.time != b.time ? a.time < b.time : a.ray < b.ray; });
+  tbb::parallel_sort(places,
+                     [](const Place& a, const Place& b) { return a.time != b.time ? a.time < b.time : a.ray < b.ray; });
 
   const auto bin_of = [&](const Place& place) { return std::floor(place.time / thinning.bin); };
   std::size_t bins = 0;

@@ -137,44 +137,40 @@ Eigen::Vector3d SegmentFit::Position(const KnotPlace& place) const {
 }
 
 void SegmentFit::ComputeResiduals() {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, rays_.size(), 4096),
-      [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const Eigen::Vector3d to = rays_[i].water_point - centre_ - Position(times_.Find(rays_[i].time));
-          squares_[i] = AngleBetween(to.normalized(), rays_[i].direction, flattening_).squaredNorm();
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays_.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Eigen::Vector3d to = rays_[i].water_point - centre_ - Position(times_.Find(rays_[i].time));
+      squares_[i] = AngleBetween(to.normalized(), rays_[i].direction, flattening_).squaredNorm();
+    }
+  });
 }
 
 void SegmentFit::FillBins() {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, bins_.size(), 16),
-      [&](const auto& range) {
-        for (std::size_t b = range.begin(); b < range.end(); ++b) {
-          Bin bin{.first = bins_[b].first, .last = bins_[b].last};
-          for (std::size_t i = bin.first; i < bin.last; ++i) {
-            const AirRay& ray = rays_[i];
-            const KnotPlace place = times_.Find(ray.time);
-            const Eigen::Vector3d to = ray.water_point - centre_ - Position(place);
-            const double range_squared = to.squaredNorm(), distance = std::sqrt(range_squared);
-            const Eigen::Vector3d v = to / distance;
-            const Eigen::Vector3d residual = AngleBetween(v, ray.direction, flattening_);
-            const RayWeight w = WeightOf(noise_, ray.separation, residual.squaredNorm());
-            // The rays' directions turn towards +x when the sensor moves towards -x.
-            const Eigen::Vector3d score = -w.weight / distance * residual;
-            bin.information += w.weight / range_squared * (Eigen::Matrix3d::Identity() - v * v.transpose());
-            bin.score += score;
-            for (int j = 0; j < 4; ++j) bin.scores.col(j) += place.position[static_cast<std::size_t>(j)] * score;
-            bin.weight += w.weight;
-            bin.response += w.response;
-            bin.mean_time += ray.time - times_.start;
-          }
-          if (bin.last > bin.first) bin.mean_time /= static_cast<double>(bin.last - bin.first);
-          bin.mean_time += times_.start;
-          bins_[b] = bin;
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins_.size(), 16), [&](const auto& range) {
+    for (std::size_t b = range.begin(); b < range.end(); ++b) {
+      Bin bin{.first = bins_[b].first, .last = bins_[b].last};
+      for (std::size_t i = bin.first; i < bin.last; ++i) {
+        const AirRay& ray = rays_[i];
+        const KnotPlace place = times_.Find(ray.time);
+        const Eigen::Vector3d to = ray.water_point - centre_ - Position(place);
+        const double range_squared = to.squaredNorm(), distance = std::sqrt(range_squared);
+        const Eigen::Vector3d v = to / distance;
+        const Eigen::Vector3d residual = AngleBetween(v, ray.direction, flattening_);
+        const RayWeight w = WeightOf(noise_, ray.separation, residual.squaredNorm());
+        // The rays' directions turn towards +x when the sensor moves towards -x.
+        const Eigen::Vector3d score = -w.weight / distance * residual;
+        bin.information += w.weight / range_squared * (Eigen::Matrix3d::Identity() - v * v.transpose());
+        bin.score += score;
+        for (int j = 0; j < 4; ++j) bin.scores.col(j) += place.position[static_cast<std::size_t>(j)] * score;
+        bin.weight += w.weight;
+        bin.response += w.response;
+        bin.mean_time += ray.time - times_.start;
+      }
+      if (bin.last > bin.first) bin.mean_time /= static_cast<double>(bin.last - bin.first);
+      bin.mean_time += times_.start;
+      bins_[b] = bin;
+    }
+  });
 }
 
 // Of the rays themselves, whose errors are small beside it.

@@ -62,8 +62,8 @@ std::uint64_t LeftOutBefore(const LasReader& reader, std::uint64_t end) {
 }
 
 std::uint64_t KeptEvlrs(const LasReader& reader) {
-  return static_cast<std::uint64_t>(std::ranges::count_if(
-      reader.evlrs(), [&](const VlrEntry& evlr) { return IsKept(reader, evlr); }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(reader.evlrs(), [&](const VlrEntry& evlr) { return IsKept(reader, evlr); }));
 }
 
 }  // namespace

@@ -75,12 +75,10 @@ bool BeginsWithNumber(std::string_view line) {
 }
 
 bool IsText(std::string_view bytes) {
-  return std::none_of(
-      bytes.begin(), bytes.end(),
-      [](char character) {
-        const auto code = static_cast<unsigned char>(character);
-        return code < 32 && code != '\t' && code != '\n' && code != '\r';
-      });
+  return std::none_of(bytes.begin(), bytes.end(), [](char character) {
+    const auto code = static_cast<unsigned char>(character);
+    return code < 32 && code != '\t' && code != '\n' && code != '\r';
+  });
 }
 
 }  // namespace

@@ -52,9 +52,8 @@ struct TypeText {
 struct RangeText {
   std::string operator()(const AnyText& text) const { return std::string(text.rule); }
   std::string operator()(const Choice& choice) const {
-    return absl::StrJoin(
-        choice.words, " or ",
-        [](std::string* joined, std::string_view word) { absl::StrAppend(joined, Quoted(word)); });
+    return absl::StrJoin(choice.words, " or ",
+                         [](std::string* joined, std::string_view word) { absl::StrAppend(joined, Quoted(word)); });
   }
   std::string operator()(const NumberRange& range) const {
     return absl::StrCat(NumberText(range.least), " to ", NumberText(range.most));

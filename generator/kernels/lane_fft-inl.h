@@ -155,14 +155,11 @@ HWY_INLINE void Transform(const LaneFft& fft, float* data, int begin, int end, c
     float* own = data + lane;
     for (const LaneFft::Pass& pass : fft.passes()) {
       if (&pass != &fft.passes().back()) {
-        RunPass(
-            pass, fft.size(), own, [&](int i, ComplexLanes x) { StoreElement(x, own + LaneFft::kElement * i); });
+        RunPass(pass, fft.size(), own, [&](int i, ComplexLanes x) { StoreElement(x, own + LaneFft::kElement * i); });
       } else {
-        RunPass(
-            pass, fft.size(), own,
-            [&](int i, ComplexLanes x) {
-              if (begin <= i && i < end) StoreElement(x, at(i) + lane);
-            });
+        RunPass(pass, fft.size(), own, [&](int i, ComplexLanes x) {
+          if (begin <= i && i < end) StoreElement(x, at(i) + lane);
+        });
       }
     }
   }

@@ -157,9 +157,9 @@ BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const 
   result.refraction_cross_wind = refraction(1);
   for (const double depth : depths) {
     const auto horizontal = [&](const Eigen::Vector2d& direction) {
-      return Column(
-          sample,
-          [&](const BeamErrors& e) { return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth); });
+      return Column(sample, [&](const BeamErrors& e) {
+        return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth);
+      });
     };
     const auto squares_along = [&](const Eigen::Vector2d& direction) {
       return horizontal(direction).SquaresAboutMean(controls.Horizontal(depth, direction));

@@ -45,22 +45,18 @@ double AliasedSlopeVariance(const SurfaceModel& model, const BeamOptions& beam, 
 }
 
 double SeenSlopeVariance(const SeaState& sea, const BeamOptions& beam) {
-  return SlopeCovariance(
-             sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); })
-      .trace();
+  return SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }).trace();
 }
 
 // Whether the slope variances over the footprint of each beam, along and across the wind, agree with the closed form
 // within kPatchDeparture of half of `least`, the mean square slope that matters.
 bool HasTheSlopesSeen(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams,
                       double least) {
-  return std::all_of(
-      beams.begin(), beams.end(),
-      [&](const BeamOptions& beam) {
-        const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
-        const Eigen::Matrix2d error = model.FacetSlopeCovariance(seen) - SlopeCovariance(sea, seen);
-        return error.diagonal().cwiseAbs().maxCoeff() <= kPatchDeparture * least / 2;
-      });
+  return std::all_of(beams.begin(), beams.end(), [&](const BeamOptions& beam) {
+    const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+    const Eigen::Matrix2d error = model.FacetSlopeCovariance(seen) - SlopeCovariance(sea, seen);
+    return error.diagonal().cwiseAbs().maxCoeff() <= kPatchDeparture * least / 2;
+  });
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
   };
 
   WaterColumnBias bias;
-  bias.energy = estimate(
-      all.energy / count, [&](std::size_t i) { return without[i].energy / (count - 1); });
+  bias.energy = estimate(all.energy / count, [&](std::size_t i) { return without[i].energy / (count - 1); });
   bias.spot = estimate(SpotOf(all), [&](std::size_t i) { return SpotOf(without[i]); });
   const double refracted = RefractedAngle(column.incidence, column.refractive_index);
   const EchoSetup setup = SetupOf(column, pulse_lengths, 1);
@@ -80,8 +79,7 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
       const auto along = [&](const DetectedBottom& of) {
         return deep(of) * std::tan(refracted) - (of.by[d].ahead - clear.by[d].ahead);
       };
-      detected.vertical[d] = estimate(
-          -deep(*bottom), [&](std::size_t i) { return -deep(others[i]); });
+      detected.vertical[d] = estimate(-deep(*bottom), [&](std::size_t i) { return -deep(others[i]); });
       detected.along[d] = estimate(along(*bottom), [&](std::size_t i) { return along(others[i]); });
     }
     detected.stretch =

@@ -109,8 +109,7 @@ absl::Status AddFinished(const WorkFolder& work, bool resume, std::vector<UnitId
         absl::StrCat(work.PathOf(finished->front()).parent_path().string(), ": has ", finished->size(), " of these ",
                      units.size(), " units already; give --resume to use them, or another folder to start anew"));
   }
-  std::erase_if(
-      units, [&](UnitId unit) { return std::binary_search(finished->begin(), finished->end(), unit); });
+  std::erase_if(units, [&](UnitId unit) { return std::binary_search(finished->begin(), finished->end(), unit); });
   return work.Read(*finished, [&](UnitId unit, const std::string& bytes) { return builder.Add(unit, bytes); });
 }
 

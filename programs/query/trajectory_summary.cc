@@ -103,8 +103,8 @@ TrajectorySummary Summarize(const formats::SmrmsgFile& errors) {
   summary.records = errors.size();
   summary.start = errors.TimeAt(0);
   summary.end = errors.TimeAt(errors.size() - 1);
-  summary.gaps = FindGaps(
-      errors.size(), formats::SmrmsgFile::kLongestGap, [&](std::size_t i) { return errors.TimeAt(i); });
+  summary.gaps =
+      FindGaps(errors.size(), formats::SmrmsgFile::kLongestGap, [&](std::size_t i) { return errors.TimeAt(i); });
   summary.sigma = MedianSigma(errors.size(), [&](std::size_t i) { return std::optional(errors.SigmaOf(i)); });
   return summary;
 }

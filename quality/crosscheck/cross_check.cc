@@ -140,10 +140,8 @@ std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs) {
   constexpr std::array<double, 9> kDepths = {0, 2, 5, 10, 15, 20, 30, 50, kNoEnd};
   constexpr std::array<double, 8> kIncidences = {0, 5, 10, 15, 20, 25, 30, 90};
   constexpr std::array<double, 5> kShares = {0, 0.25, 0.5, 0.75, 1.001};
-  check.by_depth = Bands(
-      pairs, rough, kDepths, [](const CrossPair& pair) { return pair.depth; });
-  check.by_incidence = Bands(
-      pairs, rough, kIncidences, [](const CrossPair& pair) { return pair.incidence; });
+  check.by_depth = Bands(pairs, rough, kDepths, [](const CrossPair& pair) { return pair.depth; });
+  check.by_incidence = Bands(pairs, rough, kIncidences, [](const CrossPair& pair) { return pair.incidence; });
   check.by_sea_share = Bands(pairs, rough, kShares, [](const CrossPair& pair) {
     return pair.variance_sea / (pair.variance_sea + pair.variance_air);
   });

@@ -42,8 +42,7 @@ void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
 
 void OverlapPatches::Thin() {
   mask_ = mask_ << 1 | 1;
-  std::erase_if(
-      known_, [this](const auto& each) { return (MixBits(each.first) & mask_) != 0; });
+  std::erase_if(known_, [this](const auto& each) { return (MixBits(each.first) & mask_) != 0; });
   std::erase_if(chosen_, [this](const auto& each) { return (MixBits(each.first) & mask_) != 0; });
 }
 

@@ -55,9 +55,8 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription given) {
 
 void SortByTime(SeaSeries& series) {
   const auto key = [](const SeaRecord& record) { return std::tuple(record.point, record.time.value_or(-INFINITY)); };
-  std::stable_sort(
-      series.records.begin(), series.records.end(),
-      [&](const SeaRecord& a, const SeaRecord& b) { return key(a) < key(b); });
+  std::stable_sort(series.records.begin(), series.records.end(),
+                   [&](const SeaRecord& a, const SeaRecord& b) { return key(a) < key(b); });
   const auto end = std::unique(series.records.begin(), series.records.end(),
                                [&](const SeaRecord& a, const SeaRecord& b) { return key(a) == key(b); });
   const auto repeated = series.records.end() - end;

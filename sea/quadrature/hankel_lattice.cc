@@ -68,8 +68,7 @@ std::vector<QuadratureNode> GaussLegendre(int count, double begin, double end) {
 }
 
 std::vector<QuadratureNode> GaussHermite(int count) {
-  return NodesOf(
-      count, Zero, [](double n) { return std::sqrt(n); });
+  return NodesOf(count, Zero, [](double n) { return std::sqrt(n); });
 }
 
 std::vector<QuadratureNode> GaussLaguerre(int count) {
@@ -83,12 +82,10 @@ HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
   const int count = size() + static_cast<int>(std::log(kLongestLag / kShortestLag) / step_) + 1;
   const double start = std::log(wavenumbers.front() * kShortestLag);
   for (int order = 0; order < kOrders; ++order) {
-    bessel_.push_back(Means(
-        start, step_, count,
-        [order](double x) {
-          if (x > kFarthest) return 0.0;
-          return ::jn(order, x);
-        }));
+    bessel_.push_back(Means(start, step_, count, [order](double x) {
+      if (x > kFarthest) return 0.0;
+      return ::jn(order, x);
+    }));
   }
   one_minus_bessel_ = Means(start, step_, count, [](double x) { return x > kFarthest ? 1.0 : OneMinusJ0(x); });
 }

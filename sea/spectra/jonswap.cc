@@ -45,9 +45,8 @@ double IntegralOfShape(const JonswapWaves& waves, double depth) {
 }
 
 const JonswapWaves& OfShortestPeriod(const std::vector<JonswapWaves>& waves) {
-  return *std::min_element(
-      waves.begin(), waves.end(),
-      [](const JonswapWaves& a, const JonswapWaves& b) { return a.peak_period < b.peak_period; });
+  return *std::min_element(waves.begin(), waves.end(),
+                           [](const JonswapWaves& a, const JonswapWaves& b) { return a.peak_period < b.peak_period; });
 }
 
 }  // namespace

@@ -24,10 +24,9 @@ constexpr std::size_t kMaxListedBytes = 800;
 constexpr std::size_t kMaxQuotedBytes = 100;
 
 bool IsName(std::string_view text) {
-  return !text.empty() && absl::ascii_isalnum(text[0]) &&
-         std::all_of(
-             text.begin(), text.end(),
-             [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
+  return !text.empty() && absl::ascii_isalnum(text[0]) && std::all_of(text.begin(), text.end(), [](char c) {
+    return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-';
+  });
 }
 
 // The name of the table or version by the name of a file; nullopt for other files.

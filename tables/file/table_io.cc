@@ -72,13 +72,11 @@ absl::Status Write(const Table& table, const fs::path& path, Existing existing) 
 }  // namespace
 
 absl::StatusOr<Table> ReadTable(const fs::path& path, const TableSchema& schema) {
-  return Read(
-      path, [&](const std::string& file) { return DecodeTable(file, schema); });
+  return Read(path, [&](const std::string& file) { return DecodeTable(file, schema); });
 }
 
 absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) {
-  return Read(
-      path, [](const std::string& file) { return DecodeTable(file); });
+  return Read(path, [](const std::string& file) { return DecodeTable(file); });
 }
 
 absl::Status WriteTable(const Table& table, const fs::path& path, Existing existing) try {

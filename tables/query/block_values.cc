@@ -174,8 +174,7 @@ void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t
     else
       for (std::size_t i = 0; i < block.count(); ++i) column[i] = number_of(block.codes()[i]);
   };
-  write(
-      outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
+  write(outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
   write(outcome_axes, [](std::int32_t code) {
     return code == outcome_code::kInside ? std::uint8_t{0} : OneBased(code % outcome_code::kOutside);
   });

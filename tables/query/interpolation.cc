@@ -47,8 +47,7 @@ class Corners {
   }
 
   double Mean(const std::vector<float>& values) const {
-    return Mean(
-        values, [](double value) { return value; });
+    return Mean(values, [](double value) { return value; });
   }
 
  private:

@@ -64,11 +64,9 @@ class SortedAnswers {
 
   // Copies the answers into the wanted columns, in the order of the pulses before they were sorted.
   void CopyBack() {
-    ForEachColumn(
-        wanted_, columns_,
-        [&](auto* column, auto*& sorted) {
-          for (std::size_t i = 0; i < pulses_.count(); ++i) column[pulses_.begin() + i] = sorted[pulses_.place(i)];
-        });
+    ForEachColumn(wanted_, columns_, [&](auto* column, auto*& sorted) {
+      for (std::size_t i = 0; i < pulses_.count(); ++i) column[pulses_.begin() + i] = sorted[pulses_.place(i)];
+    });
   }
 
  private:

@@ -138,32 +138,28 @@ std::string Edited(const std::string& bytes, const std::function<void(hid_t)>& e
 // Changes a table file at random but keeps it a sealed HDF5 file, as another program might write it. Returns the file
 // unchanged if HDF5 cannot open it.
 std::string EditTable(const std::string& file, std::mt19937& random) {
-  return Edited(
-      file,
-      [&](hid_t root) {
-        switch (random() % 8) {
-          case 0:
-            return ReplaceDataset(root, random);
-          case 1:
-            return Relink(root, random);
-          case 2:
-          case 3:
-            return ChangeAttribute(root, random);
-          default:
-            return ChangeNumbers(root, random);
-        }
-      });
+  return Edited(file, [&](hid_t root) {
+    switch (random() % 8) {
+      case 0:
+        return ReplaceDataset(root, random);
+      case 1:
+        return Relink(root, random);
+      case 2:
+      case 3:
+        return ChangeAttribute(root, random);
+      default:
+        return ChangeNumbers(root, random);
+    }
+  });
 }
 
 // The file with another content digest.
 std::string WithDigest(const std::string& file, const std::string& digest) {
-  return Edited(
-      file,
-      [&](hid_t root) {
-        const std::string name(format::kContentDigest);
-        H5Adelete(root, name.c_str());
-        hdf5::WriteAttribute(root, name, digest);
-      });
+  return Edited(file, [&](hid_t root) {
+    const std::string name(format::kContentDigest);
+    H5Adelete(root, name.c_str());
+    hdf5::WriteAttribute(root, name, digest);
+  });
 }
 
 std::string MutateBytes(std::string file, std::size_t max_size) {

@@ -52,12 +52,8 @@ TEST(PositiveSpreading, HasTheHarmonicsThatItIsGiven) {
     for (const double r2 : {0.55, 0.8, 0.95}) {
       const PositiveSpreading spreading({r2 * std::cos(2 * axis), 0, 0}, {r2 * std::sin(2 * axis), 0, 0});
       EXPECT_GE(Least(spreading), 0);
-      EXPECT_NEAR(Mean(
-                      spreading, [](double) { return 1; }),
-                  1, 1e-9);
-      EXPECT_NEAR(Mean(
-                      spreading, [&](double psi) { return std::cos(2 * (psi - axis)); }),
-                  r2, 1e-5);
+      EXPECT_NEAR(Mean(spreading, [](double) { return 1; }), 1, 1e-9);
+      EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::cos(2 * (psi - axis)); }), r2, 1e-5);
       EXPECT_NEAR(Mean(spreading, [&](double psi) { return std::sin(2 * (psi - axis)); }), 0, 1e-5);
     }
   }

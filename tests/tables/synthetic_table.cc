@@ -90,8 +90,8 @@ UncertaintyTable SyntheticTable(const SyntheticOptions& options) {
     const auto value = [&](const Coordinates& at) { return options.factor * Formula(quantity, at); };
     Variable variable{.values = Tabulate(axes, quantity, value), .standard_errors = {}, .scale = Scale::kLinear};
     if (!options.published) {
-      variable.standard_errors = Tabulate(
-          axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); });
+      variable.standard_errors =
+          Tabulate(axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); });
     }
     variables[Index(quantity)] = std::move(variable);
   }
@@ -128,10 +128,8 @@ UncertaintyTable TinyTable(Scale scale, const TableSchema& kind) {
   UncertaintyTable::Variables variables;
   for (Quantity quantity : kQuantities) {
     variables[Index(quantity)] =
-        Variable{.values = Tabulate(
-                     axes, quantity, [&](const Coordinates& at) { return 1 + at[0] + Index(quantity); }),
-                 .standard_errors = Tabulate(
-                     axes, quantity, [](const Coordinates& at) { return 0.1 * (1 + at[5]); }),
+        Variable{.values = Tabulate(axes, quantity, [&](const Coordinates& at) { return 1 + at[0] + Index(quantity); }),
+                 .standard_errors = Tabulate(axes, quantity, [](const Coordinates& at) { return 0.1 * (1 + at[5]); }),
                  .scale = scale};
   }
   return OrDie(UncertaintyTable::Create(kind, std::move(axes), std::move(variables), MakeProvenance({.id = "tiny"})));

@@ -221,18 +221,16 @@ bool GravityExplains(double wavelength, double frequency) {
 std::vector<std::string> Paragraphs(const Table2& published, const std::vector<Waves>& ours,
                                     const std::vector<StaffReading>& staffs, int records) {
   const std::size_t rows = ours.size();
-  const Range length = RangeOf(
-      rows, [&](std::size_t i) { return ours[i].peak_wavelength / published.peak_wavelength[i] - 1; });
+  const Range length =
+      RangeOf(rows, [&](std::size_t i) { return ours[i].peak_wavelength / published.peak_wavelength[i] - 1; });
   const Range height = RangeOf(
       rows, [&](std::size_t i) { return ours[i].significant_wave_height / published.significant_wave_height[i]; });
   const Range steepness =
       RangeOf(rows, [&](std::size_t i) { return published.significant_wave_height[i] / published.peak_wavelength[i]; });
-  const Range lengthening = RangeOf(
-      rows,
-      [&](std::size_t i) {
-        const double f = published.peak_frequency[i];
-        return CapillaryGravityWavelength(f) / GravityWavelength(f) - 1;
-      });
+  const Range lengthening = RangeOf(rows, [&](std::size_t i) {
+    const double f = published.peak_frequency[i];
+    return CapillaryGravityWavelength(f) / GravityWavelength(f) - 1;
+  });
   const Range highest_third = RangeOf(
       rows, [&](std::size_t i) { return staffs[i].highest_third.value / staffs[i].significant_wave_height.value; });
   int explained = 0;

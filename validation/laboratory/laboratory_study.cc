@@ -43,12 +43,12 @@ absl::StatusOr<std::vector<TankCell>> ReadTable4(const StudyOptions& options) {
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].*member = (*numbers)[i];
   }
   if (options.quick) {  // two incidences, three winds
-    cells.erase(std::remove_if(
-                    cells.begin(), cells.end(),
-                    [](const TankCell& cell) {
-                      const bool wind = cell.wind_speed == 2.5 || cell.wind_speed == 3.5 || cell.wind_speed == 4;
-                      return wind || cell.incidence == 10 || cell.incidence == 15;
-                    }),
+    cells.erase(std::remove_if(cells.begin(), cells.end(),
+                               [](const TankCell& cell) {
+                                 const bool wind =
+                                     cell.wind_speed == 2.5 || cell.wind_speed == 3.5 || cell.wind_speed == 4;
+                                 return wind || cell.incidence == 10 || cell.incidence == 15;
+                               }),
                 cells.end());
   }
   return cells;
@@ -183,14 +183,11 @@ Range RangeOf(const std::vector<TankCell>& cells, const Value& value) {
 }
 
 std::string SizeParagraph(const std::vector<TankCell>& cells) {
-  const Range published = RangeOf(
-      cells, [](const TankCell& c) { return c.published_along; });
-  const Range ours = RangeOf(
-      cells, [](const TankCell& c) { return c.array.along_wind.value; });
-  const Range beam = RangeOf(
-      cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
-  const Range excess = RangeOf(
-      cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
+  const Range published = RangeOf(cells, [](const TankCell& c) { return c.published_along; });
+  const Range ours = RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value; });
+  const Range beam = RangeOf(cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
+  const Range excess =
+      RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
   const Range shape =
       RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value / c.array.cross_wind.value; });
   return absl::StrFormat(

@@ -33,16 +33,14 @@ absl::StatusOr<std::unique_ptr<CertificateFile>> OpenCertificates(const Certific
 }
 
 absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> OpenTokens(const std::filesystem::path& path) {
-  return FileValue<Tokens>::Open(
-      {path},
-      [path]() -> absl::StatusOr<Tokens> {
-        const absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
-        if (!text.ok()) return text.status();
-        absl::StatusOr<Tokens> tokens = Tokens::Parse(*text);
-        if (tokens.ok()) return tokens;
-        return absl::Status(tokens.status().code(),
-                            absl::StrCat("--token-file: ", path.string(), ": ", tokens.status().message()));
-      });
+  return FileValue<Tokens>::Open({path}, [path]() -> absl::StatusOr<Tokens> {
+    const absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
+    if (!text.ok()) return text.status();
+    absl::StatusOr<Tokens> tokens = Tokens::Parse(*text);
+    if (tokens.ok()) return tokens;
+    return absl::Status(tokens.status().code(),
+                        absl::StrCat("--token-file: ", path.string(), ": ", tokens.status().message()));
+  });
 }
 
 // gRPC fetches the certificates before each handshake. Its own file watcher (FileWatcherCertificateProvider in 1.51)

@@ -85,12 +85,10 @@ void ColumnStream::HandleRequest(std::shared_ptr<const ServedTable> compiled) {
 }
 
 void ColumnStream::AwaitSea(const WantedSea& wanted) {
-  seas_.Compile(
-      wanted.key, wanted.sea,
-      [this](const SeaTables::Result& table) {
-        if (!table.ok()) return Fail(ToGrpcStatus(Within("query", table.status())));
-        workers_.Run([this, table = *table] { HandleRequest(table); });
-      });
+  seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+    if (!table.ok()) return Fail(ToGrpcStatus(Within("query", table.status())));
+    workers_.Run([this, table = *table] { HandleRequest(table); });
+  });
 }
 
 void ColumnStream::Fail(const grpc::Status& status) {

@@ -182,63 +182,53 @@ absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& req
 
 grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally) {
-  return HandleParsed<v1::QueryPulsesRequest>(
-      request,
-      [&](const v1::QueryPulsesRequest& rows) {
-        v1::QueryPulsesResponse answers;
-        const absl::Status status = QueryRows(sources, rows, answers, tally);
-        if (status.ok()) response = Serialize(answers);
-        return status;
-      });
+  return HandleParsed<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
+    v1::QueryPulsesResponse answers;
+    const absl::Status status = QueryRows(sources, rows, answers, tally);
+    if (status.ok()) response = Serialize(answers);
+    return status;
+  });
 }
 
 grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                 OutcomeTally& tally) {
-  return HandleParsed<v1::QueryColumnsRequest>(
-      request,
-      [&](const v1::QueryColumnsRequest& columns) {
-        ColumnMessage answers;
-        const absl::Status status = QueryColumns(sources, columns, answers, tally);
-        if (status.ok()) response = answers.Finish();
-        return status;
-      });
+  return HandleParsed<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
+    ColumnMessage answers;
+    const absl::Status status = QueryColumns(sources, columns, answers, tally);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
 }
 
 grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally) {
-  return HandleParsed<v1::QueryBudgetRequest>(
-      request,
-      [&](const v1::QueryBudgetRequest& pulses) {
-        ColumnMessage answers;
-        const absl::Status status = QueryBudget(sources, pulses, answers, tally);
-        if (status.ok()) response = answers.Finish();
-        return status;
-      });
+  return HandleParsed<v1::QueryBudgetRequest>(request, [&](const v1::QueryBudgetRequest& pulses) {
+    ColumnMessage answers;
+    const absl::Status status = QueryBudget(sources, pulses, answers, tally);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
 }
 
 grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                               OutcomeTally& /*tally*/) {
-  return HandleParsed<v1::CompileSeaRequest>(
-      request,
-      [&](const v1::CompileSeaRequest& wanted) {
-        v1::CompileSeaResponse compiled;
-        const absl::Status status = DescribeSea(sources, wanted, compiled);
-        if (status.ok()) response = Serialize(compiled);
-        return status;
-      });
+  return HandleParsed<v1::CompileSeaRequest>(request, [&](const v1::CompileSeaRequest& wanted) {
+    v1::CompileSeaResponse compiled;
+    const absl::Status status = DescribeSea(sources, wanted, compiled);
+    if (status.ok()) response = Serialize(compiled);
+    return status;
+  });
 }
 
 grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                  OutcomeTally& tally) {
-  return HandleParsed<v1::StreamColumnsRequest>(
-      request,
-      [&](const v1::StreamColumnsRequest& exchange) {
-        ColumnMessage answers;
-        const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
-        answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
-        if (status.ok()) response = answers.Finish();
-        return status;
-      });
+  return HandleParsed<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
+    ColumnMessage answers;
+    const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
+    answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
 }
 
 absl::Status DescribeSea(AnswerSources& sources, const v1::CompileSeaRequest& request,

@@ -144,12 +144,10 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
 
  private:
   void AwaitSea(const WantedSea& wanted) {
-    service_.seas_.Compile(
-        wanted.key, wanted.sea,
-        [this](const SeaTables::Result& table) {
-          if (!table.ok()) return End(ToGrpcStatus(table.status()));
-          service_.workers_.Run([this, table = *table] { HandleRequest(table); });
-        });
+    service_.seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+      if (!table.ok()) return End(ToGrpcStatus(table.status()));
+      service_.workers_.Run([this, table = *table] { HandleRequest(table); });
+    });
   }
 
   void HandleRequest(std::shared_ptr<const ServedTable> compiled) {

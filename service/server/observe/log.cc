@@ -150,10 +150,9 @@ const std::string& RequestId::text() const {
 }
 
 bool RequestId::IsValid(std::string_view text) {
-  return !text.empty() && text.size() <= kMaxRequestIdBytes &&
-         std::all_of(
-             text.begin(), text.end(),
-             [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
+  return !text.empty() && text.size() <= kMaxRequestIdBytes && std::all_of(text.begin(), text.end(), [](char c) {
+    return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-';
+  });
 }
 
 RequestScope::RequestScope(const RequestId& request_id) : before_(std::exchange(current_request, &request_id)) {}

@@ -94,9 +94,9 @@ constexpr std::array kCodesFromStart = {grpc::StatusCode::OK, grpc::StatusCode::
                                         grpc::StatusCode::DATA_LOSS, grpc::StatusCode::RESOURCE_EXHAUSTED};
 
 bool HasChanges(const std::vector<TableCatalog::Change>& changes) {
-  return std::any_of(
-      changes.begin(), changes.end(),
-      [](const TableCatalog::Change& change) { return change.kind != TableCatalog::Change::Kind::kKept; });
+  return std::any_of(changes.begin(), changes.end(), [](const TableCatalog::Change& change) {
+    return change.kind != TableCatalog::Change::Kind::kKept;
+  });
 }
 
 }  // namespace

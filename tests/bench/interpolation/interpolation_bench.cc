@@ -101,12 +101,9 @@ void OnAllCores(benchmark::State& state, const Case& of) {
 }
 
 void Rows(benchmark::State& state, const Case& of) {
-  Measure(
-      state, of, false,
-      [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          benchmark::DoNotOptimize(Interpolate(tables.table, PulseAt(pulses, i)));
-      });
+  Measure(state, of, false, [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) benchmark::DoNotOptimize(Interpolate(tables.table, PulseAt(pulses, i)));
+  });
 }
 
 template <typename Interpolator>
@@ -123,8 +120,7 @@ void Register(int megabytes, Order order, std::size_t batch) {
   const auto add = [&](const std::string& who, auto run) {
     const std::string name =
         absl::StrCat(who, "/", megabytes, "/", order == Order::kScan ? "scan" : "random", "/", batch);
-    return benchmark::RegisterBenchmark(
-               name.c_str(), [=](benchmark::State& state) { run(state, of); })
+    return benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, of); })
         ->Unit(benchmark::kMillisecond);
   };
   const auto columns = [&](const std::string& who, const Query& query, const Wanted& wanted, bool absent) {

@@ -129,15 +129,13 @@ void AskColumns(const Load& load, Record& record) {
 }
 
 void AskRows(const Load& load, Record& record) {
-  AskInCalls(
-      load, record, "QueryPulses", RowRequest,
-      [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
-        v1::QueryPulsesResponse rows;
-        const grpc::Status status = grpc::SerializationTraits<v1::QueryPulsesResponse>::Deserialize(&response, &rows);
-        Check(status.ok(), status.error_message());
-        for (int i = 0; i < rows.uncertainties_size(); ++i)
-          ReadRow(rows.uncertainties(i), static_cast<std::size_t>(i), answers);
-      });
+  AskInCalls(load, record, "QueryPulses", RowRequest, [&](grpc::ByteBuffer& response, const AnswerColumns& answers) {
+    v1::QueryPulsesResponse rows;
+    const grpc::Status status = grpc::SerializationTraits<v1::QueryPulsesResponse>::Deserialize(&response, &rows);
+    Check(status.ok(), status.error_message());
+    for (int i = 0; i < rows.uncertainties_size(); ++i)
+      ReadRow(rows.uncertainties(i), static_cast<std::size_t>(i), answers);
+  });
 }
 
 void AskStream(const Load& load, Record& record) {

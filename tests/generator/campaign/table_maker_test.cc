@@ -14,8 +14,7 @@ namespace albtpu {
 namespace {
 
 absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
-  return MakeTable(
-      campaign, [](std::size_t) {});
+  return MakeTable(campaign, [](std::size_t) {});
 }
 
 TEST(TableMaker, HasAtANodeTheResultOfItsSeaCase) {

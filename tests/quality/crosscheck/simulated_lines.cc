@@ -168,14 +168,10 @@ void Predict(const AirErrors& errors, const Eigen::Vector3d& sea, const std::vec
   const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
   add(BudgetInput::kIncidence, constant(kIncidence));
   add(BudgetInput::kAltitude, constant(kAltitude));
-  add(
-      BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
-  add(
-      BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
-  add(
-      BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
-  add(
-      BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
+  add(BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
+  add(BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
+  add(BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
+  add(BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
   add(BudgetInput::kSeaTvu, [&](std::size_t i) { return 2 * sea[2] * points[i].depth; });
   add(BudgetInput::kRefractionAlong, constant(sea[0]));
   add(BudgetInput::kRefractionCross, constant(sea[1]));

@@ -21,9 +21,8 @@ class Sea {
   Sea(double slope, double last, double bias = 0) : slope_(slope), last_(last), bias_(bias) {}
 
   annotate::AnswerSource source() {
-    return {table_,
-            [this](const Query&, const annotate::PulseBatch& pulses, const annotate::AnswerSelection& selection,
-                   annotate::AnswerBatch& answers) {
+    return {table_, [this](const Query&, const annotate::PulseBatch& pulses, const annotate::AnswerSelection& selection,
+                           annotate::AnswerBatch& answers) {
               answers.Resize(pulses.size, selection);
               for (std::size_t i = 0; i < pulses.size; ++i) {
                 const float depth = pulses.coordinate(AxisId::kDepth, i);

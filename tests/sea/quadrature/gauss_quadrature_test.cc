@@ -29,11 +29,7 @@ TEST(GaussHermite, HasTheMomentsOfTheNormalDistribution) {
   const auto nodes = GaussHermite(10);
   double moment = 1;
   for (int n = 0; n <= 9; ++n) {
-    EXPECT_NEAR(Sum(
-                    nodes, [&](double x) { return std::pow(x, 2 * n); }) /
-                    moment,
-                1, 10 * kRounding)
-        << n;
+    EXPECT_NEAR(Sum(nodes, [&](double x) { return std::pow(x, 2 * n); }) / moment, 1, 10 * kRounding) << n;
     EXPECT_NEAR(Sum(nodes, [&](double x) { return std::pow(x, 2 * n + 1); }) / moment, 0, 100 * kRounding);
     moment *= 2 * n + 1;
   }

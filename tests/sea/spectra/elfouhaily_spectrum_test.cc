@@ -25,8 +25,7 @@ double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, doub
 }
 
 double Moment(const ElfouhailySpectrum& spectrum, int power) {
-  return Moment(
-      spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
+  return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
 }
 
 // Values computed by an independent Python script from the printed equations (NumPy, double precision), ten digits.

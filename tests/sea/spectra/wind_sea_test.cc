@@ -29,9 +29,7 @@ TEST(Cosine2sSpreading, IntegratesToOne) {
 
 TEST(Cosine2sSpreading, HasSlopeVariancesAlongAndAcrossTheWindInTheRatioSevenToFive) {
   const Cosine2sSpreading spreading(2);
-  EXPECT_NEAR(IntegralOverTurn(
-                  spreading, [](double psi) { return std::pow(std::cos(psi), 2); }),
-              7.0 / 12, 1e-12);
+  EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::cos(psi), 2); }), 7.0 / 12, 1e-12);
   EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::sin(psi), 2); }), 5.0 / 12, 1e-12);
 }
 

@@ -228,9 +228,7 @@ TEST(SeaTable, HasTheErrorsOfTheSeaAsStandardErrors) {
   const SeaDescription sea = MeasuredSea();
   const UncertaintyTable table = Compiled(sea, 1800);
   const BeamOptions footprint{.footprint = 0.7};
-  const double of_slopes = ErrorOfSea(
-                               sea, 1800, [&](double k) { return FootprintPower(footprint, k, 0); })
-                               .total;
+  const double of_slopes = ErrorOfSea(sea, 1800, [&](double k) { return FootprintPower(footprint, k, 0); }).total;
   const double of_mean_square = ErrorOfSea(sea, 1800, [](double) { return 1; }).total;
   EXPECT_GT(of_slopes, 0.01);
   for (const float incidence : {0.0f, 19.0f}) {

@@ -17,13 +17,11 @@ using Text = FileValue<std::string>;
 class FileValueTest : public ::testing::Test {
  protected:
   absl::StatusOr<std::unique_ptr<Text>> Open() {
-    return Text::Open(
-        {path_},
-        [this]() -> absl::StatusOr<std::string> {
-          std::string word;
-          if (std::ifstream(path_) >> word) return word;
-          return absl::InvalidArgumentError("no word: expected one");
-        });
+    return Text::Open({path_}, [this]() -> absl::StatusOr<std::string> {
+      std::string word;
+      if (std::ifstream(path_) >> word) return word;
+      return absl::InvalidArgumentError("no word: expected one");
+    });
   }
 
   // Replaces the file atomically.

@@ -40,8 +40,7 @@ TEST(IdleWatch, StartsAgainAfterActivity) {
 TEST(IdleWatch, NoticesNothingAfterItsDestruction) {
   bool noticed = false;
   {
-    const IdleWatch watch(
-        kLong, [&] { noticed = true; });
+    const IdleWatch watch(kLong, [&] { noticed = true; });
   }
   EXPECT_FALSE(noticed);
 }

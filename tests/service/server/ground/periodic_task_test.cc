@@ -20,8 +20,7 @@ TEST(PeriodicTask, RunsRepeatedly) {
 TEST(PeriodicTask, StopsAtOnceHoweverLongItsInterval) {
   bool worked = false;
   {
-    const PeriodicTask task(
-        std::chrono::hours(1), [&] { worked = true; });
+    const PeriodicTask task(std::chrono::hours(1), [&] { worked = true; });
   }
   EXPECT_FALSE(worked);
 }
