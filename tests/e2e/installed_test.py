@@ -74,7 +74,7 @@ class Installation(unittest.TestCase):
             survey = pathlib.Path(folder, "survey.toml")
             survey.write_text("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nlocated = 'local'\n"
                               "[water]\njerlov = '1C'\ndetector = 'half'\nfield_of_view = 3\n"
-                              "pulse_length = 1.5\nbias = 'correct'\n")
+                              "pulse_length = 1.5\nbias = 'correct'\n[datum]\nsigma = 0\n")
             pulse = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--survey", survey, "--altitude",
                                                 "400", "--json"))
         self.assertGreater(pulse["tvu_water"], 0)

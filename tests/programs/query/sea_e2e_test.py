@@ -157,7 +157,7 @@ spread = 18
         for column in ("wind_speed", "fetch", "wind_from"):
             source.write_text(f"incidence,footprint,depth,{column}\n15,0.6,8,5\n")
             self.assert_fails(query("csv", source, self.folder / "never.csv", *WAVES), 1,
-                              f"column '{column}' contradicts the sea")
+                              f"column '{column}' contradicts the given sea")
 
 
 if __name__ == "__main__":
