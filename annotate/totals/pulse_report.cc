@@ -30,8 +30,8 @@ Json CovarianceJson(const TotalBatch::Covariance& covariance, bool directed) {
 Json NumberOrNull(float number) { return std::isfinite(number) ? formats::JsonNumber(number) : Json(); }
 
 void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
-  const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& told) {
-    for (std::size_t i = 0; told.has_value() && i < 3; ++i) aircraft[first + i] = {static_cast<float>((*told)[i])};
+  const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& given) {
+    for (std::size_t i = 0; given.has_value() && i < 3; ++i) aircraft[first + i] = {static_cast<float>((*given)[i])};
   };
   set(BudgetInput::kRoll, motion.attitude);
   set(BudgetInput::kVelocityNorth, motion.velocity);
@@ -40,8 +40,8 @@ void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
 
 // Of each source of the air side.
 Json SourcesJson(const PulseTotal& total) {
-  const auto vector = [](const std::optional<std::array<double, 3>>& told) {
-    return told.has_value() ? Eigen::Vector3d(told->data()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const auto vector = [](const std::optional<std::array<double, 3>>& given) {
+    return given.has_value() ? Eigen::Vector3d(given->data()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   };
   const Eigen::Vector3d attitude = vector(total.motion.attitude);
   const AirPulse pulse = {.incidence = total.pulse.coordinate(AxisId::kIncidence, 0),

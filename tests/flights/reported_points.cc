@@ -45,13 +45,13 @@ void ReportedPoints::Receive(int line, double since_start, const AircraftState& 
                              const Eigen::Vector3d& in_body, const BeamPath& path) {
   const std::array<SmoothMotion, 6>& errors = of_lines_[static_cast<std::size_t>(line)];
   const auto at = [&](std::size_t i) { return errors[i].At(since_start); };
-  AircraftState told = aircraft;
-  told.roll += at(3);
-  told.pitch += at(4);
-  told.heading += at(5);
-  const Eigen::Matrix3d body = told.BodyAxes();
-  const Eigen::Matrix3d axes = EastNorthUp(told.position.latitude, told.position.longitude);
-  const Eigen::Vector3d sensor = EarthCentred(kWgs84, told.position) + body * lever_arm_ + at(0) * axes.col(1) +
+  AircraftState reported = aircraft;
+  reported.roll += at(3);
+  reported.pitch += at(4);
+  reported.heading += at(5);
+  const Eigen::Matrix3d body = reported.BodyAxes();
+  const Eigen::Matrix3d axes = EastNorthUp(reported.position.latitude, reported.position.longitude);
+  const Eigen::Vector3d sensor = EarthCentred(kWgs84, reported.position) + body * lever_arm_ + at(0) * axes.col(1) +
                                  at(1) * axes.col(0) - at(2) * axes.col(2);
   Eigen::Vector3d scanned = in_body;
   for (const Eigen::Vector3d& across : Across(in_body)) scanned += errors_.scan * random_.Normal() * across;

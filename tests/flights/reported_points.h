@@ -1,4 +1,4 @@
-// Where processing puts the returns of a pulse, with the errors of what it is told.
+// Where processing puts the returns of a pulse, with the errors of its inputs.
 #pragma once
 
 #include <Eigen/Core>

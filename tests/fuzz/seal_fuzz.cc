@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ALBTPU_MUST(NumberAt<std::uint64_t>(file, seal::kLengthOffset) == size);
   }
   if (size < seal::kSize) return 0;
-  // Which bit is told by the input itself, so that it is any of them and the same in every run.
+  // The input itself chooses the bit, so that it can be any of them and the same in every run.
   const std::size_t bit = (NumberAt<std::uint64_t>(file, seal::kDigestOffset) ^ data[size - 1]) % (8 * size);
   seal::Apply(file);
   ALBTPU_MUST(IsSealed(file));

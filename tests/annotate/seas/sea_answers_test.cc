@@ -44,10 +44,10 @@ class SeaAnswersTest : public ::testing::Test {
     std::vector<testing::SeaAtTime> seas;
     for (int i = 0; i < count; ++i)
       seas.push_back({kStart + i * kHour, 0.4 + 0.5 * (i % 3), 200.0 + 25 * i, 0.3 + 0.05 * (i % 4)});
-    config::SeaSettings told;
-    told.file = folder_.Write("sea.csv", testing::SeaCsv(seas)).string();
-    told.wind_speed = 6;
-    return std::make_shared<const SeaTimeline>(SeaTimeline::Open(told).value());
+    config::SeaSettings settings;
+    settings.file = folder_.Write("sea.csv", testing::SeaCsv(seas)).string();
+    settings.wind_speed = 6;
+    return std::make_shared<const SeaTimeline>(SeaTimeline::Open(settings).value());
   }
 
   static PulseBatch RandomPulses(std::size_t count, double hours) {
@@ -177,9 +177,9 @@ TEST_F(SeaAnswersTest, AtARecordAreThoseOfItsTable) {
 // The same instant for all, and by the time of each.
 TEST_F(SeaAnswersTest, AtAnInstantThatIsToldAreThoseOfTheSeries) {
   const std::shared_ptr<const SeaTimeline> timeline = Hourly(3);
-  config::SeaSettings told = timeline->settings();
-  told.time = "2020-06-08T05:15Z";
-  const auto instant = std::make_shared<const SeaTimeline>(SeaTimeline::Open(told).value());
+  config::SeaSettings settings = timeline->settings();
+  settings.time = "2020-06-08T05:15Z";
+  const auto instant = std::make_shared<const SeaTimeline>(SeaTimeline::Open(settings).value());
   PulseBatch pulses = RandomPulses(100, 2);
   const AnswerBatch fixed = Ask(*Open(instant), pulses);
   pulses.times.assign(pulses.size, kStart + 1.25 * kHour);

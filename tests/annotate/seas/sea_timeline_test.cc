@@ -29,10 +29,10 @@ class SeaTimelineTest : public ::testing::Test {
     for (const double hour : hours) seas.push_back({kStart + hour * kHour, 1});
     return File(testing::SeaCsv(seas));
   }
-  std::string ErrorOf(const config::SeaSettings& told) {
-    const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(told);
+  std::string ErrorOf(const config::SeaSettings& settings) {
+    const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(settings);
     EXPECT_FALSE(seas.ok());
-    EXPECT_THAT(std::string(seas.status().message()), StartsWith(*told.file + ": "));
+    EXPECT_THAT(std::string(seas.status().message()), StartsWith(*settings.file + ": "));
     return std::string(seas.status().message());
   }
 
@@ -40,10 +40,10 @@ class SeaTimelineTest : public ::testing::Test {
 };
 
 TEST_F(SeaTimelineTest, OfWavesIsOneSea) {
-  config::SeaSettings told;
-  told.waves.push_back({.significant_wave_height = 1, .peak_period = 6});
-  told.wind_speed = 5;
-  const SeaTimeline seas = SeaTimeline::Open(told).value();
+  config::SeaSettings settings;
+  settings.waves.push_back({.significant_wave_height = 1, .peak_period = 6});
+  settings.wind_speed = 5;
+  const SeaTimeline seas = SeaTimeline::Open(settings).value();
   EXPECT_FALSE(seas.by_time());
   EXPECT_EQ(seas.fixed().weight, 0);
   EXPECT_EQ(seas.sea(0).wind_speed_10m, 5);
@@ -75,11 +75,11 @@ TEST_F(SeaTimelineTest, BridgesShortGapsOnly) {
   EXPECT_FALSE(seas.At(kStart + 8 * kHour).has_value());
   EXPECT_TRUE(seas.At(kStart + 9.5 * kHour).has_value()) << "a record itself";
   EXPECT_TRUE(seas.At(kStart + 6 * kHour).has_value()) << "the record before the gap";
-  config::SeaSettings told = Hours({0, 1, 2, 3, 6, 9.5, 10, 11});
-  told.longest_gap = 4;
-  EXPECT_TRUE(SeaTimeline::Open(told)->At(kStart + 8 * kHour).has_value());
-  told.longest_gap = 0.9;
-  EXPECT_FALSE(SeaTimeline::Open(told)->At(kStart + 0.5 * kHour).has_value());
+  config::SeaSettings settings = Hours({0, 1, 2, 3, 6, 9.5, 10, 11});
+  settings.longest_gap = 4;
+  EXPECT_TRUE(SeaTimeline::Open(settings)->At(kStart + 8 * kHour).has_value());
+  settings.longest_gap = 0.9;
+  EXPECT_FALSE(SeaTimeline::Open(settings)->At(kStart + 0.5 * kHour).has_value());
   // Of a model with steps of 4 hours one may be missing.
   EXPECT_EQ(SeaTimeline::Open(Hours({0, 4, 8, 12, 22}))->longest_gap(), 10 * kHour);
   // Days are not bridged unasked, even if they are all that the file has.
@@ -88,18 +88,18 @@ TEST_F(SeaTimelineTest, BridgesShortGapsOnly) {
 }
 
 TEST_F(SeaTimelineTest, TakesTheInstantThatIsTold) {
-  config::SeaSettings told = Hours({0, 1, 2});
-  told.time = "2020-06-08T05:15Z";
-  const SeaTimeline seas = SeaTimeline::Open(told).value();
+  config::SeaSettings settings = Hours({0, 1, 2});
+  settings.time = "2020-06-08T05:15Z";
+  const SeaTimeline seas = SeaTimeline::Open(settings).value();
   EXPECT_FALSE(seas.by_time());
   EXPECT_EQ(seas.fixed().first, 1u);
   EXPECT_EQ(seas.fixed().second, 2u);
   EXPECT_EQ(seas.fixed().weight, 0.25);
-  told.time = "2020-06-08T05:00Z";
-  EXPECT_EQ(SeaTimeline::Open(told)->fixed().second, 1u);
-  told.time = "2020-06-08T07:00Z";
-  EXPECT_THAT(ErrorOf(told), HasSubstr("has no sea at 2020-06-08T07:00Z (its 3 records last from "
-                                       "2020-06-08T04:00Z to 2020-06-08T06:00Z"));
+  settings.time = "2020-06-08T05:00Z";
+  EXPECT_EQ(SeaTimeline::Open(settings)->fixed().second, 1u);
+  settings.time = "2020-06-08T07:00Z";
+  EXPECT_THAT(ErrorOf(settings), HasSubstr("has no sea at 2020-06-08T07:00Z (its 3 records last from "
+                                           "2020-06-08T04:00Z to 2020-06-08T06:00Z"));
 }
 
 TEST_F(SeaTimelineTest, FindsTheRecordsOfAFlight) {
@@ -148,37 +148,38 @@ FACTOR
 )";
 
 TEST_F(SeaTimelineTest, AsksForThePlace) {
-  config::SeaSettings told = File(kTwoPlaces);
-  EXPECT_THAT(ErrorOf(told), HasSubstr("has 2 places (28.5000,-80.0000; 29.5000,-79.0000); name one by --sea-place"));
-  told.place = "29.5000,-79.0000";
-  EXPECT_EQ(SeaTimeline::Open(told)->place(), "29.5000,-79.0000");
-  told.place = "28.6,-80.1";
-  EXPECT_EQ(SeaTimeline::Open(told)->place(), "28.5000,-80.0000");
-  told.place = "29.1,281";  // east, a full turn on
-  EXPECT_EQ(SeaTimeline::Open(told)->place(), "29.5000,-79.0000");
-  told.place = "Canaveral";
-  EXPECT_THAT(ErrorOf(told), HasSubstr("has no place 'Canaveral' (it has 28.5000,-80.0000; 29.5000,-79.0000)"));
+  config::SeaSettings settings = File(kTwoPlaces);
+  EXPECT_THAT(ErrorOf(settings),
+              HasSubstr("has 2 places (28.5000,-80.0000; 29.5000,-79.0000); name one by --sea-place"));
+  settings.place = "29.5000,-79.0000";
+  EXPECT_EQ(SeaTimeline::Open(settings)->place(), "29.5000,-79.0000");
+  settings.place = "28.6,-80.1";
+  EXPECT_EQ(SeaTimeline::Open(settings)->place(), "28.5000,-80.0000");
+  settings.place = "29.1,281";  // east, a full turn on
+  EXPECT_EQ(SeaTimeline::Open(settings)->place(), "29.5000,-79.0000");
+  settings.place = "Canaveral";
+  EXPECT_THAT(ErrorOf(settings), HasSubstr("has no place 'Canaveral' (it has 28.5000,-80.0000; 29.5000,-79.0000)"));
 }
 
 TEST_F(SeaTimelineTest, RefusesATimeOfASeaWithoutOne) {
-  config::SeaSettings told = File("f,E\n0.1,1\n0.2,1\n");
-  EXPECT_FALSE(SeaTimeline::Open(told)->by_time());
-  told.time = "2020-06-08T05:15Z";
-  EXPECT_THAT(ErrorOf(told), HasSubstr("--sea-time has no effect"));
+  config::SeaSettings settings = File("f,E\n0.1,1\n0.2,1\n");
+  EXPECT_FALSE(SeaTimeline::Open(settings)->by_time());
+  settings.time = "2020-06-08T05:15Z";
+  EXPECT_THAT(ErrorOf(settings), HasSubstr("--sea-time has no effect"));
 }
 
 TEST_F(SeaTimelineTest, RefusesATailOfACompleteSea) {
-  config::SeaSettings told = File("k,S,a2,b2\n0.1,1,0,0\n0.2,1,0,0\n");
-  EXPECT_TRUE(SeaTimeline::Open(told).ok());
-  told.tail = "wind";
-  EXPECT_THAT(ErrorOf(told), HasSubstr("which is complete"));
+  config::SeaSettings settings = File("k,S,a2,b2\n0.1,1,0,0\n0.2,1,0,0\n");
+  EXPECT_TRUE(SeaTimeline::Open(settings).ok());
+  settings.tail = "wind";
+  EXPECT_THAT(ErrorOf(settings), HasSubstr("which is complete"));
 }
 
 TEST_F(SeaTimelineTest, NamesTheFileThatItCannotRead) {
   EXPECT_THAT(ErrorOf(File("hello\n")), HasSubstr("begins with 'hello'"));
-  config::SeaSettings told;
-  told.file = (folder_ / "absent").string();
-  EXPECT_THAT(ErrorOf(told), HasSubstr("does not exist"));
+  config::SeaSettings settings;
+  settings.file = (folder_ / "absent").string();
+  EXPECT_THAT(ErrorOf(settings), HasSubstr("does not exist"));
 }
 
 }  // namespace

@@ -42,11 +42,11 @@ std::shared_ptr<const SeaTimeline> Month(const std::string& time = "") {
     seas.push_back({kStart + hour * kHour, 0.5 + 0.3 * std::sin(hour / 9), 200 + 40 * std::sin(hour / 31)});
   }
   const albtpu::testing::TemporaryFolder folder;
-  config::SeaSettings told;
-  told.file = folder.Write("month.csv", albtpu::testing::SeaCsv(seas)).string();
-  told.wind_speed = 6;
-  if (!time.empty()) told.time = time;
-  return std::make_shared<const SeaTimeline>(Must(SeaTimeline::Open(told)));
+  config::SeaSettings settings;
+  settings.file = folder.Write("month.csv", albtpu::testing::SeaCsv(seas)).string();
+  settings.wind_speed = 6;
+  if (!time.empty()) settings.time = time;
+  return std::make_shared<const SeaTimeline>(Must(SeaTimeline::Open(settings)));
 }
 
 // A conical scan over a bottom that rises and falls.

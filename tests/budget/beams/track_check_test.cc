@@ -158,7 +158,7 @@ TEST_P(TrackCheckOf, ARotationIsNamed) {
 }
 
 TEST(TrackCheck, NeverRefusesARightTrack) {
-  int told = 0;
+  int agreeing = 0;
   for (int i = 0; i < 200; ++i) {
     const SimulatedFlight flight({.scanner = static_cast<Scanner>(i % 3),
                                   .height = 200.0 + 4 * ((i * 37) % 100),
@@ -171,9 +171,9 @@ TEST(TrackCheck, NeverRefusesARightTrack) {
                                   .seed = static_cast<std::uint64_t>(i + 1)});
     const TrackCheck check = CheckTrack(RaysOf(flight.Rays()), Columns([&](double t) { return flight.Position(t); }));
     EXPECT_FALSE(Disagrees(check.verdict)) << i << ": " << Describe(check);
-    told += check.verdict == TrackVerdict::kAgrees;
+    agreeing += check.verdict == TrackVerdict::kAgrees;
   }
-  EXPECT_GT(told, 180);  // Some of those with fewest rays cannot tell.
+  EXPECT_GT(agreeing, 180);  // Some of those with fewest rays cannot tell.
 }
 
 TEST(TrackCheck, SaysWhenItCannotTell) {

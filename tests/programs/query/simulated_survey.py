@@ -9,7 +9,7 @@ import programs
 from las_file import LasFile
 
 BOTTOM, SURFACE, COLUMN, LAND = range(4)  # Kinds of returns in the truth.
-DIVERGENCE = 1.0  # mrad; albtpu_simulated_survey's own unless it is told another
+DIVERGENCE = 1.0  # mrad; albtpu_simulated_survey's own unless another is given
 SBET_FIELDS = ("time", "latitude", "longitude", "height", "velocity_x", "velocity_y", "velocity_z", "roll", "pitch",
                "heading", "wander")
 

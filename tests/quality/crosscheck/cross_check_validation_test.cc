@@ -44,7 +44,7 @@ TEST(CrossCheckOfSimulatedSurveys, FindsThatARightPredictionIsRight) {
     accused += check.guilty.empty() ? 0 : 1;
   }
   std::cout << "chi-square, mean of " << kSeeds << " surveys: " << sum / kSeeds << "; the interval has 1 in " << covered
-            << ", a share is accused in " << accused << "\n";
+            << ", a contribution is flagged in " << accused << "\n";
   EXPECT_NEAR(sum / kSeeds, 1, 0.05);
   EXPECT_GE(covered, 0.85 * kSeeds);  // 17 of 20: less has a probability of 1.6 % where 95 % do.
   EXPECT_LE(accused, 0.05 * kSeeds);

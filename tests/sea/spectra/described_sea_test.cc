@@ -119,10 +119,10 @@ TEST(DescribedSea, TakesTheWindFromTheWavesAndSaysSo) {
   EXPECT_TRUE(sea.assumed.tail_from_of_waves);
   EXPECT_NEAR(FrictionVelocity(sea.wind_speed_10m), *EquilibriumFrictionVelocity(*waves), 1e-12);
   EXPECT_NEAR(sea.x_azimuth, 90 * kDegree, 1e-9);
-  const DescribedSea told = Describe({.waves = waves, .wind_speed_10m = 8, .wind_from = 0, .tail_from = 0.3});
-  EXPECT_FALSE(told.assumed.wind_speed_from_waves || told.assumed.wind_direction_from_waves ||
-               told.assumed.tail_from_of_waves || told.assumed.wind_unknown || told.assumed.level_held);
-  EXPECT_EQ(told.tail_from, 0.3);
+  const DescribedSea given = Describe({.waves = waves, .wind_speed_10m = 8, .wind_from = 0, .tail_from = 0.3});
+  EXPECT_FALSE(given.assumed.wind_speed_from_waves || given.assumed.wind_direction_from_waves ||
+               given.assumed.tail_from_of_waves || given.assumed.wind_unknown || given.assumed.level_held);
+  EXPECT_EQ(given.tail_from, 0.3);
 }
 
 TEST(DescribedSea, IsWithoutEnergyToCompareAboveTheLastBin) {
