@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   // A closed standard error does not end the work; a closed standard output makes writing answers fail.
   std::signal(SIGPIPE, SIG_IGN);
-  setenv("GRPC_VERBOSITY", "NONE",
-         0);  // gRPC's log repeats its errors; GRPC_VERBOSITY in the environment turns it on.
+  // gRPC's log repeats its errors; GRPC_VERBOSITY in the environment turns it on.
+  setenv("GRPC_VERBOSITY", "NONE", 0);
   try {
     return albtpu::programs::Main(argc, argv);
   } catch (const std::exception& error) {

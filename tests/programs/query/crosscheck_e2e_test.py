@@ -65,9 +65,9 @@ class CrossCheckOfErrors(programs.Test):
             self.assertGreater(right["pairs"], 10_000)
             self.assertEqual(right["intervals_by"], "lines")
         print(f"{seeds} surveys: chi-square {min(chi_squares):.3f} to {max(chi_squares):.3f}, mean"
-              f" {statistics.mean(chi_squares):.3f}, a share is accused in {accused}; the air side declared half as"
-              f" large: factor {min(factors):.2f} to {max(factors):.2f}, mean {statistics.mean(factors):.3f}, accused"
-              f" in {accused_half}")
+              f" {statistics.mean(chi_squares):.3f}, a contribution is flagged in {accused}; the air side declared"
+              f" half as large: factor {min(factors):.2f} to {max(factors):.2f}, mean {statistics.mean(factors):.3f},"
+              f" flagged in {accused_half}")
         self.assertAlmostEqual(statistics.mean(chi_squares), 1, delta=0.05)
         self.assertAlmostEqual(statistics.mean(factors), 2, delta=0.1)
         self.assertEqual(accused_half, seeds)
