@@ -33,6 +33,12 @@ function(albtpu_warn target)
   endif()
 endfunction()
 
+include(CMakeDependentOption)
+# Half of the time of a file goes into what it includes, so that a release compiles several files at a time. Where
+# precompiled headers are disabled, to see whether each file includes what it needs, each file is compiled alone.
+cmake_dependent_option(ALBTPU_UNITY "Compile several files of a library at a time" ON
+                       "NOT CMAKE_DISABLE_PRECOMPILE_HEADERS" OFF)
+
 # Compile options of all our own code; to be called once for each target. Headers that most of its files include, such
 # as <Eigen/Core>, are precompiled beside those of all targets:
 #   albtpu_target(NAME [<header> ...])
@@ -40,6 +46,9 @@ function(albtpu_target target)
   albtpu_warn(${target})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
+  if(ALBTPU_UNITY AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests(/|$)")  # Tests repeat names.
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
   # At the end of the folder it is known whether the target is position-independent.
   cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
 endfunction()
@@ -81,12 +90,8 @@ function(albtpu_precompile target headers)
   target_precompile_headers(${target} REUSE_FROM ${group})
 endfunction()
 
-# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way. CLI11's header
-# costs 3 s a file for the objects that it defines, so that files are compiled several at a time.
+# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way.
 function(albtpu_program target)
-  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
@@ -140,5 +145,11 @@ function(albtpu_sources variable)
     list(APPEND sources ${found})
   endforeach()
   list(FILTER sources EXCLUDE REGEX "(^|/|_)main\\.cc$")
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} kernels REGEX "^#include <hwy/foreach_target")
+    if(kernels)  # It includes itself, once for each instruction set.
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()

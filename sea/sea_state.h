@@ -49,12 +49,14 @@ inline constexpr std::array kSpectrumKeys = [] {
 // The listed model with this key; null if there is none.
 const SpectrumModel* FindSpectrumModel(std::string_view key);
 
+inline constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();  // m, as a fetch
+
 // The waves that one steady wind raises over one fetch. A wind of 0 raises none.
 struct WindSea {
-  double wind_speed_10m = 0;                               // m/s, from 0
-  double fetch = std::numeric_limits<double>::infinity();  // m, above 0; infinity means fully developed
-  const SpectrumModel* model = &kApelModel;                // not null; it need not be a listed one
-  double spreading = 2;  // s of the cosine-2S spreading; ignored by models that have their own
+  double wind_speed_10m = 0;                 // m/s, from 0
+  double fetch = kFullyDeveloped;            // m, above 0
+  const SpectrumModel* model = &kApelModel;  // not null; it need not be a listed one
+  double spreading = 2;                      // s of the cosine-2S spreading; ignored by models that have their own
 
   std::shared_ptr<const WaveSpectrum> MakeSpectrum() const;
 };

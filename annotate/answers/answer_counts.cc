@@ -10,22 +10,22 @@
 namespace albtpu::annotate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 // Null if there is none.
-const Json& Member(const Json& object, const std::string& name) {
-  static const Json null;
+const ordered_json& Member(const ordered_json& object, const std::string& name) {
+  static const ordered_json null;
   const auto found = object.is_object() ? object.find(name) : object.end();
   return found == object.end() ? null : *found;
 }
 
-std::uint64_t Count(const Json& json) { return json.is_number_unsigned() ? json.get<std::uint64_t>() : 0; }
+std::uint64_t Count(const ordered_json& json) { return json.is_number_unsigned() ? json.get<std::uint64_t>() : 0; }
 
-std::optional<double> Number(const Json& json) {
+std::optional<double> Number(const ordered_json& json) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-std::optional<AnswerTally::Spread> ReadSpread(const Json& json) {
+std::optional<AnswerTally::Spread> ReadSpread(const ordered_json& json) {
   const std::optional<double> least = Number(Member(json, "least")), median = Number(Member(json, "median")),
                               greatest = Number(Member(json, "greatest"));
   if (!least.has_value() || !median.has_value() || !greatest.has_value()) return std::nullopt;
@@ -34,9 +34,9 @@ std::optional<AnswerTally::Spread> ReadSpread(const Json& json) {
 
 }  // namespace
 
-AnswerTally AnswerTally::FromJson(const Json& answers) {
+AnswerTally AnswerTally::FromJson(const ordered_json& answers) {
   AnswerTally tally;
-  const Json& outcomes = Member(answers, "outcomes");
+  const ordered_json& outcomes = Member(answers, "outcomes");
   if (!outcomes.is_object()) return tally;
   for (const auto& [outcome, number] : outcomes.items()) {
     const std::uint64_t count = Count(number);

@@ -9,7 +9,7 @@
 namespace albtpu::annotate {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -31,13 +31,13 @@ std::string SurfaceCounts::Text() const {
 
 void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
                       SurfaceCounts& counts) const {
-  heights.assign(points.size(), level.has_value() ? frame.Z(*level) : kNan);
+  heights.assign(points.size(), level.has_value() ? frame.Z(*level) : kNoHeight);
   if (levels != nullptr) {
     levels->LevelsAt(points.times, heights);
     for (double& height : heights) height = frame.Z(height);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double own = points.pulse_surface.empty() ? kNan : frame.Z(points.pulse_surface[i]);
+    const double own = points.pulse_surface.empty() ? kNoHeight : frame.Z(points.pulse_surface[i]);
     if (std::isfinite(own)) {
       heights[i] = own;
       counts.Add(SurfaceFrom::kPulse);

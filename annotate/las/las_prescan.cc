@@ -13,7 +13,7 @@
 namespace albtpu::annotate {
 namespace {
 
-constexpr std::size_t kChunkBytes = 4 << 20;
+constexpr std::size_t kPrescanChunkBytes = 4 << 20;
 constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
 // ASPRS, LAS 1.4 R15, tables 8 and 17.
 constexpr int kLowNoise = 7, kHighNoise = 18;
@@ -189,7 +189,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
 
 absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const LocalFrame& frame,
                                    const LasPrescanOptions& options) {
-  const std::uint64_t max_records = std::max<std::uint64_t>(kChunkBytes / reader.header().record_length, 1);
+  const std::uint64_t max_records = std::max<std::uint64_t>(kPrescanChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;
   prescan.least.fill(std::numeric_limits<double>::infinity());
   prescan.greatest.fill(-std::numeric_limits<double>::infinity());

@@ -21,7 +21,7 @@ bool ConcernsOneFile(const absl::Status& status) {
          !absl::IsResourceExhausted(status) && !absl::IsUnauthenticated(status);
 }
 
-std::uint64_t SizeOf(const fs::path& path) {
+std::uint64_t BytesOf(const fs::path& path) {
   std::error_code unknown;
   const std::uintmax_t size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
   return unknown ? 0 : size;
@@ -29,7 +29,7 @@ std::uint64_t SizeOf(const fs::path& path) {
 
 std::uint64_t TotalSize(const std::vector<Job>& jobs) {
   std::uint64_t total = 0;
-  for (const Job& job : jobs) total += SizeOf(job.input);
+  for (const Job& job : jobs) total += BytesOf(job.input);
   return total;
 }
 
@@ -84,7 +84,7 @@ class Run {
     if (run_.resume) {
       const absl::Status complete = CheckComplete(settings_, job);
       if (complete.ok()) {
-        progress_.Skip(SizeOf(job.input));
+        progress_.Skip(BytesOf(job.input));
         Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
         Judge(job, AnswerTally::FromJson(ReadAnswers(job)));
         return complete;

@@ -17,6 +17,7 @@ namespace albtpu::annotate {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 
 using Extensions = std::vector<std::string>;
 
@@ -119,13 +120,12 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr char kProgram[] = "albtpu-query";
 constexpr std::uint64_t kLargestSummary = 16 << 20;  // Bytes; ours have a few thousand for each line.
 constexpr int kDeepestSummary = 8;                   // Levels; ours have 4.
 
-Json TableJson(const client::TableSummary& table) {
+ordered_json TableJson(const client::TableSummary& table) {
   return {{"id", table.id}, {"version", table.version}, {"digest", table.digest}};
 }
 
@@ -137,13 +137,13 @@ std::uint64_t SizeOf(const fs::path& path) {
 
 // "parameters.water_level is 0 there, 1 here" for the first value in `here` that differs in `there`; empty if none
 // does.
-std::string Difference(const Json& there, const Json& here, const std::string& name) {
+std::string Difference(const ordered_json& there, const ordered_json& here, const std::string& name) {
   if (!here.is_object())
     return there == here ? "" : absl::StrCat(name, " is ", there.dump(), " there, ", here.dump(), " here");
   for (const auto& [key, value] : here.items()) {
     const bool is_there = there.is_object() && there.contains(key);
     const std::string inner = name.empty() ? key : absl::StrCat(name, ".", key);
-    std::string difference = Difference(is_there ? there[key] : Json(), value, inner);
+    std::string difference = Difference(is_there ? there[key] : ordered_json(), value, inner);
     if (!difference.empty()) return difference;
   }
   return "";
@@ -155,7 +155,7 @@ fs::path SummaryPath(const fs::path& output) { return fs::path(output.string() +
 
 std::string SummaryText(const OutputSettings& settings, const Job& job, const Findings& findings,
                         std::uint64_t output_bytes) {
-  Json json;
+  ordered_json json;
   json["program"] = kProgram;
   json["program_version"] = std::string(Version());
   json["command"] = settings.command;
@@ -166,7 +166,7 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
   json["output"].update(*findings.output);
   json["answers"] = *findings.answers;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
@@ -176,13 +176,13 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   const auto differs = [&](const std::string& what) {
     return absl::FailedPreconditionError(absl::StrCat(output, ": already exists (", what, ")"));
   };
-  const Json json = ReadSummary(summary);
+  const ordered_json json = ReadSummary(summary);
   if (json.empty()) return differs(absl::StrCat("without a summary ", summary, " that says how it was made"));
-  const Json here = {{"command", settings.command},
-                     {"parameters", *settings.parameters},
-                     {"table", TableJson(settings.table)},
-                     {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
-                     {"output", {{"bytes", SizeOf(job.output)}}}};
+  const ordered_json here = {{"command", settings.command},
+                             {"parameters", *settings.parameters},
+                             {"table", TableJson(settings.table)},
+                             {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
+                             {"output", {{"bytes", SizeOf(job.output)}}}};
   const std::string difference = Difference(json, here, "");
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
   std::vector<fs::path> read = {job.input};
@@ -193,24 +193,28 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   return absl::OkStatus();
 }
 
-Json ReadSummary(const fs::path& path) {
+ordered_json ReadSummary(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
+  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return ordered_json::object();
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  const auto is_shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepestSummary; };
-  Json json = Json::parse(text, is_shallow, false);
-  return json.is_object() ? json : Json::object();
+  const auto is_shallow = [](int depth, ordered_json::parse_event_t, ordered_json&) {
+    return depth <= kDeepestSummary;
+  };
+  ordered_json json = ordered_json::parse(text, is_shallow, false);
+  return json.is_object() ? json : ordered_json::object();
 }
 
-Json ReadAnswers(const Job& job) { return ReadSummary(SummaryPath(job.output)).value("answers", Json()); }
+ordered_json ReadAnswers(const Job& job) {
+  return ReadSummary(SummaryPath(job.output)).value("answers", ordered_json());
+}
 
 absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
   const fs::path summary = SummaryPath(job.output);
   std::error_code error;
   if (existing == Existing::kReplace || !fs::exists(summary, error)) return absl::OkStatus();
   // A run that was killed may leave a summary without its output; such a summary is of no use and may be replaced.
-  if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram)
+  if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", ordered_json()) == kProgram)
     return absl::OkStatus();
   const fs::path& existing_file = fs::exists(job.output, error) ? job.output : summary;
   return absl::AlreadyExistsError(

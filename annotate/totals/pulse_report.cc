@@ -15,19 +15,20 @@
 namespace albtpu::annotate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 // Of the one pulse; what needs its direction only where that is known.
-Json CovarianceJson(const TotalBatch::Covariance& covariance, bool directed) {
-  Json json;
+ordered_json CovarianceJson(const TotalBatch::Covariance& covariance, bool directed) {
+  ordered_json json;
   for (std::size_t i = 0; i < covariance.size(); ++i) {
     const bool vertical = kCovarianceNames[i] == "DD";
-    json[std::string(kCovarianceNames[i])] = directed || vertical ? formats::JsonNumber(covariance[i][0]) : Json();
+    json[std::string(kCovarianceNames[i])] =
+        directed || vertical ? formats::JsonNumber(covariance[i][0]) : ordered_json();
   }
   return json;
 }
 
-Json NumberOrNull(float number) { return std::isfinite(number) ? formats::JsonNumber(number) : Json(); }
+ordered_json NumberOrNull(float number) { return std::isfinite(number) ? formats::JsonNumber(number) : ordered_json(); }
 
 void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
   const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& given) {
@@ -39,7 +40,7 @@ void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
 }
 
 // Of each source of the air side.
-Json SourcesJson(const PulseTotal& total) {
+ordered_json SourcesJson(const PulseTotal& total) {
   const auto vector = [](const std::optional<std::array<double, 3>>& given) {
     return given.has_value() ? Eigen::Vector3d(given->data()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   };
@@ -55,7 +56,7 @@ Json SourcesJson(const PulseTotal& total) {
                           .rates = vector(total.motion.rates),
                           .lever_arm = Eigen::Vector3d(total.plan.options.lever_arm.data()),
                           .index = total.plan.options.index};
-  Json json;
+  ordered_json json;
   for (const AirSource& source : AirSources(pulse, total.plan.options.located, total.plan.options.errors)) {
     const Eigen::Matrix3d c = source.Covariance();
     json[std::string(source.name)] = {{"horizontal", c(0, 0) + c(1, 1)},
@@ -66,7 +67,7 @@ Json SourcesJson(const PulseTotal& total) {
 }
 
 // What the water column does before any treatment, and what is left; null beyond the table.
-Json WaterJson(const WaterPlan& plan, const PulseBatch& pulse) {
+ordered_json WaterJson(const WaterPlan& plan, const PulseBatch& pulse) {
   const std::optional<WaterAnswerOfSurvey> answer =
       plan.share->At(pulse.coordinate(AxisId::kIncidence, 0), pulse.coordinate(AxisId::kDepth, 0));
   if (!answer.has_value()) return {{"greatest_depth", plan.share->greatest_depth()}};
@@ -86,7 +87,7 @@ Json WaterJson(const WaterPlan& plan, const PulseBatch& pulse) {
 
 }  // namespace
 
-absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& source) {
+absl::StatusOr<ordered_json> TotalJson(const PulseTotal& total, const AnswerSource& source) {
   AnswerSelection selection;
   SelectForTotals(selection);
   AnswerBatch sea;
@@ -103,29 +104,29 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
   ComputeTotals(total.plan, total.pulse, sea, aircraft, totals);
 
   const bool directed = total.beam_azimuth.has_value(), with_water = total.plan.water.share != nullptr;
-  Json json = {{"thu", NumberOrNull(totals.thu[0])},
-               {"tvu", NumberOrNull(totals.tvu[0])},
-               {"coverage", CoverageName(total.plan.options.coverage)},
-               {"outcome", std::string(OutcomeName(sea, 0))},
-               {"covariance_air", CovarianceJson(totals.air, directed)},
-               {"covariance_sea", CovarianceJson(totals.sea, directed)},
-               {"covariance_water", with_water ? CovarianceJson(totals.of_water, directed) : Json()},
-               {"covariance_total", CovarianceJson(totals.covariance, directed)},
-               {"thu_air", NumberOrNull(totals.thu_air[0])},
-               {"tvu_air", NumberOrNull(totals.tvu_air[0])},
-               {"thu_sea", NumberOrNull(totals.thu_sea[0])},
-               {"tvu_sea", NumberOrNull(totals.tvu_sea[0])},
-               {"thu_water", with_water ? NumberOrNull(totals.thu_water[0]) : Json()},
-               {"tvu_water", with_water ? NumberOrNull(totals.tvu_water[0]) : Json()}};
+  ordered_json json = {{"thu", NumberOrNull(totals.thu[0])},
+                       {"tvu", NumberOrNull(totals.tvu[0])},
+                       {"coverage", CoverageName(total.plan.options.coverage)},
+                       {"outcome", std::string(OutcomeName(sea, 0))},
+                       {"covariance_air", CovarianceJson(totals.air, directed)},
+                       {"covariance_sea", CovarianceJson(totals.sea, directed)},
+                       {"covariance_water", with_water ? CovarianceJson(totals.of_water, directed) : ordered_json()},
+                       {"covariance_total", CovarianceJson(totals.covariance, directed)},
+                       {"thu_air", NumberOrNull(totals.thu_air[0])},
+                       {"tvu_air", NumberOrNull(totals.tvu_air[0])},
+                       {"thu_sea", NumberOrNull(totals.thu_sea[0])},
+                       {"tvu_sea", NumberOrNull(totals.tvu_sea[0])},
+                       {"thu_water", with_water ? NumberOrNull(totals.thu_water[0]) : ordered_json()},
+                       {"tvu_water", with_water ? NumberOrNull(totals.tvu_water[0]) : ordered_json()}};
   const TotalBatch::Covariance& all = totals.covariance;
   const HorizontalEllipse ellipse = EllipseOf(all[0][0], all[1][0], all[3][0]);
-  json["semi_major"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_major)) : Json();
-  json["semi_minor"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_minor)) : Json();
-  json["major_azimuth"] = directed ? NumberOrNull(static_cast<float>(ellipse.major_azimuth)) : Json();
+  json["semi_major"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_major)) : ordered_json();
+  json["semi_minor"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_minor)) : ordered_json();
+  json["major_azimuth"] = directed ? NumberOrNull(static_cast<float>(ellipse.major_azimuth)) : ordered_json();
   json["bias_along_beam"] = NumberOrNull(sea[Quantity::kBiasAlongBeam][0]);
   json["bias_vertical"] = NumberOrNull(sea[Quantity::kBiasVertical][0]);
   const std::uint8_t best = totals.best_orders[0];
-  json["s44_order_met"] = best > 0 ? Json(std::string(Name(kS44Orders[best - 1]))) : Json();
+  json["s44_order_met"] = best > 0 ? ordered_json(std::string(Name(kS44Orders[best - 1]))) : ordered_json();
   json["sources"] = SourcesJson(total);
   json["sources"]["datum"] = {
       {"horizontal", 0}, {"vertical", std::pow(total.plan.options.datum, 2)}, {"group", "survey"}};
@@ -156,8 +157,8 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
   return json;
 }
 
-std::string TotalText(const Json& total) {
-  const auto number = [](const Json& value) {
+std::string TotalText(const ordered_json& total) {
+  const auto number = [](const ordered_json& value) {
     return value.is_number() ? absl::StrFormat("%.4g", value.get<double>()) : std::string("no number");
   };
   std::string text =
@@ -186,7 +187,7 @@ std::string TotalText(const Json& total) {
                                            root("horizontal"), root("vertical")));
   }
   absl::StrAppend(&text, "\nassumed:\n");
-  for (const Json& assumed : total["assumed"]) absl::StrAppend(&text, "  ", assumed.get<std::string>(), "\n");
+  for (const ordered_json& assumed : total["assumed"]) absl::StrAppend(&text, "  ", assumed.get<std::string>(), "\n");
   return text;
 }
 

@@ -34,13 +34,13 @@ constexpr std::uint8_t kNoDataIsSet = 0x01;
 constexpr std::array<std::size_t, 10> kTypeSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr int kTypeCount = 30;
 
-absl::Status Invalid(const std::string& name, const std::string& message) {
+absl::Status InvalidExtraBytes(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
 }
 
 absl::Status MoreThanExist(const std::string& name, std::size_t described, std::size_t extra_bytes) {
-  return Invalid(name, absl::StrCat("describes ", described, " extra bytes, but its points have ", extra_bytes,
-                                    "; correct the description"));
+  return InvalidExtraBytes(name, absl::StrCat("describes ", described, " extra bytes, but its points have ",
+                                              extra_bytes, "; correct the description"));
 }
 
 struct Known {
@@ -57,16 +57,16 @@ struct Described {
 
 absl::StatusOr<Described> Read(const std::string& name, std::string_view record) {
   if (record.size() % kEntrySize != 0) {
-    return Invalid(name, absl::StrCat("its Extra Bytes record has ", record.size(), " bytes; expected a multiple of ",
-                                      kEntrySize));
+    return InvalidExtraBytes(name, absl::StrCat("its Extra Bytes record has ", record.size(),
+                                                " bytes; expected a multiple of ", kEntrySize));
   }
   Described described;
   for (std::size_t begin = 0; begin < record.size(); begin += kEntrySize) {
     const std::string_view entry = record.substr(begin, kEntrySize);
     const int type = Load<std::uint8_t>(entry, kTypeField);
     if (type > kTypeCount) {
-      return Invalid(name, absl::StrCat("its Extra Bytes record has type ", type, " (of unknown size); expected 0 to ",
-                                        kTypeCount));
+      return InvalidExtraBytes(name, absl::StrCat("its Extra Bytes record has type ", type,
+                                                  " (of unknown size); expected 0 to ", kTypeCount));
     }
     const std::string_view text = entry.substr(kNameField, kTextSize);
     const std::string entry_name(text.substr(0, text.find('\0')));
@@ -169,18 +169,20 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     const std::string ours(appended[i].name);
     if (known->names.count(ours) == 0) continue;
     if (!replace) {
-      return Invalid(name, absl::StrCat("already has ", ours,
-                                        "; annotate the file from which it was made, or replace its values by "
-                                        "--replace"));
+      return InvalidExtraBytes(name,
+                               absl::StrCat("already has ", ours,
+                                            "; annotate the file from which it was made, or replace its values by "
+                                            "--replace"));
     }
     const auto is_ours = [&](const Known& entry) { return entry.name == ours; };
     if (std::count_if(known->entries.begin(), known->entries.end(), is_ours) > 1)
-      return Invalid(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
+      return InvalidExtraBytes(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
     const auto entry = std::find_if(known->entries.begin(), known->entries.end(), is_ours);
     if (entry->type != kFloat && entry->type != kDouble) {
-      return Invalid(name, absl::StrCat("has ", ours, " as type ", entry->type,
-                                        " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
-                                        "the file from which it was made"));
+      return InvalidExtraBytes(name,
+                               absl::StrCat("has ", ours, " as type ", entry->type,
+                                            " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
+                                            "the file from which it was made"));
     }
     const auto place = static_cast<std::size_t>(entry - known->entries.begin()) * kEntrySize;
     record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
@@ -196,8 +198,9 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
   for (const AppendedFloat& ours : appended)
     if (known->names.count(ours.name) == 0) record += FloatEntry(ours);
   if (record.size() > kLargestExtraBytesRecord) {
-    return Invalid(name, absl::StrCat("describes so many extra bytes that ", appended.size(),
-                                      " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
+    return InvalidExtraBytes(
+        name, absl::StrCat("describes so many extra bytes that ", appended.size(), " more descriptions exceed ",
+                           kLargestExtraBytesRecord, " bytes; remove some"));
   }
   return description;
 }

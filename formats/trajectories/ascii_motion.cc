@@ -84,12 +84,12 @@ Motion MotionOf(std::span<const SamplePair> pairs) {
 bool CanBeLatitude(double angle) { return std::abs(angle) <= std::numbers::pi / 2; }
 
 // Mistakes that occur. Each function undoes one in a sample, and is false if the sample cannot have it.
-struct Mistake {
+struct MotionMistake {
   const char* message;
   bool (*undo)(Sample& sample);
 };
 
-constexpr Mistake kMistakes[] = {
+constexpr MotionMistake kMotionMistakes[] = {
     {"latitude and longitude are in radians; write degrees",
      [](Sample& sample) {
        sample.record.latitude = DegreesOfRadians(sample.record.latitude);
@@ -114,7 +114,7 @@ constexpr Mistake kMistakes[] = {
 };
 
 // The motion after undoing a mistake; nullopt if the samples cannot have it.
-std::optional<Motion> Undo(const Mistake& mistake, std::vector<SamplePair> pairs) {
+std::optional<Motion> Undo(const MotionMistake& mistake, std::vector<SamplePair> pairs) {
   for (auto& [first, second] : pairs)
     if (!mistake.undo(first) || !mistake.undo(second)) return std::nullopt;
   return MotionOf(pairs);
@@ -150,7 +150,7 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
   if (pairs.empty()) return absl::OkStatus();
   const Motion motion = MotionOf(pairs);
   if (motion.fits() && motion.grid_fits()) return absl::OkStatus();
-  for (const Mistake& mistake : kMistakes) {
+  for (const MotionMistake& mistake : kMotionMistakes) {
     const std::optional<Motion> undone = Undo(mistake, pairs);
     if (undone.has_value() && undone->fits() && undone->grid_fits())
       return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", mistake.message));

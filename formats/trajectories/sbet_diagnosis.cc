@@ -12,15 +12,14 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kFoot = 0.3048;          // m, exact.
 constexpr double kKnot = 1852.0 / 3600;   // m/s, exact.
+constexpr double kFoot = 0.3048;          // m, exact.
 constexpr double kFlying = 20;            // m/s: slower ones may drift, hover or roll on the ground.
 constexpr std::size_t kSectors = 8;       // Of courses, 45 degrees each.
 constexpr std::size_t kMinInSector = 20;  // Pairs.
 
 // A mistake: its description for a message, and the change that undoes it.
-struct Mistake {
+struct SbetMistake {
   const char* description;
   SbetRecord (*undo)(SbetRecord);
 };
@@ -44,54 +43,54 @@ SbetRecord WithVelocitiesTimes(const SbetRecord& record, double factor) {
   return WithVelocities(record, factor * record.velocity_x, factor * record.velocity_y, factor * record.velocity_z);
 }
 
-constexpr std::array kMistakes = {
-    Mistake{"its latitude and longitude are in degrees, not in radians", InRadians},
-    Mistake{"its angles are in degrees, not in radians",
-            [](SbetRecord record) {
-              record.wander_angle = RadiansOfDegrees(record.wander_angle);
-              return InRadians(record);
-            }},
-    Mistake{"its latitude and longitude are exchanged", Exchanged},
-    Mistake{"its latitude and longitude are exchanged and in degrees",
-            [](SbetRecord record) { return InRadians(Exchanged(record)); }},
-    Mistake{"its velocities are along north and west already, and its wander angle does not belong to them",
-            [](SbetRecord record) {
-              record.wander_angle = 0;
-              return record;
-            }},
-    Mistake{"its wander angle has the wrong sign",
-            [](SbetRecord record) {
-              record.wander_angle = -record.wander_angle;
-              return record;
-            }},
-    Mistake{"its wander angle is in degrees, not in radians",
-            [](SbetRecord record) {
-              record.wander_angle = RadiansOfDegrees(record.wander_angle);
-              return record;
-            }},
-    Mistake{"its velocities are in the order north, east, down",
-            [](SbetRecord record) {
-              record.wander_angle = 0;
-              return WithVelocities(record, record.velocity_x, -record.velocity_y, -record.velocity_z);
-            }},
-    Mistake{"its velocities are in the order north, east, up",
-            [](SbetRecord record) {
-              record.wander_angle = 0;
-              return WithVelocities(record, record.velocity_x, -record.velocity_y, record.velocity_z);
-            }},
-    Mistake{"its velocities are in the order east, north, up",
-            [](SbetRecord record) {
-              record.wander_angle = 0;
-              return WithVelocities(record, record.velocity_y, -record.velocity_x, record.velocity_z);
-            }},
-    Mistake{"its velocities are in feet per second",
-            [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},
-    Mistake{"its velocities are in knots", [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
-    Mistake{"its heights are in feet",
-            [](SbetRecord record) {
-              record.height *= kFoot;
-              return record;
-            }},
+constexpr std::array kSbetMistakes = {
+    SbetMistake{"its latitude and longitude are in degrees, not in radians", InRadians},
+    SbetMistake{"its angles are in degrees, not in radians",
+                [](SbetRecord record) {
+                  record.wander_angle = RadiansOfDegrees(record.wander_angle);
+                  return InRadians(record);
+                }},
+    SbetMistake{"its latitude and longitude are exchanged", Exchanged},
+    SbetMistake{"its latitude and longitude are exchanged and in degrees",
+                [](SbetRecord record) { return InRadians(Exchanged(record)); }},
+    SbetMistake{"its velocities are along north and west already, and its wander angle does not belong to them",
+                [](SbetRecord record) {
+                  record.wander_angle = 0;
+                  return record;
+                }},
+    SbetMistake{"its wander angle has the wrong sign",
+                [](SbetRecord record) {
+                  record.wander_angle = -record.wander_angle;
+                  return record;
+                }},
+    SbetMistake{"its wander angle is in degrees, not in radians",
+                [](SbetRecord record) {
+                  record.wander_angle = RadiansOfDegrees(record.wander_angle);
+                  return record;
+                }},
+    SbetMistake{"its velocities are in the order north, east, down",
+                [](SbetRecord record) {
+                  record.wander_angle = 0;
+                  return WithVelocities(record, record.velocity_x, -record.velocity_y, -record.velocity_z);
+                }},
+    SbetMistake{"its velocities are in the order north, east, up",
+                [](SbetRecord record) {
+                  record.wander_angle = 0;
+                  return WithVelocities(record, record.velocity_x, -record.velocity_y, record.velocity_z);
+                }},
+    SbetMistake{"its velocities are in the order east, north, up",
+                [](SbetRecord record) {
+                  record.wander_angle = 0;
+                  return WithVelocities(record, record.velocity_y, -record.velocity_x, record.velocity_z);
+                }},
+    SbetMistake{"its velocities are in feet per second",
+                [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},
+    SbetMistake{"its velocities are in knots", [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
+    SbetMistake{"its heights are in feet",
+                [](SbetRecord record) {
+                  record.height *= kFoot;
+                  return record;
+                }},
 };
 
 // None where the change makes a position that is not on the globe.
@@ -101,7 +100,8 @@ std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pa
   for (const SbetPair& pair : pairs) {
     const SbetRecord first = undo(pair.first), second = undo(pair.second);
     for (const SbetRecord& record : {first, second})
-      if (!(std::abs(record.latitude) <= kPi / 2 && std::abs(record.longitude) <= 2 * kPi)) return std::nullopt;
+      if (!(std::abs(record.latitude) <= std::numbers::pi / 2 && std::abs(record.longitude) <= 2 * std::numbers::pi))
+        return std::nullopt;
     velocities.push_back(CompareVelocities(TrajectoryRecordOf(first), TrajectoryRecordOf(second)));
   }
   return velocities;
@@ -162,7 +162,8 @@ std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs, std::
     if (std::abs(velocity) < kFlying) continue;
     const double course = std::arg(velocity);
     const std::complex<double> turn = std::polar(1.0, TrajectoryRecordOf(pairs[i].first).heading - course);
-    const auto sector = static_cast<std::size_t>((course + kPi) / (2 * kPi) * kSectors) % kSectors;
+    const auto sector =
+        static_cast<std::size_t>((course + std::numbers::pi) / (2 * std::numbers::pi) * kSectors) % kSectors;
     sums[sector] += turn;
     ++counts[sector];
     all += turn;
@@ -185,7 +186,7 @@ std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs, std::
 }
 
 // A system may be mounted a quarter or half turn from the nose, which is no mistake: only the remainder counts.
-double RestOfQuarterTurns(double angle) { return std::remainder(angle, kPi / 2); }
+double RestOfQuarterTurns(double angle) { return std::remainder(angle, std::numbers::pi / 2); }
 
 absl::Status CheckHeadings(const std::string& name, std::span<const SbetPair> pairs,
                            std::span<const VelocityPair> velocities) {
@@ -216,7 +217,7 @@ std::optional<std::string> VelocityCause(std::span<const SbetPair> pairs) {
   if (stated.has_value() && VelocityDifference(*stated) <= kLargestVelocityDifference) return std::nullopt;
   double least = kLargestVelocityDifference;
   const char* best = nullptr;
-  for (const Mistake& mistake : kMistakes) {
+  for (const SbetMistake& mistake : kSbetMistakes) {
     const std::optional<std::vector<VelocityPair>> velocities = Velocities(pairs, mistake.undo);
     if (!velocities.has_value()) continue;
     const double difference = VelocityDifference(*velocities);

@@ -20,7 +20,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are read as they lie in the file");
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLowestHeight = -1000, kMaxHeight = 20000;  // m; wider than any airborne survey.
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
@@ -42,12 +41,13 @@ bool IsFinite(const SbetRecord& record) {
 }
 
 bool IsOnGlobe(const SbetRecord& record) {
-  return std::abs(record.latitude) <= kPi / 2 && std::abs(record.longitude) <= 2 * kPi;
+  return std::abs(record.latitude) <= std::numbers::pi / 2 && std::abs(record.longitude) <= 2 * std::numbers::pi;
 }
 
 bool IsPlausible(const SbetRecord& record) {
   return IsFinite(record) && IsOnGlobe(record) && record.time >= 0 && record.height >= kLowestHeight &&
-         record.height <= kMaxHeight && std::abs(record.roll) < kPi / 2 && std::abs(record.pitch) < kPi / 2;
+         record.height <= kMaxHeight && std::abs(record.roll) < std::numbers::pi / 2 &&
+         std::abs(record.pitch) < std::numbers::pi / 2;
 }
 
 // Whether the first two records follow each other when their bytes are reversed. Reversed numbers are otherwise huge or
@@ -62,12 +62,14 @@ bool IsBigEndian(std::span<const SbetRecord> records) {
 std::string Implausibility(const SbetRecord& record) {
   if (!IsFinite(record)) return "has a number that is not finite";
   if (record.time < 0) return absl::StrFormat("has the time %.6g s, which is negative", record.time);
-  if (std::abs(record.latitude) > kPi / 2)
+  if (std::abs(record.latitude) > std::numbers::pi / 2)
     return absl::StrFormat("has the latitude %.9g rad, beyond pi/2", record.latitude);
-  if (std::abs(record.longitude) > 2 * kPi)
+  if (std::abs(record.longitude) > 2 * std::numbers::pi)
     return absl::StrFormat("has the longitude %.9g rad, beyond 2 pi", record.longitude);
-  if (std::abs(record.roll) >= kPi / 2) return absl::StrFormat("has the roll %.9g rad, beyond pi/2", record.roll);
-  if (std::abs(record.pitch) >= kPi / 2) return absl::StrFormat("has the pitch %.9g rad, beyond pi/2", record.pitch);
+  if (std::abs(record.roll) >= std::numbers::pi / 2)
+    return absl::StrFormat("has the roll %.9g rad, beyond pi/2", record.roll);
+  if (std::abs(record.pitch) >= std::numbers::pi / 2)
+    return absl::StrFormat("has the pitch %.9g rad, beyond pi/2", record.pitch);
   return absl::StrFormat("has the height %.6g m, not between %.0f and %.0f", record.height, kLowestHeight, kMaxHeight);
 }
 

@@ -14,8 +14,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 WindSea ReadWindSea(CampaignFile& file) {
   WindSea sea;
   const std::string spectrum = ReadText(file, campaign_keys::kSpectrum);
@@ -170,7 +168,7 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
   SeaCase sea_case;
   const std::size_t fetch = index / footprints % fetches;
   sea_case.sea = SeaOf(campaign, campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches],
-                       fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity);
+                       fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : campaign_keys::kInfinity);
   sea_case.refractive_index = campaign.refractive_index;
   sea_case.depths = campaign.nodes(AxisId::kDepth);
   sea_case.rays = campaign.rays;

@@ -12,8 +12,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Nodes are kept in single precision, as in tables: 0.1 in the file becomes the float nearest to it.
 std::vector<double> InSinglePrecision(std::vector<double> nodes) {
   for (double& node : nodes) node = static_cast<float>(node);
@@ -30,7 +28,7 @@ double FloatNotBelow(double x) {
 // the seas of all winds are, and beyond it nothing changes.
 absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
                           const std::vector<double>& wind_speed) {
-  if (fetch.empty() || fetch.back() != kInfinity) {
+  if (fetch.empty() || fetch.back() != campaign_keys::kInfinity) {
     return absl::InvalidArgumentError(
         "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
   }

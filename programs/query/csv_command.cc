@@ -32,7 +32,7 @@ struct CsvOptions {
 };
 
 // For a summary; null where a column of the file has it, or nothing does.
-nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSettings& sea) {
+nlohmann::ordered_json CsvParameters(const CsvOptions& options, const config::SeaSettings& sea) {
   nlohmann::ordered_json json;
   annotate::FixedInputs stated = options.fixed;
   StateWind(sea, stated);
@@ -127,7 +127,7 @@ absl::Status RunCsv(const CsvOptions& given) {
                            .tally = csv->summary.Tally()},
         text + notes};
   };
-  nlohmann::ordered_json parameters = Parameters(options, sea);
+  nlohmann::ordered_json parameters = CsvParameters(options, sea);
   if (total->has_value()) {
     parameters["details"] = (*total)->details;
     parameters["total"] = Parameters((*total)->plan);

@@ -36,9 +36,10 @@ struct WaveColumns {
   std::size_t height, period, direction;
 };
 
-class Reader {
+class NdbcBulkReader {
  public:
-  Reader(std::string_view text, double anemometer_height) : lines_(text), anemometer_height_(anemometer_height) {}
+  NdbcBulkReader(std::string_view text, double anemometer_height)
+      : lines_(text), anemometer_height_(anemometer_height) {}
 
   absl::StatusOr<SeaSeries> Read() {
     const auto first = lines_.Next();
@@ -183,7 +184,7 @@ bool IsNdbcBulk(std::string_view first_line) {
 }
 
 absl::StatusOr<SeaSeries> ReadNdbcBulk(std::string_view text, double anemometer_height) {
-  return Reader(text, anemometer_height).Read();
+  return NdbcBulkReader(text, anemometer_height).Read();
 }
 
 }  // namespace albtpu

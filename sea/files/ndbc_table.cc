@@ -56,9 +56,9 @@ bool IsSpread(NdbcQuantity quantity) {
   return quantity == NdbcQuantity::kSpread || quantity == NdbcQuantity::kFirstSpread;
 }
 
-class Reader {
+class NdbcReader {
  public:
-  Reader(std::string_view text, NdbcQuantity expected) : lines_(text), expected_(Described(expected)) {}
+  NdbcReader(std::string_view text, NdbcQuantity expected) : lines_(text), expected_(Described(expected)) {}
 
   absl::StatusOr<NdbcTable> Read() {
     const auto first = lines_.Next();
@@ -210,7 +210,7 @@ bool IsNdbcTable(std::string_view first_line) {
 }
 
 absl::StatusOr<NdbcTable> ReadNdbcTable(std::string_view text, NdbcQuantity expected) {
-  return Reader(text, expected).Read();
+  return NdbcReader(text, expected).Read();
 }
 
 }  // namespace albtpu

@@ -91,9 +91,9 @@ std::vector<std::string_view> Cells(std::string_view line) {
 
 bool IsComment(std::string_view line) { return Trimmed(line).empty() || Trimmed(line).front() == '#'; }
 
-class Reader {
+class SeaCsvReader {
  public:
-  explicit Reader(std::string_view text) : lines_(text) {}
+  explicit SeaCsvReader(std::string_view text) : lines_(text) {}
 
   absl::StatusOr<SeaSeries> Read() {
     std::optional<std::string_view> line;
@@ -230,6 +230,6 @@ bool IsSeaCsv(std::string_view first_line) {
   return first_line.find(',') != first_line.npos && (first == "f" || first == "k" || first == "time");
 }
 
-absl::StatusOr<SeaSeries> ReadSeaCsv(std::string_view text) { return Reader(text).Read(); }
+absl::StatusOr<SeaSeries> ReadSeaCsv(std::string_view text) { return SeaCsvReader(text).Read(); }
 
 }  // namespace albtpu

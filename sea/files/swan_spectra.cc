@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kSwanWeight = 1025 * 9.81;  // N/m^3, by which SWAN turns variance into energy
 
-class Reader {
+class SwanReader {
  public:
-  explicit Reader(std::string_view text) : words_(text) {}
+  explicit SwanReader(std::string_view text) : words_(text) {}
 
   absl::StatusOr<SeaSeries> Read() {
     series_.format = "SWAN spectra";
@@ -227,6 +227,6 @@ bool IsSwanSpectra(std::string_view first_line) {
   return !words.empty() && words[0] == "SWAN";
 }
 
-absl::StatusOr<SeaSeries> ReadSwanSpectra(std::string_view text) { return Reader(text).Read(); }
+absl::StatusOr<SeaSeries> ReadSwanSpectra(std::string_view text) { return SwanReader(text).Read(); }
 
 }  // namespace albtpu

@@ -129,9 +129,9 @@ std::vector<double> TouchingNumbers(std::string_view line) {
   return numbers;
 }
 
-class Reader {
+class Ww3Reader {
  public:
-  explicit Reader(std::string_view text) : words_(text) {}
+  explicit Ww3Reader(std::string_view text) : words_(text) {}
 
   absl::StatusOr<SeaSeries> Read() {
     series_.format = "point output of WAVEWATCH III";
@@ -232,6 +232,6 @@ class Reader {
 
 bool IsWw3Points(std::string_view first_line) { return first_line.find(kTitle) != first_line.npos; }
 
-absl::StatusOr<SeaSeries> ReadWw3Points(std::string_view text) { return Reader(text).Read(); }
+absl::StatusOr<SeaSeries> ReadWw3Points(std::string_view text) { return Ww3Reader(text).Read(); }
 
 }  // namespace albtpu

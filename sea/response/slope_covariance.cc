@@ -11,8 +11,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Harmonics that the stretching adds to those of the sea. Each is smaller than the one before by some
 // tan^2(incidence) / 4, 0.05 at 25 degrees.
 constexpr int kAddedHarmonics = 2;
@@ -32,7 +30,7 @@ SlopeSpectrum::SlopeSpectrum(const HarmonicSpectrum& spectrum)
     const std::size_t after = std::min(next, spectrum.size() - 1), before = after - 1;
     const double fraction = (k - spectrum.k[before]) / (spectrum.k[after] - spectrum.k[before]);
     const double s_before = (1 - fraction) * spectrum.s[before], s_after = fraction * spectrum.s[after];
-    const double scale = lattice.step() * k * k * k / (2 * kPi);
+    const double scale = lattice.step() * k * k * k / (2 * std::numbers::pi);
     power_(i, 0) = scale * (s_before + s_after);
     for (int n = 1; n <= harmonics_; ++n) {
       const std::vector<double>&a = spectrum.a[n - 1], &b = spectrum.b[n - 1];
@@ -44,8 +42,8 @@ SlopeSpectrum::SlopeSpectrum(const HarmonicSpectrum& spectrum)
 
 Eigen::Matrix2d SlopeSpectrum::Covariance() const {
   const Eigen::VectorXd sums = power_.colwise().sum();
-  const double half_trace = kPi * sums[0];
-  const double half_difference = kPi / 2 * sums[1], xy = kPi / 2 * sums[2];
+  const double half_trace = std::numbers::pi * sums[0];
+  const double half_difference = std::numbers::pi / 2 * sums[1], xy = std::numbers::pi / 2 * sums[2];
   return (Eigen::Matrix2d() << half_trace + half_difference, xy, xy, half_trace - half_difference).finished();
 }
 
@@ -60,7 +58,7 @@ BeamSpectrum SlopeSpectrum::AcrossBeam(double incidence, double azimuth) const {
   Eigen::MatrixXd angles(2 * harmonics_ + 1, directions);
   Eigen::ArrayXd shift(directions);
   for (int j = 0; j < directions; ++j) {
-    const double psi = kPi * (j + 0.5) / directions;
+    const double psi = std::numbers::pi * (j + 0.5) / directions;
     const double along = cosine * std::cos(psi), across = std::sin(psi);
     const double ratio = std::hypot(along, across);  // k / kappa
     shift[j] = -std::log(ratio) / HankelLattice::Shared().step();
@@ -72,7 +70,7 @@ BeamSpectrum SlopeSpectrum::AcrossBeam(double incidence, double azimuth) const {
     }
     // P in d(ln kappa) d(psi) is cos(incidence) / ratio^2 times that in d(ln k) d(direction on the water), and
     // kappa^2 = k^2 / ratio^2.
-    const double density = cosine / std::pow(ratio, 4) * 2 * kPi / directions;
+    const double density = cosine / std::pow(ratio, 4) * 2 * std::numbers::pi / directions;
     for (int m = 0; m <= kept; ++m) transform(j, m) = std::polar(density, -2 * m * psi);
   }
   const Eigen::MatrixXd on_water = power_ * angles;

@@ -10,7 +10,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 double WindSpeed(const SeaDescription& description, SeaAssumptions& assumed) {

@@ -28,13 +28,13 @@ namespace v1 = albtpu::v1;
 // most of it a sea.
 constexpr std::size_t kMaxColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
 
-constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/QueryBudget";
+constexpr char kBudgetMethod[] = "/albtpu.v1.UncertaintyService/QueryBudget";
 
 // One being received, one being answered, and one under way in each direction.
 constexpr std::size_t kCallsAtATime = 4;
 
 // Time limit of one call.
-constexpr std::chrono::seconds kDeadline{60};
+constexpr std::chrono::seconds kBudgetDeadline{60};
 
 // The number of pulses that a message of these columns takes, request and answer.
 std::size_t MaxPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
@@ -113,8 +113,8 @@ absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOpti
   return response.table().digest();
 }
 
-struct Call {
-  Call(std::size_t first, std::size_t pulses) : begin(first), count(pulses) {}
+struct BudgetCall {
+  BudgetCall(std::size_t first, std::size_t pulses) : begin(first), count(pulses) {}
 
   const std::size_t begin, count;
   bool done = false;
@@ -141,7 +141,7 @@ class Calls {
       void* ended = nullptr;
       bool ok = false;
       events_.Next(&ended, &ok);
-      Call& call = *static_cast<Call*>(ended);
+      BudgetCall& call = *static_cast<BudgetCall*>(ended);
       call.done = true;
       if (!call.status.ok()) Fail(FromGrpc(call.status));
       while (!calls_.empty() && calls_.front()->done) {
@@ -155,12 +155,12 @@ class Calls {
 
  private:
   void Send() {
-    auto call = std::make_unique<Call>(sent_, std::min(most_, task_.pulses.pulses.size - sent_));
+    auto call = std::make_unique<BudgetCall>(sent_, std::min(most_, task_.pulses.pulses.size - sent_));
     ColumnMessage request;
     request.Add(request_without_pulses_);
     AddPulses(Slice(task_.pulses, call->begin, call->count), request);
-    call->context.set_deadline(std::chrono::system_clock::now() + kDeadline);
-    call->reader = stub_.PrepareUnaryCall(&call->context, kMethod, request.Finish(), &events_);
+    call->context.set_deadline(std::chrono::system_clock::now() + kBudgetDeadline);
+    call->reader = stub_.PrepareUnaryCall(&call->context, kBudgetMethod, request.Finish(), &events_);
     call->reader->StartCall();
     call->reader->Finish(&call->response, &call->status, call.get());
     sent_ += call->count;
@@ -168,7 +168,7 @@ class Calls {
   }
 
   // Reads an answer into its place among the answers.
-  void TakeAnswer(Call& call) {
+  void TakeAnswer(BudgetCall& call) {
     const absl::StatusOr<std::string> digest =
         ReadBudget(call.response, task_.options, call.begin, call.count, task_.answers);
     if (!digest.ok()) return Fail(digest.status());
@@ -190,7 +190,7 @@ class Calls {
   absl::Status failure_;
   grpc::CompletionQueue events_;
   v1::QueryBudgetRequest request_without_pulses_;
-  std::deque<std::unique_ptr<Call>> calls_;  // In the order of their pulses.
+  std::deque<std::unique_ptr<BudgetCall>> calls_;  // In the order of their pulses.
 };
 
 }  // namespace

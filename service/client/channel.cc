@@ -91,7 +91,7 @@ using grpc::health::v1::Health;
 using grpc::health::v1::HealthCheckResponse;
 
 // Monitoring systems do not wait longer for a health check.
-constexpr std::chrono::seconds kDeadline{4};
+constexpr std::chrono::seconds kHealthDeadline{4};
 
 absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size()}; }
 
@@ -101,7 +101,7 @@ absl::Status CheckHealth(const std::string& address, const Credentials& credenti
   const auto channel = OpenChannel(address, credentials);
   if (!channel.ok()) return channel.status();
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  context.set_deadline(std::chrono::system_clock::now() + kHealthDeadline);
   HealthCheckResponse response;
   const absl::Status status = FromGrpc(Health::NewStub(*channel)->Check(&context, {}, &response));
   if (!status.ok()) return WithServerAddress(status, address);

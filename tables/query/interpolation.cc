@@ -13,14 +13,14 @@ namespace {
 using Brackets = std::array<Bracket, kAxisCount>;
 using Coordinates = std::array<double, kAxisCount>;
 
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 PulseUncertainty WithoutNumbers(Outcome outcome, std::optional<AxisId> axis) {
   PulseUncertainty uncertainty;
   uncertainty.outcome = outcome;
   uncertainty.axis = axis;
-  uncertainty.values.fill(kNoNumber);
-  uncertainty.standard_errors.fill(kNoNumber);
+  uncertainty.values.fill(kNan);
+  uncertainty.standard_errors.fill(kNan);
   return uncertainty;
 }
 

@@ -169,12 +169,12 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
   return comparisons;
 }
 
-struct Range {
+struct CellRange {
   double least, most;
 };
 template <typename Value>
-Range RangeOf(const std::vector<TankCell>& cells, const Value& value) {
-  Range range{value(cells.front()), value(cells.front())};
+CellRange RangeOfCells(const std::vector<TankCell>& cells, const Value& value) {
+  CellRange range{value(cells.front()), value(cells.front())};
   for (const TankCell& cell : cells) {
     range.least = std::min(range.least, value(cell));
     range.most = std::max(range.most, value(cell));
@@ -183,13 +183,13 @@ Range RangeOf(const std::vector<TankCell>& cells, const Value& value) {
 }
 
 std::string SizeParagraph(const std::vector<TankCell>& cells) {
-  const Range published = RangeOf(cells, [](const TankCell& c) { return c.published_along; });
-  const Range ours = RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value; });
-  const Range beam = RangeOf(cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
-  const Range excess =
-      RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
-  const Range shape =
-      RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value / c.array.cross_wind.value; });
+  const CellRange published = RangeOfCells(cells, [](const TankCell& c) { return c.published_along; });
+  const CellRange ours = RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value; });
+  const CellRange beam = RangeOfCells(cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
+  const CellRange excess =
+      RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
+  const CellRange shape =
+      RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value / c.array.cross_wind.value; });
   return absl::StrFormat(
       "The 2 sigma along the wind that the simulated array measures ranges from %.1f to %.1f degrees over "
       "the cells; the paper measured %.1f to %.1f. The ratio of along wind to cross wind is %.2f to %.2f. In "

@@ -81,7 +81,7 @@ DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
 
 namespace {
 
-constexpr double kWind = 2;  // m/s
+constexpr double kLightWind = 2;  // m/s
 constexpr double kStrongWind = 5.25;
 constexpr double kSide = 0.3;  // m, of the array: detectors times pitch
 
@@ -140,7 +140,7 @@ class Variations {
 }  // namespace
 
 std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
-  const SeaState sea = TankSea(kWind, kTankWaveHeight);
+  const SeaState sea = TankSea(kLightWind, kTankWaveHeight);
   Variations variations(seed);
 
   std::vector<VariedArray> arrays = Apertures("aperture (cm)");
@@ -151,14 +151,14 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
   gaussian.beams.front().profile = BeamProfile::kGaussian;
   variations.Run(gaussian, sea, Apertures("aperture, gaussian beam (cm)"));
 
-  for (const double wind : {kWind, kStrongWind}) {
+  for (const double wind : {kLightWind, kStrongWind}) {
     variations.Run(TankExperiment(), TankSea(wind, UnscaledTankWaveHeight(wind)),
                    "wind, waves of the spectrum's own height (m/s)", wind);
   }
   const std::vector<double> heights =
       quick ? std::vector<double>{3, 5, 11} : std::vector<double>{1.6, 2, 3, 4, 5, 6.5, 8, 9, 11};
   for (const double millimetres : heights) {
-    variations.Run(TankExperiment(), TankSea(kWind, millimetres / 1000), "wave height, 2 m/s (mm)", millimetres);
+    variations.Run(TankExperiment(), TankSea(kLightWind, millimetres / 1000), "wave height, 2 m/s (mm)", millimetres);
     if (quick) continue;
     variations.Run(TankExperiment(), TankSea(kStrongWind, millimetres / 1000), "wave height, 5.25 m/s (mm)",
                    millimetres);

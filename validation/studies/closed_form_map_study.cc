@@ -15,7 +15,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 constexpr double kDepth = 10;  // m
 
 struct Domain {

@@ -156,7 +156,7 @@ struct SimulatedSea {
 };
 
 constexpr Case kSimulated{&kApelModel, 6, 0.25};
-constexpr double kDepth = 20;  // m
+constexpr double kSimulatedDepth = 20;  // m
 
 // The first is the whole sea.
 std::vector<SimulatedSea> SimulateSeas(const StudyOptions& options) {
@@ -169,14 +169,14 @@ std::vector<SimulatedSea> SimulateSeas(const StudyOptions& options) {
     SeaCase sea_case;
     sea_case.sea = SeaOf(kSimulated, length);
     sea_case.beams = {BeamOf(kSimulated), nadir};
-    sea_case.depths = {kDepth};
+    sea_case.depths = {kSimulatedDepth};
     const auto cell = static_cast<std::uint32_t>(seas.size());
     const SeaCaseResult result = Simulate(sea_case, effort, options.seed, cell);
     const BeamUncertainty &slant = result.beams[0], &down = result.beams[1];
     const SmallSlopeUncertainty closed = ClosedFormOf(kSimulated, length);
     seas.push_back({length, SlopeCovariance(SeaState(sea_case.sea)).trace(), slant.thu[0], slant.tvu[0],
-                    slant.bias_vertical[0], down.tvu[0], down.bias_vertical[0], kDepth * closed.thu_per_depth,
-                    kDepth * closed.tvu_per_depth});
+                    slant.bias_vertical[0], down.tvu[0], down.bias_vertical[0], kSimulatedDepth * closed.thu_per_depth,
+                    kSimulatedDepth * closed.tvu_per_depth});
   }
   return seas;
 }
@@ -231,7 +231,9 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas, const std
   const auto agree = std::count_if(comparisons.begin(), comparisons.end(),
                                    [](const Comparison& c) { return c.verdict == Verdict::kAgrees; });
   const double gain = 1 - 1 / kRefractiveIndex;
-  const auto second_order = [&](const SimulatedSea& sea) { return -gain * gain / 2 * kDepth * sea.mean_square_slope; };
+  const auto second_order = [&](const SimulatedSea& sea) {
+    return -gain * gain / 2 * kSimulatedDepth * sea.mean_square_slope;
+  };
   return absl::StrFormat(
       "By Monte Carlo at %g m/s and a footprint of %g m, if all waves above %g m are corrected for, %.0f %% "
       "of THU and %.0f %% of TVU remain at 20 degrees; at nadir, where TVU is of second order in slope, %.0f "
@@ -241,7 +243,7 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas, const std
       "slope is in the remaining waves. THU agrees with the closed form, within the bounds stated with each, "
       "in %d of %d seas, including the whole one.",
       kSimulated.wind_speed, kSimulated.footprint, least.corrected_above, percent(&SimulatedSea::thu),
-      percent(&SimulatedSea::tvu), percent(&SimulatedSea::nadir_tvu), kDepth, whole.nadir_bias_vertical.value,
+      percent(&SimulatedSea::tvu), percent(&SimulatedSea::nadir_tvu), kSimulatedDepth, whole.nadir_bias_vertical.value,
       whole.nadir_bias_vertical.standard_error, least.nadir_bias_vertical.value,
       least.nadir_bias_vertical.standard_error, percent(&SimulatedSea::nadir_bias_vertical), second_order(whole),
       second_order(least), 100 * least.mean_square_slope / whole.mean_square_slope, agree, comparisons.size());

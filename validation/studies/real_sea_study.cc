@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -48,8 +47,6 @@ double JonswapWaveHeight(double wind_speed_10m, double fetch) {
 }
 
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 SeaState Sea(const SpectrumModel& model, double wind_speed, double fetch = kFullyDeveloped) {
   return SeaState({.waves = WindSea{.wind_speed_10m = wind_speed, .fetch = fetch, .model = &model}});

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +16,6 @@
 
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 // A point of the survey domain.
 struct Point {

@@ -142,8 +142,8 @@ ReportedBottom Moments(const std::vector<std::array<Errors, 2>>& sample, std::si
 
 }  // namespace
 
-Comparison Compare(const PhaseFunction& phase, const WavesAndScattering& at, int realizations, int photons,
-                   std::uint64_t seed) {
+ComparedEffects Compare(const PhaseFunction& phase, const WavesAndScattering& at, int realizations, int photons,
+                        std::uint64_t seed) {
   const Simulation simulation(phase, at, photons);
   std::vector<std::array<Errors, 2>> waves(realizations), both(realizations), scattering(1);
   const HeightField still = simulation.Still();
@@ -156,7 +156,7 @@ Comparison Compare(const PhaseFunction& phase, const WavesAndScattering& at, int
       both[i][set] = simulation.Report(surface, true, set);
     }
   });
-  Comparison comparison;
+  ComparedEffects comparison;
   for (std::size_t d = 0; d < comparison.both.size(); ++d) {
     comparison.waves[d] = Moments(waves, d, clear);
     comparison.both[d] = Moments(both, d, clear);

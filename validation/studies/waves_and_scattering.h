@@ -23,14 +23,14 @@ struct ReportedBottom {
   double sigma_along = 0, sigma_vertical = 0;  // standard deviations
 };
 
-struct Comparison {
+struct ComparedEffects {
   std::array<ReportedBottom, 3> waves, scattering, both;  // by Detector
 };
 
 // Photons of the beam and photons traced backwards from the receiver enter through the same waves and meet on the
 // bottom. Each realization has two sets of photons. Covariances between the two are variances over the sea, without the
 // noise of the photons.
-Comparison Compare(const PhaseFunction& phase, const WavesAndScattering& at, int realizations, int photons,
-                   std::uint64_t seed);
+ComparedEffects Compare(const PhaseFunction& phase, const WavesAndScattering& at, int realizations, int photons,
+                        std::uint64_t seed);
 
 }  // namespace albtpu

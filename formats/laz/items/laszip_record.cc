@@ -20,7 +20,7 @@
 namespace albtpu::laz {
 namespace {
 
-constexpr std::size_t kHeadSize = 34, kItemSize = 6;
+constexpr std::size_t kRecordHeadSize = 34, kItemSize = 6;
 
 bool IsLayered(int point_format) { return point_format >= 6; }
 
@@ -113,9 +113,9 @@ LaszipRecord RecordFor(int point_format, std::size_t record_length, std::uint32_
 }
 
 absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_format, std::size_t record_length) {
-  if (data.size() < kHeadSize) {
+  if (data.size() < kRecordHeadSize) {
     return absl::InvalidArgumentError(absl::StrCat("its LASzip record has ", data.size(), " bytes (expected ",
-                                                   kHeadSize, " or more)", kGetAnotherCopy));
+                                                   kRecordHeadSize, " or more)", kGetAnotherCopy));
   }
   const auto chunk_size = Load<std::uint32_t>(data, 12);
   const auto compressor = Load<std::uint16_t>(data, 0);
@@ -123,14 +123,14 @@ absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_
       !status.ok())
     return status;
   const std::size_t count = Load<std::uint16_t>(data, 32);
-  if (data.size() != kHeadSize + count * kItemSize) {
+  if (data.size() != kRecordHeadSize + count * kItemSize) {
     return absl::InvalidArgumentError(absl::StrCat("its LASzip record has ", data.size(), " bytes (expected ",
-                                                   kHeadSize + count * kItemSize, " for its ", count, " items)",
+                                                   kRecordHeadSize + count * kItemSize, " for its ", count, " items)",
                                                    kGetAnotherCopy));
   }
   const std::vector<Item> expected = ItemsOf(point_format, record_length);
   LaszipRecord record{static_cast<Compressor>(compressor), chunk_size, {}};
-  for (std::size_t i = kHeadSize; i < data.size(); i += kItemSize) {
+  for (std::size_t i = kRecordHeadSize; i < data.size(); i += kItemSize) {
     record.items.push_back({static_cast<ItemType>(Load<std::uint16_t>(data, i)), Load<std::uint16_t>(data, i + 2),
                             Load<std::uint16_t>(data, i + 4)});
   }
@@ -147,7 +147,7 @@ absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_
 }
 
 std::string LaszipRecordData(const LaszipRecord& record) {
-  std::string data(kHeadSize + record.items.size() * kItemSize, '\0');
+  std::string data(kRecordHeadSize + record.items.size() * kItemSize, '\0');
   char* const bytes = data.data();
   Store(static_cast<std::uint16_t>(record.compressor), bytes);
   bytes[4] = 3;  // The first version with layers and with all items of record: 3.4.3.
@@ -157,7 +157,7 @@ std::string LaszipRecordData(const LaszipRecord& record) {
   Store(std::int64_t{-1}, bytes + 16);
   Store(std::int64_t{-1}, bytes + 24);
   Store(static_cast<std::uint16_t>(record.items.size()), bytes + 32);
-  char* next = bytes + kHeadSize;
+  char* next = bytes + kRecordHeadSize;
   for (const Item& item : record.items) {
     Store(static_cast<std::uint16_t>(item.type), next);
     Store(item.size, next + 2);

@@ -56,11 +56,11 @@ std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftCo
 
 namespace {
 
-using QuantitySelection = std::array<bool, kBudgetQuantityCount>;
+using BudgetSelection = std::array<bool, kBudgetQuantityCount>;
 
 // The quantities that the request names, or THU and TVU of the total if it names none.
-absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryBudgetRequest& request) {
-  QuantitySelection selection{};
+absl::StatusOr<BudgetSelection> ReadBudgetQuantities(const v1::QueryBudgetRequest& request) {
+  BudgetSelection selection{};
   for (const int number : request.quantities()) {
     const absl::StatusOr<BudgetQuantity> quantity = FromWire(static_cast<v1::BudgetQuantity>(number));
     if (!quantity.ok()) return quantity.status();
@@ -87,7 +87,7 @@ absl::StatusOr<BudgetPulses> ReadPulses(const v1::QueryBudgetRequest& request, c
   return pulses;
 }
 
-std::size_t AnswerBytes(const QuantitySelection& selection) {
+std::size_t AnswerBytes(const BudgetSelection& selection) {
   std::size_t bytes = 2;  // Outcome and axis.
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
     const auto quantity = static_cast<BudgetQuantity>(i);
@@ -97,7 +97,7 @@ std::size_t AnswerBytes(const QuantitySelection& selection) {
   return bytes;
 }
 
-absl::Status CheckAnswerSize(const QuantitySelection& selection, std::size_t count) {
+absl::Status CheckAnswerSize(const BudgetSelection& selection, std::size_t count) {
   const std::size_t most = kMaxAnswerColumnBytes / AnswerBytes(selection);
   if (count <= most) return absl::OkStatus();
   return FieldViolation("pulses",
@@ -106,7 +106,7 @@ absl::Status CheckAnswerSize(const QuantitySelection& selection, std::size_t cou
 }
 
 // Adds the columns that were requested. The number of a field is that of its quantity.
-BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, ColumnMessage& message) {
+BudgetAnswers AddColumns(const BudgetSelection& selection, std::size_t count, ColumnMessage& message) {
   using Fields = v1::QueryBudgetResponse;
   const auto add_bytes = [&](int field) { return reinterpret_cast<std::uint8_t*>(message.AddColumn(field, count)); };
   BudgetAnswers answers;
@@ -139,7 +139,7 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
   if (!plan.ok()) return plan.status();
   const absl::StatusOr<BudgetOptions> options = ReadBudgetOptions(request.options());
   if (!options.ok()) return options.status();
-  const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
+  const absl::StatusOr<BudgetSelection> selection = ReadBudgetQuantities(request);
   if (!selection.ok()) return selection.status();
   const ServedTable& source = *plan->source;
   absl::StatusOr<BudgetPulses> pulses = ReadPulses(request, source.table.schema());

@@ -15,7 +15,8 @@ namespace albtpu::server {
 namespace {
 
 // From a sea on an idle machine, some milliseconds, to one on a busy machine.
-const prometheus::Histogram::BucketBoundaries kSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3, 0.1, 0.25, 0.5, 1, 2.5};
+const prometheus::Histogram::BucketBoundaries kCompileSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3,
+                                                                 0.1,    0.25, 0.5,   1,     2.5};
 
 }  // namespace
 
@@ -38,7 +39,7 @@ SeaMetrics::SeaMetrics(prometheus::Registry& registry) {
                   .Name("albtpu_sea_compile_seconds")
                   .Help("Time to compute the table of a sea, without waiting.")
                   .Register(registry)
-                  .Add({}, kSeconds);
+                  .Add({}, kCompileSeconds);
   tables_ = &prometheus::BuildGauge()
                  .Name("albtpu_sea_tables")
                  .Help("Tables of seas that are kept.")
