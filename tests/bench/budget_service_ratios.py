@@ -4,33 +4,21 @@ Usage: budget_service_ratios.py BUILD_FOLDER [--repetitions N] [--seconds S]
 Both run in turn, repeatedly, with client and server on this machine. Figures are medians.
 """
 
-import argparse
-import pathlib
-import statistics
-import subprocess
-
-from ratios import compiler, processor
-from service_ratios import TABLE, server
+import bench
+from service_ratios import Peers, median
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--repetitions", type=int, default=7)
-    parser.add_argument("--seconds", type=float, default=2)
-    arguments = parser.parse_args()
-    program = arguments.build / "tests" / "bench" / "budget_service_bench"
-    ours = [arguments.build / "bin" / "albtpu-serve", "--tables", TABLE.parent, "--listen", "127.0.0.1:0"]
-    rates = {"budget": [], "raw": []}
-    with server(ours, r"ready on (\S+),") as service, server([program, "serve-raw", TABLE], r"^(\d+)$") as raw:
+    arguments = bench.parser(__doc__, repetitions=7, seconds=2.0).parse_args()
+    runs = {"budget": [], "raw-budget": []}
+    with Peers(arguments, "serve-raw-budget") as peers:
         for _ in range(arguments.repetitions):
-            for peer, (_, address) in (("budget", service), ("raw", raw)):
-                command = [program, peer, TABLE, address, str(arguments.seconds)]
-                rates[peer].append(float(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout))
-    budget, raw = (statistics.median(rates[peer]) for peer in ("budget", "raw"))
-    print(f"{processor()}, shared by client and server; {compiler(arguments.build)}.\n")
-    print("| `QueryBudget`, 65 536 a message | raw TCP | ratio |\n|---:|---:|---:|")
-    print(f"| {budget / 1e6:.3g} M/s | {raw / 1e6:.3g} M/s | {budget / raw:.2f} |")
+            runs["budget"].append(peers.run("budget"))
+            runs["raw-budget"].append(peers.run("raw-budget", callers=2))  # Which keep two cores busy.
+    budget, raw = (median(runs[peer], "pulses_per_second") for peer in runs)
+    print(f"{bench.processor()}, shared by client and server; {bench.compiler(arguments.build)}.\n")
+    bench.print_table(("`QueryBudget`, 65 536 a message", "raw TCP", "ratio"),
+                      [(f"{budget / 1e6:.3g} M/s", f"{raw / 1e6:.3g} M/s", f"{budget / raw:.2f}")], words=0)
 
 
 if __name__ == "__main__":

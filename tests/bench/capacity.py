@@ -14,6 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import bench
+
 SECONDS_A_YEAR = 365.25 * 86400
 SURVEYS = 20_000  # Simulated for each load.
 MOST_SLOWDOWN = 2.0  # At the 99th percentile: users notice longer waits.
@@ -123,9 +125,8 @@ def main():
     service = Service()
     capacity, bound = service.capacity()
     print(f"A replica answers {capacity / 1e6:.0f} M pulses a second at most, bounded by its {bound}.\n")
-    print("| | " + " | ".join(load.name for load in LOADS) + " |\n|---|" + "---:|" * len(LOADS))
-    for cells in zip(*(columns(load, service) for load in LOADS)):
-        print(f"| {cells[0][0]} | " + " | ".join(text for _, text in cells) + " |")
+    cells = zip(*(columns(load, service) for load in LOADS))
+    bench.print_table(("", *(load.name for load in LOADS)), ((of[0][0], *(text for _, text in of)) for of in cells))
 
 
 if __name__ == "__main__":

@@ -8,63 +8,29 @@ Prints a Markdown table of medians: of processor time on one core, of elapsed ti
 The peers need node and npm.
 """
 
-import argparse
-import json
 import pathlib
 import statistics
-import struct
-import subprocess
 import sys
 import tempfile
 
-import numpy as np
-
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests" / "formats" / "laz"))
-import independent_decoders  # noqa: E402
+import bench
+import independent_decoders
 
 ROUNDS = 3  # In which the programs take turns.
 
 
-def repeat(source, target, points):
-    """Repeats the records of a LAS file until there are `points` of them: each time 100 000 steps east, a day later."""
-    data = source.read_bytes()
-    offset, = struct.unpack_from("<I", data, 96)
-    point_format, length, count = struct.unpack_from("<BHI", data, 104)
-    if data[25] >= 4:
-        count, = struct.unpack_from("<Q", data, 247)
-    records = np.frombuffer(data, np.uint8, count * length, offset).reshape(count, length)
-    head = bytearray(data[:offset])
-    struct.pack_into("<I", head, 107, points if point_format < 6 else 0)
-    if data[25] >= 4:
-        struct.pack_into("<QIQ", head, 235, 0, 0, points)
-    time = 20 if point_format < 6 else 22
-    with open(target, "wb") as file:
-        file.write(head)
-        for i in range(-(-points // count)):
-            moved = records[:points - i * count].copy()
-            moved[:, :4].view("<i4")[:] += 100_000 * i
-            moved[:, time:time + 8].view("<f8")[:] += 86_400.0 * i
-            file.write(moved.tobytes())
-    return target
-
-
 def make_files(options, folder):
     """The LAZ files, by what they are."""
-    programs = options.build / "tests" / "formats"
     points = int(options.millions * 1e6)
-    subprocess.run([programs / "albtpu_simulated_survey", folder, "--seconds", "60"], check=True)
-    sources = {"simulated survey, format 6": folder / "flight.las"}
-    if (options.samples / "autzen_trim.laz").exists():
-        sources["sample of a survey, format 3"] = folder / "sample.las"
-        subprocess.run([programs / "albtpu_laz_copy", options.samples / "autzen_trim.laz", folder / "sample.las"],
-                       check=True)
+    sources = {"simulated survey, format 6": bench.simulated_survey(options.build, folder)}
+    sample = options.samples / "autzen_trim.laz"
+    if sample.exists():
+        sources["sample of a survey, format 3"] = bench.laz_copy(options.build, sample, folder / "sample.las")
     files = {}
     for i, (what, source) in enumerate(sources.items()):
-        las, laz = folder / "repeated.las", folder / f"{i}.laz"
-        subprocess.run([programs / "albtpu_laz_copy", repeat(source, las, points), laz], check=True)
+        las = bench.repeat(source, folder / "repeated.las", points, steps=100_000, seconds=86_400.0)
+        files[what] = bench.laz_copy(options.build, las, folder / f"{i}.laz")
         las.unlink()
-        files[what] = laz
     return files
 
 
@@ -73,8 +39,7 @@ def measure(options, folder, files, peers):
     rates = {what: {} for what in files}
     for _ in range(ROUNDS):
         for what, file in files.items():
-            command = [options.build / "tests" / "bench" / "albtpu_laz_rate", file, str(options.runs)]
-            ours = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+            ours = bench.run_json(options.build / "tests/bench/albtpu_laz_rate", file, options.runs)
             seconds = {name: ours[name] for name in ("decode", "encode", "decode_two", "encode_two")}
             for peer in peers:
                 answer, = independent_decoders.decode(options.decoders, peer, [file], folder, options.runs + 1)
@@ -86,15 +51,24 @@ def measure(options, folder, files, peers):
     return rates
 
 
+def rows(rates, peers):
+    for what, of_program in rates.items():
+        medians = {name: statistics.median(values) / 1e6 for name, values in of_program.items()}
+        for name, text in (("decode", "decoded"), ("encode", "encoded"), ("decode_two", "decoded on two cores"),
+                           ("encode_two", "encoded on two cores")):
+            cells = [f"{what}, {text}", f"{medians[name]:.2f}"]
+            for peer in peers:
+                rate, ratio = f"{medians[peer]:.2f}", f"{medians[name] / medians[peer]:.2f}"
+                cells += [rate, ratio] if name == "decode" else ["", ""]
+            yield cells
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--millions", type=float, default=2.2)
-    parser.add_argument("--runs", type=int, default=3)
-    parser.add_argument("--samples", type=pathlib.Path, default=SOURCE.parent / "shared" / "data" / "laz")
+    parser = bench.parser(__doc__, millions=2.2, runs=3)
+    parser.add_argument("--samples", type=pathlib.Path, default=bench.SOURCE.parent / "shared/data/laz")
     parser.add_argument("--decoders", type=pathlib.Path, help="folder that keeps the peers")
     options = parser.parse_args()
-    options.decoders = options.decoders or options.build / "tests" / "formats" / "laz_decoders"
+    options.decoders = options.decoders or options.build / "tests/formats/laz_decoders"
     peers = list(independent_decoders.PACKAGES)
     try:
         independent_decoders.fetch(options.decoders)
@@ -103,18 +77,8 @@ def main():
         peers = []
     with tempfile.TemporaryDirectory() as folder:
         rates = measure(options, pathlib.Path(folder), make_files(options, pathlib.Path(folder)), peers)
-    names = {"decode": "decoded", "encode": "encoded", "decode_two": "decoded on two cores",
-             "encode_two": "encoded on two cores"}
-    print("| million points/s | ours |" + "".join(f" {peer} | ratio |" for peer in peers))
-    print("|---|---:|" + "---:|---:|" * len(peers))
-    for what, of_program in rates.items():
-        medians = {name: statistics.median(values) / 1e6 for name, values in of_program.items()}
-        for name, text in names.items():
-            row = f"| {what}, {text} | {medians[name]:.2f} |"
-            for peer in peers:
-                ratio = medians[name] / medians[peer]
-                row += f" {medians[peer]:.2f} | {ratio:.2f} |" if name == "decode" else " | |"
-            print(row)
+    bench.print_table(("million points/s", "ours", *(head for peer in peers for head in (peer, "ratio"))),
+                      rows(rates, peers))
 
 
 if __name__ == "__main__":

@@ -9,19 +9,15 @@ the air side. Prints medians and ranges of interleaved repetitions, and the proc
 million pulses.
 """
 
-import os
-import pathlib
 import statistics
 import sys
 import time
 
-ROOT = pathlib.Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT / folder) for folder in ("clients/python/src", "tests/e2e")]
+import bench  # Finds the modules of other folders.
 
-import numpy as np  # noqa: E402
-
-import albtpu  # noqa: E402
-from serving import Server  # noqa: E402
+import albtpu
+import numpy as np
+from serving import Server
 
 SERVE, TABLES = sys.argv[1:3]
 PULSES = int(float(sys.argv[3] if len(sys.argv) > 3 else 10) * 1e6)
@@ -38,12 +34,6 @@ ERRORS = dict(position=(0.03, 0.03, 0.05), attitude=(0.0025, 0.0025, 0.005), bor
               index=0.001)
 
 
-def flight_line(count, dtype):
-    scan = np.abs(np.linspace(-20, 20, 5000))
-    return dict(wind_speed=5.0, footprint=0.5, incidence=np.resize(scan, count).astype(dtype),
-                depth=(5 + 4 * np.sin(np.linspace(0, 3000, count))).astype(dtype))
-
-
 def line_of_budget(count):
     i = np.arange(count)
     columns = dict(incidence=15 + 3 * np.sin(i / 500), azimuth=i * 0.9 % 360, depth=8 + 3 * np.sin(i / 2e4),
@@ -54,15 +44,10 @@ def line_of_budget(count):
                 sea_axis=70, aircraft={name: column.astype(np.float32) for name, column in attitude.items()})
 
 
-def processor_seconds(process):
-    fields = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def main():
     print(f"{PULSES / 1e6:g} million pulses      Mpulses/s (range)      s a million: client, server")
     with Server(SERVE, "--tables", TABLES) as server, albtpu.connect(server.address) as service:
-        cases = {f"{name}, {dtype}": (service.query, PULSES, dict(options, **flight_line(PULSES, dtype)))
+        cases = {f"{name}, {dtype}": (service.query, PULSES, dict(options, **bench.flight_line(PULSES, dtype)))
                  for name, options in CASES.items() for dtype in ("float32", "float64")}
         line = line_of_budget(2 * PULSES // 5)
         for name, quantities in (("THU and TVU", ("total_thu", "total_tvu")), ("all", albtpu.BUDGET_QUANTITIES)):
@@ -72,9 +57,9 @@ def main():
             cases[first][0](**cases[first][2])  # Not measured: the first call allocates memory.
         for _ in range(REPETITIONS):
             for name, (ask, _, query) in cases.items():
-                before = time.perf_counter(), time.process_time(), processor_seconds(server.process.pid)
+                before = time.perf_counter(), time.process_time(), bench.processor_seconds(server.process.pid)
                 ask(**query)
-                after = time.perf_counter(), time.process_time(), processor_seconds(server.process.pid)
+                after = time.perf_counter(), time.process_time(), bench.processor_seconds(server.process.pid)
                 measured[name].append([b - a for a, b in zip(before, after)])
     for name, runs in measured.items():
         wall, *processors = zip(*runs)

@@ -6,22 +6,16 @@ Clients and servers share this machine. Two replicas can be twice as fast as one
 for both and for the client, so a control group limits each replica to a share of a core. Needs root.
 """
 
-import argparse
 import contextlib
 import itertools
-import json
 import os
 import pathlib
 import statistics
-import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/e2e"))
+import bench
+from serving import Server
 
-from serving import Server  # noqa: E402
-
-TABLES = ROOT / "tables/shipped"
 PERIOD = 10_000  # us, short compared with the time of a message.
 
 
@@ -54,31 +48,27 @@ class ControlGroup:
 def replicas(serve, count, share):
     """The common address of `count` servers, and the process of the first."""
     with contextlib.ExitStack() as stack:
-        servers = [stack.enter_context(Server(serve, "--tables", TABLES)) for _ in range(count)]
+        servers = [stack.enter_context(Server(serve, "--tables", bench.TABLES)) for _ in range(count)]
         for group in [ControlGroup(server.process, share) for server in servers]:
             stack.callback(group.remove)  # After its server has ended.
         stack.push(lambda *_: [server.__exit__() for server in servers] and None)
         yield "ipv4:" + ",".join(server.address for server in servers), servers[0].process.pid
 
 
-def rate(bench, address, process):
+def rate(build, address, process):
     # Lines of 16 x 16384 pulses, one call for each: calls are short, so no replica idles long at the end of a run.
-    command = [bench, "stream", "--callers", "16", "--batch", "16384", "--table", TABLES / "survey.h5",
-               "--address", address, "--server-pid", str(process), "--seconds", "10"]
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["pulses_per_second"]
+    run = bench.run_json(build / "tests/bench/service_bench", "stream", "--callers", 16, "--batch", 16384, "--table",
+                         bench.TABLES / "survey.h5", "--address", address, "--server-pid", process, "--seconds", 10)
+    return run["pulses_per_second"]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--share", type=float, default=0.3, help="share of a core for each replica")
-    parser.add_argument("--repetitions", type=int, default=5)
-    arguments = parser.parse_args()
+    arguments = bench.parser(__doc__, share=0.3, repetitions=5).parse_args()  # Share of a core for each replica.
     rates = {1: [], 2: []}
     for _ in range(arguments.repetitions):
         for count in rates:
             with replicas(arguments.build / "bin/albtpu-serve", count, arguments.share) as (address, first):
-                rates[count].append(rate(arguments.build / "tests/bench/service_bench", address, first))
+                rates[count].append(rate(arguments.build, address, first))
     one, two = (statistics.median(rates[count]) / 1e6 for count in (1, 2))
     print(f"Replicas with {arguments.share} of a core each: one {one:.3g}, two {two:.3g} million pulses a second, "
           f"{two / one:.2f} times as many.")

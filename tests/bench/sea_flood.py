@@ -11,22 +11,18 @@ import argparse
 import collections
 import contextlib
 import itertools
-import pathlib
 import random
 import subprocess
 import sys
 import threading
 import time
 
+import bench
 import grpc
 import numpy as np
-
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(SOURCE / "clients/python/src"), str(SOURCE / "tests/e2e")]
-
-from albtpu.v1 import sea_pb2, uncertainty_service_pb2 as pb  # noqa: E402
-from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub  # noqa: E402
-from serving import Server, connect  # noqa: E402
+from albtpu.v1 import sea_pb2, uncertainty_service_pb2 as pb
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from serving import Server, connect
 
 ROUNDS, PAUSE = 4, 0.003  # s between queries: a caller that is no flood itself
 
@@ -109,11 +105,9 @@ def main():
                     rounds.append(stack.enter_context(flooding(options, server.address)))
                 for kind, count in (("short", 1), ("long", 65536)):
                     taken[kind, flooded] += latencies(stub, count, options.seconds)
-    print("| query | p50 | p99 | p50, flooded | p99, flooded |\n|---|---|---|---|---|")
-    for kind in ("short", "long"):
-        figures = [f"{1e3 * np.percentile(taken[kind, flooded], percent):.2f} ms"
-                   for flooded in (False, True) for percent in (50, 99)]
-        print(f"| {kind} | {' | '.join(figures)} |")
+    bench.print_table(("query", "p50", "p99", "p50, flooded", "p99, flooded"),
+                      ((kind, *(f"{1e3 * np.percentile(taken[kind, flooded], percent):.2f} ms"
+                                for flooded in (False, True) for percent in (50, 99))) for kind in ("short", "long")))
     print(f"\n{options.callers} callers: {dict(sum(rounds, collections.Counter()))}")
 
 

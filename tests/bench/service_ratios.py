@@ -5,18 +5,15 @@ All cases run in turn, repeatedly, with client and server on this machine. Figur
 by its fastest numbers of callers, messages in flight and connections.
 """
 
-import argparse
 import contextlib
-import json
-import pathlib
-import re
 import statistics
 import subprocess
 import sys
 
-from ratios import compiler, processor
+import bench
+import serving
 
-TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "shipped" / "survey.h5"
+TABLE = bench.TABLES / "survey.h5"
 # Numbers of callers, of messages in flight of each caller, and of connections that a caller uses in turn. A caller with
 # 24 messages on 24 connections stands for many clients. A plain connection and a stream have one connection each.
 CALLS = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (1, 4, 1), (2, 4, 1), (4, 4, 1), (1, 24, 24)]
@@ -26,32 +23,24 @@ BULK = [("raw", 10000, BARE), ("raw", 65536, BARE), ("columns", 10000, CALLS), (
         ("rows", 10000, CALLS), ("stream", 65536, STREAMS)]
 
 
-@contextlib.contextmanager
-def server(command, ready):
-    """Runs a server. Yields the process and the match of `ready` in the line that announces that it is ready."""
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    try:
-        line = process.stdout.readline()
-        found = re.search(ready, line)
-        if not found:
-            sys.exit(f"service_ratios.py: {command[0]}: {line}")
-        yield process, found[1]
-    finally:
-        process.terminate()
-        process.wait()
+class Peers(contextlib.ExitStack):
+    """The service and the same numbers over plain connections, `raw`, as servers; and the program that asks them."""
 
-
-class Peers:
-    def __init__(self, program, ours, raw, seconds):
-        self.program, self.ours, self.raw, self.seconds = program, ours, raw, seconds
+    def __init__(self, arguments, raw):
+        super().__init__()
+        self.seconds, self.program = arguments.seconds, arguments.build / "tests/bench/service_bench"
+        ours = self.enter_context(serving.Server(arguments.build / "bin/albtpu-serve", "--tables", bench.TABLES))
+        self.ours = ours.process, ours.address
+        process = self.enter_context(subprocess.Popen([self.program, raw, "--table", TABLE], stdout=subprocess.PIPE,
+                                                      text=True))
+        self.callback(process.terminate)
+        self.raw = process, process.stdout.readline().strip()
 
     def run(self, peer, **options):
         process, address = self.raw if peer.startswith("raw") else self.ours
-        command = [self.program, peer, "--table", TABLE, "--address", address, "--server-pid", str(process.pid),
-                   "--seconds", str(self.seconds)]
-        for name, value in options.items():
-            command += [f"--{name}", str(value)]
-        run = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+        options |= {"table": TABLE, "address": address, "server-pid": process.pid, "seconds": self.seconds}
+        run = bench.run_json(self.program, peer, *(word for name, value in options.items()
+                                                   for word in (f"--{name}", value)))
         run["cpu"] = run["client_cpu_per_pulse"] + run["server_cpu_per_pulse"]
         return run
 
@@ -107,23 +96,13 @@ def rows_of(runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--repetitions", type=int, default=7)
-    parser.add_argument("--seconds", type=float, default=1)
-    arguments = parser.parse_args()
-    program = arguments.build / "tests" / "bench" / "service_bench"
-    ours = [arguments.build / "bin" / "albtpu-serve", "--tables", TABLE.parent, "--listen",
-            "127.0.0.1:0"]
-    theirs = [program, "serve-raw", "--table", TABLE]
-    with server(ours, r"ready on (\S+),") as service, server(theirs, r"^(\d+)$") as raw:
-        runs = measure(Peers(program, service, raw, arguments.seconds), arguments.repetitions)
-    print(f"{processor()}, shared by client and server; {compiler(arguments.build)}. Table `survey`; 4 columns per "
-          "pulse in the request, 4 quantities in the response; processor time per pulse, client + server, in ns. In "
-          "brackets, for ours and for the peer: callers × messages in flight.\n")
-    print("| what | ours | peer | ratio | ours, CPU | peer, CPU | ratio |\n|---|---:|---:|---:|---:|---:|---:|")
-    for row in rows_of(runs):
-        print("| " + " | ".join(row) + " |")
+    arguments = bench.parser(__doc__, repetitions=7, seconds=1.0).parse_args()
+    with Peers(arguments, "serve-raw") as peers:
+        runs = measure(peers, arguments.repetitions)
+    print(f"{bench.processor()}, shared by client and server; {bench.compiler(arguments.build)}. Table `survey`; 4 "
+          "columns per pulse in the request, 4 quantities in the response; processor time per pulse, client + server, "
+          "in ns. In brackets, for ours and for the peer: callers × messages in flight.\n")
+    bench.print_table(("what", "ours", "peer", "ratio", "ours, CPU", "peer, CPU", "ratio"), rows_of(runs))
     alone, under_bulk = runs["rows", 1, "alone"], runs["rows", 1, "under bulk"]
     p50, p99 = median(alone, "latency", "p50"), median(under_bulk, "latency", "p99")
     print(f"\nA single pulse takes {p50 * 1e3:.2f} ms (median) on an idle server, and {p99 * 1e3:.2f} ms (99th "

@@ -5,46 +5,28 @@ Usage: sizing.py BUILD_FOLDER          prints a Markdown table of medians, withi
 Only the server's processor time is counted, so clients on the same machine do not matter.
 """
 
-import os
 import pathlib
 import shutil
 import statistics
-import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT / folder) for folder in ("clients/python/src", "tests/e2e")]
+import bench  # Finds the modules of other folders.
 
-import grpc  # noqa: E402
-import numpy as np  # noqa: E402
+import albtpu
+import grpc
+import numpy as np
+from albtpu.v1 import uncertainty_service_pb2 as wire
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from authority import Authority
+from serving import Server
 
-import albtpu  # noqa: E402
-from albtpu.v1 import uncertainty_service_pb2 as wire  # noqa: E402
-from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub  # noqa: E402
-from authority import Authority  # noqa: E402
-from serving import Server  # noqa: E402
-
-SERVE = pathlib.Path(sys.argv[1], "bin/albtpu-serve")
-TABLE = ROOT / "tables/shipped/survey.h5"
+SERVE = bench.parser(__doc__).parse_args().build / "bin/albtpu-serve"
+TABLE = bench.TABLES / "survey.h5"
 REPETITIONS, PULSES, CALLS, COPIES, CONNECTIONS = 5, 10_000_000, 5000, 9, 400
-TICKS = os.sysconf("SC_CLK_TCK")
 OWN_CONNECTION = (("grpc.enable_http_proxy", 0), ("grpc.use_local_subchannel_pool", 1))
 ONE_PULSE = wire.QueryPulsesRequest(pulses=[dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)])
 THU_TVU = ("thu", "tvu")
-
-
-def of_process(server, file):
-    return pathlib.Path(f"/proc/{server.process.pid}/{file}").read_text()
-
-
-def processor_seconds(server):
-    fields = of_process(server, "stat").rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / TICKS
-
-
-def resident_megabytes(server):
-    return int(of_process(server, "statm").split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
 
 
 def serve(tables, tls=()):
@@ -60,9 +42,7 @@ def serve(tables, tls=()):
 
 
 def flight_line(count):
-    scan = np.abs(np.linspace(-20, 20, 5000, dtype=np.float32))
-    return dict(wind_speed=5.0, footprint=0.5, azimuth=90.0, incidence=np.resize(scan, count),
-                depth=(5 + 4 * np.sin(np.linspace(0, 3000, count))).astype(np.float32))
+    return bench.flight_line(count) | {"azimuth": 90.0}
 
 
 def at_random(count):
@@ -79,69 +59,69 @@ def bytes_a_pulse(pulses, quantities, count=32768):
     return request.ByteSize() / count, quantities * 4 + 2
 
 
+def spent_by(server, ask):
+    """The median of the processor time that the server spends on `ask`."""
+    spent = []
+    for _ in range(REPETITIONS):
+        before = bench.processor_seconds(server.process.pid)
+        ask()
+        spent.append(bench.processor_seconds(server.process.pid) - before)
+    return statistics.median(spent)
+
+
 def columns(name, pulses, tls=(), trust=None, **options):
     server, _ = serve(1, tls)
     quantities = len(options.get("quantities", albtpu.QUANTITIES))
     with server, albtpu.connect(server.address, ca=trust) as service:
         service.query(**pulses, **options)
-        spent = []
-        for _ in range(REPETITIONS):
-            before = processor_seconds(server)
-            service.query(**pulses, **options)
-            spent.append(processor_seconds(server) - before)
+        spent = spent_by(server, lambda: service.query(**pulses, **options))
     there, back = bytes_a_pulse(pulses, quantities)
-    print(f"| {name} | {PULSES / statistics.median(spent) / 1e6:.0f} M pulses a second | {there:.0f} + {back} |")
+    return name, f"{PULSES / spent / 1e6:.0f} M pulses a second", f"{there:.0f} + {back}"
 
 
 def columns_by_tls(name, pulses):
     with tempfile.TemporaryDirectory() as folder:
         authority = Authority(folder, "authority")
         certificate, key = authority.issue("server")
-        columns(name, pulses, ("--tls-cert", certificate, "--tls-key", key), authority.certificate)
+        return columns(name, pulses, ("--tls-cert", certificate, "--tls-key", key), authority.certificate)
 
 
 def single_calls():
     server, _ = serve(1)
     with server, grpc.insecure_channel(server.address, OWN_CONNECTION) as channel:
         ask = UncertaintyServiceStub(channel).QueryPulses
-        spent = []
-        for _ in range(REPETITIONS):
-            before = processor_seconds(server)
-            for _ in range(CALLS):
-                ask(ONE_PULSE)
-            spent.append(processor_seconds(server) - before)
-    print(f"| `QueryPulses`, one pulse a call, one after the other | {CALLS / statistics.median(spent):.0f} calls a "
-          "second | |")
+        spent = spent_by(server, lambda: [ask(ONE_PULSE) for _ in range(CALLS)])
+    return "`QueryPulses`, one pulse a call, one after the other", f"{CALLS / spent:.0f} calls a second", ""
 
 
-def memory_and_start():
+def queries():
+    yield columns("`StreamColumns`, a flight line, THU and TVU", flight_line(PULSES), quantities=THU_TVU)
+    yield columns("the same, all six quantities", flight_line(PULSES))
+    yield columns_by_tls("the same, by TLS", flight_line(PULSES))
+    yield columns("all six at random in the table", at_random(PULSES))
+    yield single_calls()
+
+
+def print_memory_and_start():
     one, seconds = serve(1)
     many, seconds_of_many = serve(COPIES)
     with one, many:
-        alone, together = resident_megabytes(one), resident_megabytes(many)
+        alone, together = (bench.memory(server.process.pid) / 1e6 for server in (one, many))
         channels = [grpc.insecure_channel(one.address, OWN_CONNECTION) for _ in range(CONNECTIONS)]
         for channel in channels:
             UncertaintyServiceStub(channel).QueryPulses(ONE_PULSE)
-        connected = resident_megabytes(one)
+        connected = bench.memory(one.process.pid) / 1e6
         for channel in channels:
             channel.close()
-    print(f"\n| memory, with `survey` alone ({TABLE.stat().st_size / 1e6:.1f} MB of file) | {alone:.0f} MB |")
-    print("|---|---:|")
-    print(f"| for each table of that size more | {(together - alone) / (COPIES - 1):.0f} MB |")
-    print(f"| for each connection that asks now and then | {(connected - alone) / CONNECTIONS * 1000:.0f} kB |")
-    print(f"| until it is ready | {seconds:.2f} s |")
-    print(f"| for each table of that size more | {(seconds_of_many - seconds) / (COPIES - 1):.2f} s |")
-
-
-def main():
-    print("| asked | for a second of the server's processor | bytes a pulse, there + back |\n|---|---:|---:|")
-    columns("`StreamColumns`, a flight line, THU and TVU", flight_line(PULSES), quantities=THU_TVU)
-    columns("the same, all six quantities", flight_line(PULSES))
-    columns_by_tls("the same, by TLS", flight_line(PULSES))
-    columns("all six at random in the table", at_random(PULSES))
-    single_calls()
-    memory_and_start()
+    of_one = f"memory, with `survey` alone ({TABLE.stat().st_size / 1e6:.1f} MB of file)"
+    bench.print_table((of_one, f"{alone:.0f} MB"), [
+        ("for each table of that size more", f"{(together - alone) / (COPIES - 1):.0f} MB"),
+        ("for each connection that asks now and then", f"{(connected - alone) / CONNECTIONS * 1000:.0f} kB"),
+        ("until it is ready", f"{seconds:.2f} s"),
+        ("for each table of that size more", f"{(seconds_of_many - seconds) / (COPIES - 1):.2f} s")])
 
 
 if __name__ == "__main__":
-    main()
+    bench.print_table(("asked", "for a second of the server's processor", "bytes a pulse, there + back"), queries())
+    print()
+    print_memory_and_start()

@@ -33,108 +33,77 @@ def odd(i):
     return 2 * i + 1
 
 
-def resets(i):
-    """Calls that are cancelled at once."""
-    return http2.call(odd(i), b"StreamColumns") + http2.frame(http2.RST_STREAM, stream=odd(i),
-                                                              payload=struct.pack(">I", 8))
+def reset(i):
+    return http2.frame(http2.RST_STREAM, stream=odd(i), payload=struct.pack(">I", 8))
 
 
-def short_resets(i):
-    """The same in a seventh of the bytes: as many calls as a server can be made to begin."""
-    return http2.short_call(odd(i), b"QueryPulses") + http2.frame(http2.RST_STREAM, stream=odd(i),
-                                                                 payload=struct.pack(">I", 8))
+def after(first, further):
+    """A flood that begins with one frame, and goes on with others."""
+    return lambda i: further(i) if i else first
 
 
-def unacknowledged(i):
-    """Calls that do not end, from a client that never acknowledges the limit of concurrent calls."""
-    return http2.short_call(odd(i), b"QueryColumns")
-
-
-def calls(i):
-    """Many more calls than a connection may have; their messages do not end."""
-    return http2.call(odd(i), b"QueryColumns") + http2.frame(http2.DATA, stream=odd(i), payload=b"\0\0\0\xff\xff")
-
-
-def unread_answers(i):
-    """Calls whose answers are never read: the window is closed."""
-    if i == 0:
-        return http2.settings(_4=0)
-    return http2.call(odd(i), b"ListTables") + http2.message(odd(i), b"", http2.END_STREAM)
-
-
-def continuations(i):
+def of_header(first, further):
     """A header block without end."""
-    block = http2.field(b"x%d" % i, b"y" * 1000)
-    if i == 0:
-        return http2.frame(http2.HEADERS, 0, 1, http2.header_block(b"QueryColumns") + block)
-    return http2.frame(http2.CONTINUATION, 0, 1, block)
+    return after(http2.frame(http2.HEADERS, 0, 1, first), lambda i: http2.frame(http2.CONTINUATION, 0, 1, further))
 
 
-def empty_continuations(i):
-    return http2.frame(http2.CONTINUATION, 0, 1) if i else http2.frame(http2.HEADERS, 0, 1)
+def of_stream(frame):
+    """The same frame again and again after a call."""
+    return after(http2.call(1, b"StreamColumns"), lambda i: frame)
 
 
-def long_number(i):
-    """A length in a header block that does not end (RFC 7541, 5.1)."""
-    return http2.frame(http2.CONTINUATION, 0, 1, b"\x80" * 16384) if i else http2.frame(
-        http2.HEADERS, 0, 1, b"\0\x7f" + b"\x80" * 100)
+def line(i):
+    return http2.field(b"x%d" % i, b"y" * 1000)
 
 
-def promised_header(i):
-    """A header field of two gigabytes that is really sent."""
-    return http2.frame(http2.CONTINUATION, 0, 1, b"x" * 16384) if i else http2.frame(
-        http2.HEADERS, 0, 1, b"\0\x7f\x80\xff\xff\xff\x07")
-
-
-def settings(i):
-    return http2.settings(_1=i, _3=i)
-
-
-def huge_settings(i):
-    return http2.frame(http2.SETTINGS, payload=struct.pack(">HI", 1 + i % 6, 2**32 - 1 - i) * 2730)
-
-
-def pings(i):
-    return http2.frame(http2.PING, payload=struct.pack(">Q", i))
-
-
-def windows(i):
-    """Window updates that overflow."""
-    return http2.window_update(0, LARGEST)
-
-
-def windows_of_a_stream(i):
-    return http2.window_update(1, LARGEST) if i else http2.call(1, b"StreamColumns")
-
-
-def empty_data(i):
-    return http2.frame(http2.DATA, 0, 1) if i else http2.call(1, b"StreamColumns")
-
-
-def priorities(i):
-    return http2.frame(http2.PRIORITY, stream=odd(i), payload=struct.pack(">IB", 1 if i else 3, i % 256))
-
-
-def unknown_frames(i):
-    return http2.frame(200, 255, odd(i), b"x" * 1000)
-
-
-MANY_CALLS = (resets, short_resets, unacknowledged)
-FLOODS = (*MANY_CALLS, calls, unread_answers, continuations, empty_continuations, long_number, promised_header,
-          settings, huge_settings, pings, windows, windows_of_a_stream, empty_data, priorities, unknown_frames)
+# What a client sends as its piece `i`, by name. Of the first, many more than of the others.
+MANY_CALLS = {
+    # Calls that are cancelled at once.
+    "resets": lambda i: http2.call(odd(i), b"StreamColumns") + reset(i),
+    # The same in a seventh of the bytes: as many calls as a server can be made to begin.
+    "short_resets": lambda i: http2.short_call(odd(i), b"QueryPulses") + reset(i),
+    # Calls that do not end, from a client that never acknowledges the limit of concurrent calls.
+    "unacknowledged": lambda i: http2.short_call(odd(i), b"QueryColumns"),
+}
+FLOODS = MANY_CALLS | {
+    # Many more calls than a connection may have; their messages do not end.
+    "calls": lambda i: (http2.call(odd(i), b"QueryColumns")
+                        + http2.frame(http2.DATA, stream=odd(i), payload=b"\0\0\0\xff\xff")),
+    # Calls whose answers are never read: the window is closed.
+    "unread_answers": after(http2.settings(_4=0), lambda i: (http2.call(odd(i), b"ListTables")
+                                                             + http2.message(odd(i), b"", http2.END_STREAM))),
+    "continuations": after(http2.frame(http2.HEADERS, 0, 1, http2.header_block(b"QueryColumns") + line(0)),
+                           lambda i: http2.frame(http2.CONTINUATION, 0, 1, line(i))),
+    "empty_continuations": of_header(b"", b""),
+    # A length in a header block that does not end (RFC 7541, 5.1).
+    "long_number": of_header(b"\0\x7f" + b"\x80" * 100, b"\x80" * 16384),
+    # A header field of two gigabytes that is really sent.
+    "promised_header": of_header(b"\0\x7f\x80\xff\xff\xff\x07", b"x" * 16384),
+    "settings": lambda i: http2.settings(_1=i, _3=i),
+    "huge_settings": lambda i: http2.frame(http2.SETTINGS,
+                                           payload=struct.pack(">HI", 1 + i % 6, 2**32 - 1 - i) * 2730),
+    "pings": lambda i: http2.frame(http2.PING, payload=struct.pack(">Q", i)),
+    # Window updates that overflow.
+    "windows": lambda i: http2.window_update(0, LARGEST),
+    "windows_of_a_stream": of_stream(http2.window_update(1, LARGEST)),
+    "empty_data": of_stream(http2.frame(http2.DATA, 0, 1)),
+    "priorities": lambda i: http2.frame(http2.PRIORITY, stream=odd(i),
+                                        payload=struct.pack(">IB", 1 if i else 3, i % 256)),
+    "unknown_frames": lambda i: http2.frame(200, 255, odd(i), b"x" * 1000),
+}
 
 
 def pour(address, flood):
     """Sends a flood and reads nothing, until all is sent or the server ends it; returns the bytes sent."""
     sent, i = 0, 0
     with contextlib.closing(http2.Connection(address)) as caller:
-        if flood is not unacknowledged:
+        if flood != "unacknowledged":
             caller.finish_handshake()
         connection = caller.socket
         connection.settimeout(10)  # A server that stops reading has reached its limit.
         try:
             while sent < (MOST_CALLS if flood in MANY_CALLS else MOST) and (flood in MANY_CALLS or i < 200_000):
-                piece = b"".join(flood(i + more) for more in range(500))
+                piece = b"".join(FLOODS[flood](i + more) for more in range(500))
                 i += 500
                 connection.sendall(piece)
                 sent += len(piece)
@@ -146,16 +115,16 @@ def pour(address, flood):
 class Floods(faults.FaultTest):
     def test_neither_exhaust_memory_nor_stop_the_server(self):
         for flood in FLOODS:
-            with self.subTest(flood.__name__):
+            with self.subTest(flood):
                 server = self.serve("--metrics", "127.0.0.1:0")
                 before = faults.memory(server.process)
                 floods = (CONNECTIONS if flood in MANY_CALLS else 1) * [flood]
                 with faults.UnaryWitness(self, server.address), concurrent.futures.ThreadPoolExecutor() as pool:
                     sent = sum(pool.map(pour, len(floods) * [server.address], floods))
                 grown = faults.memory(server.process, "VmHWM") - before
-                print(f"{flood.__name__}: {sent >> 10} KiB sent, memory grew by {grown >> 10} KiB", flush=True)
+                print(f"{flood}: {sent >> 10} KiB sent, memory grew by {grown >> 10} KiB", flush=True)
                 self.assertLess(grown, GROWTH)
-                if flood is unacknowledged:  # Its calls end only with their connections.
+                if flood == "unacknowledged":  # Its calls end only with their connections.
                     ended = "albtpu_ended_connections_total"
                     faults.wait_until(lambda: self.metric(server, ended) == CONNECTIONS, "all connections are ended")
                 with albtpu.connect(server.address, patience=serving.PATIENCE) as service:

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -20,13 +21,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/fuzz_target.h"
-
+// What libFuzzer takes of a target, and what it gives to one, in fuzz_target.cc.
 extern "C" {
-// Defined by targets that have a mutator; for others, bytes are mutated.
-__attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                                          unsigned int seed);
-// Such a mutator expects this function from libFuzzer.
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned int seed);
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 }
 
@@ -91,7 +89,7 @@ class Mutator {
 };
 
 std::optional<Mutator> mutator;
-std::string input;  // The input that the target is running on.
+std::vector<std::uint8_t> input;  // That the target is running on.
 
 // A signal handler: calls only async-signal-safe functions.
 extern "C" void LeaveInput(int signal) {
@@ -115,14 +113,13 @@ std::vector<std::string> ReadInputs(const std::vector<std::filesystem::path>& fo
   return inputs;
 }
 
-void Try(std::string bytes) {
-  input = std::move(bytes);
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+void Try(const std::string& bytes) {
+  input = std::vector<std::uint8_t>(bytes.begin(), bytes.end());  // Of its size: sanitizers detect reads beyond it.
+  LLVMFuzzerTestOneInput(input.data(), input.size());
 }
 
 std::string NewInput(std::size_t most) {
   std::string bytes = mutator->AnyInput();
-  if (LLVMFuzzerCustomMutator == nullptr) return mutator->Mutate(std::move(bytes), most);
   const std::size_t size = bytes.size();
   bytes.resize(most);
   bytes.resize(LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most, mutator->Number()));

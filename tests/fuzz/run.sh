@@ -39,7 +39,7 @@ cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz -j "$(nproc)" --target albtpu_fuzz_seeds "${targets[@]/%/_fuzz}" >build/fuzz/build.log ||
   { tail -n 50 build/fuzz/build.log >&2; exit 1; }
 folder=build/fuzz/tests/fuzz
-"$folder/albtpu_fuzz_seeds" build/fuzz/seeds
+"$folder/albtpu_fuzz_seeds" tests/fuzz/seeds build/fuzz/seeds
 
 # Leaks are searched once, when a target ends: libraries keep memory from input to input (HDF5 its free lists, gRPC
 # its slices), which looks like a leak after one input and would make libFuzzer search all memory each time. Short

@@ -2,13 +2,13 @@
 // FORMAT.md. A sealed file with one bit changed is rejected.
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "tables/file/seal.h"
 #include "tests/fuzz/fuzz_target.h"
 
+namespace albtpu::fuzz {
 namespace {
-
-using namespace albtpu;
 
 template <typename Integer>
 Integer NumberAt(const std::string& file, std::size_t offset) {
@@ -25,21 +25,26 @@ bool IsSealed(const std::string& file) {
   return false;
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string file(reinterpret_cast<const char*>(data), size);
+void SealTarget(std::string_view input) {
+  std::string file(input);
   if (IsSealed(file)) {
-    ALBTPU_MUST(size >= seal::kSize && file.substr(0, seal::kMagic.size()) == seal::kMagic);
+    ALBTPU_MUST(input.size() >= seal::kSize && file.substr(0, seal::kMagic.size()) == seal::kMagic);
     ALBTPU_MUST(NumberAt<std::uint32_t>(file, seal::kVersionOffset) == seal::kFormatVersion);
-    ALBTPU_MUST(NumberAt<std::uint64_t>(file, seal::kLengthOffset) == size);
+    ALBTPU_MUST(NumberAt<std::uint64_t>(file, seal::kLengthOffset) == input.size());
   }
-  if (size < seal::kSize) return 0;
+  if (input.size() < seal::kSize) return;
   // The input itself chooses the bit, so that it can be any of them and the same in every run.
-  const std::size_t bit = (NumberAt<std::uint64_t>(file, seal::kDigestOffset) ^ data[size - 1]) % (8 * size);
+  const std::size_t bit =
+      (NumberAt<std::uint64_t>(file, seal::kDigestOffset) ^ static_cast<std::uint8_t>(input.back())) %
+      (8 * input.size());
   seal::Apply(file);
   ALBTPU_MUST(IsSealed(file));
   file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8));
   ALBTPU_MUST(!IsSealed(file));
-  return 0;
 }
+
+}  // namespace
+
+const std::vector<Target> kTargets = {{"seal", SealTarget}};
+
+}  // namespace albtpu::fuzz

@@ -1,15 +1,15 @@
-// albtpu_fuzz_seeds FOLDER
+// albtpu_fuzz_seeds WRITTEN FOLDER
 //
-// Writes FOLDER/TARGET/NUMBER, the inputs with which fuzzing of each target begins. The builders of the tests make
-// them, so they follow the formats.
-#include <cmath>
+// Writes FOLDER/TARGET/NUMBER, the inputs with which fuzzing of each target begins. Those of foreign formats are the
+// files WRITTEN/TARGET/NAME; those of our own are made by the builders of the tests, so they follow the formats.
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
@@ -17,111 +17,12 @@
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
 #include "tables/water/water_schema.h"
-#include "tests/formats/las/las_builder.h"
-#include "tests/formats/trajectories/flight_text.h"
-#include "tests/fuzz/laz/laz_seeds.h"
-#include "tests/fuzz/sea/sea_seeds.h"
 #include "tests/service/known_seas.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace {
 
 using namespace albtpu;
-
-std::vector<std::string> CampaignSeeds() {
-  const std::string axes = R"([axes]
-wind_speed = [3, 6]
-fetch = [1000, inf]
-incidence = [0, 20]
-azimuth = [0, 90]
-footprint = [0.1, 1]
-depth = [0, 10]
-)";
-  return {"id = \"small\"\nversion = \"1\"\ntitle = \"Two seas\"\nseed = 7\n" + axes + "[effort]\nrealizations = 50\n",
-          R"(id = "w"
-kind = "water_column"
-version = "1"
-title = "Water"
-[axes]
-backscatter_fraction = [0.01, 0.03]
-scattering_over_absorption = [2, 6]
-incidence = [0, 15]
-optical_depth = [0.1, 1.5]
-field_of_view = [0.1, 3]
-pulse_length = [0.01, 0.3]
-[effort]
-photons = 4000
-pairs_per_photon = 2
-)",
-          "id = \"a\"\nversion = \"1\"\ntitle = \"b\"\n" + axes + R"([beam]
-profile = "gaussian"
-source_height = 4.0
-[water]
-refractive_index = 1.34
-[sea]
-spectrum = "elfouhaily"
-corrected_above = 30
-[effort]
-realizations = 100
-most_realizations = 1000
-relative_error = 0.02
-estimator = "plain"
-rays = 1000
-[interpolation]
-nodes = "balanced"
-checked_pulses = 4
-)",
-          "id = \"s\"\nversion = \"1\"\ntitle = \"t\"\n" + axes + "[sea]\nspreading = 2\n",
-          "axes.wind_speed = [1, 2, nan]\naxes.fetch = [-inf, 1e400]\nid = 'x'\n"};
-}
-
-std::vector<std::string> CsvSeeds() {
-  const std::string header = "wind_speed,fetch,incidence,azimuth,footprint,depth";
-  return {header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
-          "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
-          "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
-          header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
-          "incidence,depth,beam_azimuth,wind_from,altitude,divergence\n12,8,100,250,400,1.5\n12,8,,250,1e39,-1\n",
-          "incidence,depth,altitude,beam_azimuth,wind_from,azimuth\n12,8,400,1,2,3\n",
-          "a;b;c\n1;2;3\n",
-          "incidence,footprint,depth,thu\n1,2,3,4\n",
-          "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
-}
-
-std::vector<std::string> LasSeeds() {
-  std::vector<std::string> seeds;
-  for (const auto& [version, format] : {std::pair(2, 0), {2, 3}, {3, 4}, {4, 1}, {4, 6}, {4, 10}}) {
-    for (const std::size_t extra : {0, 6}) {
-      testing::LasSpec spec;
-      spec.version_minor = version;
-      spec.point_format = format;
-      spec.extra_bytes = extra;
-      spec.points = {{1, 2, -5000, 26, 12}, {3, 4, 100, 2, -3}, {5, 6, -800, 30, 0}};
-      if (extra > 0) {
-        const std::string geo_keys("\1\0\1\0\0\0\1\0\x04\x0c\0\0\1\0\x29\x23", 16);  // 3076: metre
-        spec.vlrs = {{"LASF_Projection", 34735, geo_keys},
-                     {"LASF_Spec", 4, testing::ExtraBytesEntry(4, 0, "echo width")},
-                     {"someone", 3, "last"}};
-        spec.header_tail = "more";
-        spec.gap = "between";
-        if (version >= 3) spec.waveform_packet = "samples";
-        if (version >= 4) spec.evlrs = {{"someone", 7, "behind"}, {"LASF_Projection", 2112, "UNIT[\"m\",1]"}};
-      }
-      seeds.push_back(BuildLas(spec));
-    }
-  }
-  testing::LasSpec feet;
-  feet.points = {{1, 2, -5000, 26, 12}};
-  feet.vlrs = {{"LASF_Projection", 2112, "PROJCS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
-  seeds.push_back(BuildLas(feet));
-  return seeds;
-}
-
-std::vector<std::string> LasHeadSeeds() {
-  std::vector<std::string> seeds = LasSeeds();
-  for (std::string& file : fuzz::LazFileSeeds()) seeds.push_back(std::move(file));
-  return seeds;
-}
 
 std::string Column(const std::vector<float>& numbers) {
   return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
@@ -226,103 +127,48 @@ std::vector<std::string> SealSeeds() {
   return seeds;
 }
 
-// Short flights, so that inputs are: 0.1 s is what the check of velocities needs.
-testing::FlightSpec ShortFlight() {
-  testing::FlightSpec spec;
-  spec.lines = 7;
-  spec.decimals = 7;
-  return spec;
-}
-
-std::vector<std::string> SbetSeeds() {
-  std::vector<std::string> seeds;
-  testing::FlightSpec spec = ShortFlight();
-  seeds.push_back(testing::SbetBytes(spec));
-  seeds.push_back(seeds.back().substr(0, 300));
-  spec.start = 604799.95;
-  spec.change = [](testing::FlightLine& line) { line.time = std::fmod(line.time, 604800); };
-  seeds.push_back(testing::SbetBytes(spec));
-  spec.change = [](testing::FlightLine& line) { std::swap(line.latitude, line.longitude); };
-  seeds.push_back(testing::SbetBytes(spec));
-  spec.change = [](testing::FlightLine& line) { line.time = 2 * line.time - 313200; };
-  spec.speed = 100;
-  seeds.push_back(testing::SbetBytes(spec));
-  return seeds;
-}
-
-std::vector<std::string> SmrmsgSeeds() {
-  return {testing::SmrmsgBytes(100, 1), testing::SmrmsgBytes(313200, 6),
-          testing::SmrmsgBytes(604798, 3) + testing::SmrmsgBytes(0, 3),
-          testing::SmrmsgBytes(5, 2) + testing::SmrmsgBytes(90, 2), testing::SmrmsgBytes(5, 2).substr(0, 150)};
-}
-
-std::vector<std::string> AsciiTrajectorySeeds() {
-  std::vector<std::string> seeds;
-  testing::FlightSpec spec = ShortFlight();
-  seeds.push_back(testing::FlightText(spec));
-  spec.separator = ",";
-  spec.header = "time,lon,lat,X,Y,Z,roll,pitch,heading,stdX,stdY,stdZ,stdroll,stdpitch,stdheading\n";
-  seeds.push_back(testing::FlightText(spec));
-  spec = ShortFlight();
-  spec.separator = "\t";
-  spec.columns = 20;
-  spec.header =
-      " TIME, DISTANCE, EASTING\n\n(time in Sec, distance in Meters, position in Meters, lat, long in "
-      "Degrees, "
-      "orientation angles and SD in Degrees, velocity in Meter/Sec, position SD in Meters)\n";
-  seeds.push_back(testing::FlightText(spec));
-  spec = ShortFlight();
-  spec.start = 604799.95;
-  spec.change = [](testing::FlightLine& line) { line.time = std::fmod(line.time, 604800); };
-  seeds.push_back(testing::FlightText(spec));
-  spec.change = [](testing::FlightLine& line) { std::swap(line.latitude, line.longitude); };
-  seeds.push_back(testing::FlightText(spec));
-  seeds.push_back("1 2 3\n");
-  return seeds;
-}
-
-std::vector<std::string> WaterLevelSeeds() {
-  return {"time,water_level\n2016-05-11T14:00:00Z,-23.02\n2016-05-11T14:06:00Z,-23.05\n2016-05-11 18:00Z,-23\n",
-          "time,water_level\n313200,1\n313560.5,1.5\n400000,2\n",
-          "\xEF\xBB\xBFstation,\"water_level\", time \r\nA,1,604500\r\n\r\nB,2e0,300\r\n",
-          "time,water_level\n2016-12-31T23:59:59.5Z,1\n2017-01-01T00:00:00Z,2\n",
-          "time,water_level\n1,x\n",
-          "time,level\n"};
-}
-
 std::vector<std::string> SeaStateSeeds() {
   std::vector<std::string> seeds;
   for (const KnownSea& sea : testing::SeasOfAllForms()) seeds.push_back(client::ToWire(sea).SerializeAsString());
   return seeds;
 }
 
+std::vector<std::string> FilesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    files.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  return files;
+}
+
+std::map<std::string, std::vector<std::string>> AllSeeds(const std::filesystem::path& written) {
+  std::map<std::string, std::vector<std::string>> seeds = {{"budget", BudgetSeeds()},
+                                                           {"columns", ColumnSeeds()},
+                                                           {"sea_state", SeaStateSeeds()},
+                                                           {"seal", SealSeeds()},
+                                                           {"table", TableSeeds()}};
+  for (const auto& entry : std::filesystem::directory_iterator(written))
+    seeds[entry.path().filename().string()] = FilesIn(entry.path());
+  const auto add = [&](const char* target, std::initializer_list<const char*> others) {
+    for (const char* const other : others)
+      seeds[target].insert(seeds[target].end(), seeds[other].begin(), seeds[other].end());
+  };
+  add("csv_file", {"csv"});
+  add("las_head", {"las", "laz_file"});
+  add("sea_text", {"ndbc_bulk", "ndbc_spectra", "sea_csv", "swan_spectra", "ww3_points"});
+  return seeds;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "albtpu_fuzz_seeds: no folder; give the folder to write to\n";
+  if (argc != 3) {
+    std::cerr << "albtpu_fuzz_seeds: no folders; give those to read from and to write to\n";
     return 2;
   }
-  std::map<std::string, std::vector<std::string>> seeds = {{"budget", BudgetSeeds()},
-                                                           {"campaign", CampaignSeeds()},
-                                                           {"columns", ColumnSeeds()},
-                                                           {"csv", CsvSeeds()},
-                                                           {"csv_file", CsvSeeds()},
-                                                           {"las", LasSeeds()},
-                                                           {"las_head", LasHeadSeeds()},
-                                                           {"laz_chunk", fuzz::LazChunkSeeds()},
-                                                           {"laz_file", fuzz::LazFileSeeds()},
-                                                           {"laz_records", fuzz::LazRecordsSeeds()},
-                                                           {"sea_state", SeaStateSeeds()},
-                                                           {"seal", SealSeeds()},
-                                                           {"table", TableSeeds()},
-                                                           {"sbet", SbetSeeds()},
-                                                           {"smrmsg", SmrmsgSeeds()},
-                                                           {"ascii_trajectory", AsciiTrajectorySeeds()},
-                                                           {"water_level", WaterLevelSeeds()}};
-  seeds.merge(fuzz::SeaSeeds());
-  for (const auto& [target, inputs] : seeds) {
-    const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
+  for (const auto& [target, inputs] : AllSeeds(argv[1])) {
+    const std::filesystem::path folder = std::filesystem::path(argv[2]) / target;
     std::filesystem::create_directories(folder);
     for (std::size_t i = 0; i < inputs.size(); ++i)
       std::ofstream(folder / std::to_string(i), std::ios::binary) << inputs[i];

@@ -8,9 +8,8 @@ import pathlib
 import statistics
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-import house  # noqa: E402
-import shape  # noqa: E402
+import house
+import shape
 
 SLIVER = 30  # lines at most
 SHOWN = 5

@@ -2,6 +2,7 @@
 
 import collections
 import functools
+import graphlib
 import os
 import pathlib
 import re
@@ -112,46 +113,23 @@ def component_of(path):
     return re.sub(r"(-inl)?\.(h|cc)$", "", path)
 
 
-def circles(root, folders):
-    """Lists of components that include each other, a header counted together with its source."""
+def circle_in(graph):
+    """Nodes of which each leads to the next, and the first is the last; None if the graph has no circle."""
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return error.args[1]
+    return None
+
+
+def circle_of_includes(root, folders):
+    """Components that include each other in a circle, a header counted together with its source; or None."""
     files = {path.relative_to(root).as_posix() for folder in folders for path in sources_in(root / folder)}
     graph = collections.defaultdict(set)
     for path, header in includes(root, folders):
         if header in files and component_of(header) != component_of(path):
             graph[component_of(path)].add(component_of(header))
-
-    # Tarjan's algorithm, without recursion: a circle is a strongly connected part of more than one component.
-    index, low, on_path, path, found = {}, {}, set(), [], []
-    for start in sorted(graph):
-        if start in index:
-            continue
-        work = [(start, iter(sorted(graph[start])))]
-        index[start] = low[start] = len(index)
-        path.append(start)
-        on_path.add(start)
-        while work:
-            node, following = work[-1]
-            for other in following:
-                if other not in index:
-                    index[other] = low[other] = len(index)
-                    path.append(other)
-                    on_path.add(other)
-                    work.append((other, iter(sorted(graph[other]))))
-                    break
-                if other in on_path:
-                    low[node] = min(low[node], index[other])
-            else:
-                work.pop()
-                if work:
-                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
-                if low[node] == index[node]:
-                    part = []
-                    while not part or part[-1] != node:
-                        part.append(path.pop())
-                        on_path.discard(part[-1])
-                    if len(part) > 1:
-                        found.append(sorted(part))
-    return found
+    return circle_in(graph)
 
 
 def commands(text):

@@ -5,14 +5,12 @@ Usage: keys_test.py SOURCE_FOLDER ALBTPU_QUERY
 """
 
 import json
-import pathlib
 import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-import contents  # noqa: E402
-import house  # noqa: E402
+import contents
+import house
 
 TREE = house.Tree(sys.argv[1])
 QUERY = sys.argv[2]

@@ -4,12 +4,13 @@ Usage: python_imports_test.py SOURCE_FOLDER
 """
 
 import ast
-import graphlib
 import pathlib
 import statistics
 import sys
 import tempfile
 import unittest
+
+import house
 
 PACKAGE = pathlib.Path(sys.argv[1]) / "clients/python/src/albtpu"
 GENERATED = "albtpu.v1"
@@ -38,12 +39,7 @@ def imports_of(name, path, modules):
 def circle_in(package):
     """Modules of which each is imported by the next, and the first is the last; None if there are none."""
     modules = modules_in(package)
-    graph = {name: set(imports_of(name, path, modules)) for name, path in modules.items()}
-    try:
-        graphlib.TopologicalSorter(graph).prepare()
-    except graphlib.CycleError as error:
-        return error.args[1]
-    return None
+    return house.circle_in({name: set(imports_of(name, path, modules)) for name, path in modules.items()})
 
 
 class Imports(unittest.TestCase):

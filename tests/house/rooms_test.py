@@ -4,13 +4,11 @@ from [rules] is held where they are given.
 Usage: rooms_test.py SOURCE_FOLDER
 """
 
-import pathlib
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-import house  # noqa: E402
-import rules  # noqa: E402
+import house
+import rules
 
 TREE = house.Tree(sys.argv[1])
 

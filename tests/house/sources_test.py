@@ -9,8 +9,7 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-import house  # noqa: E402
+import house
 
 TREE = house.Tree(sys.argv[1])
 MOST_COLUMNS = 120

@@ -84,13 +84,10 @@ def sources_are_compiled_once(tree):
 
 
 def includes_make_no_circle(tree):
-    for circle in house.circles(tree.root, (*tree.rooms, "tests", "clients")):
-        yield f"{', '.join(circle)} include each other"
+    if circle := house.circle_of_includes(tree.root, (*tree.rooms, "tests", "clients")):
+        yield f"{', '.join(sorted(set(circle)))} include each other"
 
 
 def the_law_has_no_circle(tree):
-    left = {room: set(uses) for room, uses in tree.law.uses.items()}
-    while free := [room for room, uses in left.items() if not uses]:
-        left = {room: uses - set(free) for room, uses in left.items() if room not in free}
-    if left:
-        yield f"rooms.toml lets {', '.join(sorted(left))} use each other"
+    if circle := house.circle_in({room: sorted(uses) for room, uses in tree.law.uses.items()}):
+        yield f"rooms.toml lets {', '.join(sorted(set(circle)))} use each other"

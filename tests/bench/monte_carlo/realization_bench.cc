@@ -65,12 +65,6 @@ class FastSurface {
   std::vector<float> heights_;
 };
 
-void OurSurface(benchmark::State& state, const BeamCase& beam_case) {
-  FastSurface surface(beam_case, beam_case.footprint_points());
-  std::uint32_t realization = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(surface.Draw(++realization).data());
-}
-
 // The realizations from `first` to `last` - 1.
 void Realize(const BeamCase& beam_case, FastSurface& surface, std::uint32_t first, std::uint32_t last) {
   const int points = beam_case.footprint_points();
@@ -101,8 +95,7 @@ void OursOnTwoThreads(benchmark::State& state, const BeamCase& beam_case) {
 }
 
 #ifdef ALBTPU_EMBREE
-// With `draw` unset, traces the same surface again and again, which measures the tree and the tracing alone.
-void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole, bool draw) {
+void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole) {
   const int points = whole ? beam_case.whole_points() : beam_case.footprint_points();
   FastSurface surface(beam_case, points);
   EmbreeTracer tracer(options, points, static_cast<float>(beam_case.patch().spacing()));
@@ -110,7 +103,7 @@ void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOpti
   const float* heights = surface.Draw(realization).data();
   tracer.SetHeights(heights);  // the first tree is built, not refitted
   for (auto _ : state) {
-    if (draw) surface.Draw(++realization);
+    surface.Draw(++realization);
     tracer.SetHeights(heights);
     benchmark::DoNotOptimize(SpotsOf(tracer.Trace(beam_case.sorted(), kRefractiveIndex)));
   }
@@ -147,7 +140,6 @@ void RegisterAt(int degrees) {
   };
   add("ours", Ours);
   add("ours_on_two_threads", OursOnTwoThreads);
-  add("our_surface", OurSurface);
   add("plain", Plain);
 #ifdef ALBTPU_EMBREE
   for (const bool whole : {true, false}) {
@@ -155,11 +147,8 @@ void RegisterAt(int degrees) {
       for (const EmbreeBuild build : {EmbreeBuild::kRefit, EmbreeBuild::kLow, EmbreeBuild::kMedium}) {
         const EmbreeOptions options{
             .geometry = geometry, .build = build, .robust = false, .coherent = false, .device = "isa=avx2"};
-        const std::string name = absl::StrCat(whole ? "whole/" : "cropped/", Name(options));
-        for (const bool draw : {true, false}) {
-          add((draw ? "embree/" : "embree_tracing/") + name,
-              [=](auto& state, const BeamCase& of) { Embree(state, of, options, whole, draw); });
-        }
+        add(absl::StrCat("embree/", whole ? "whole/" : "cropped/", Name(options)),
+            [=](auto& state, const BeamCase& of) { Embree(state, of, options, whole); });
       }
     }
   }

@@ -1,12 +1,24 @@
-// Time of the response theory on one core.
-//   one_beam         one beam, its sea included; uniform and gaussian
-// For all beams of a table: sea_table_bench.
+// Time of the response theory on one core: of one beam, its sea included, and of the tables of seas, 20 x 18 x 22
+// different beams and 4 depths.
+//   one_beam            uniform and gaussian
+//   compile/wind        the sea of a wind, whose waves have the harmonic 2 alone, as those of most buoys
+//   compile/components  a wind sea and a swell across it, with all harmonics
+//   compile/calm        no waves at all
+//   compiler            what is kept for all seas
+//   interpolator        the table laid out for queries
 #include <benchmark/benchmark.h>
+
+#include <limits>
+#include <memory>
+#include <vector>
 
 #include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/harmonic_spectrum.h"
+#include "sea/spectra/jonswap.h"
+#include "sea/table/sea_table.h"
+#include "tables/query/column_query.h"
 
 namespace albtpu::bench {
 namespace {
@@ -33,6 +45,37 @@ BENCHMARK_CAPTURE(OneBeam, gaussian, BeamProfile::kGaussian)
     ->Arg(1)
     ->Arg(6)
     ->Unit(benchmark::kMicrosecond);
+
+constexpr double kNotMeasured = std::numeric_limits<double>::infinity();
+
+SeaDescription Wind(double wind_speed) { return {.wind_speed_10m = wind_speed, .wind_from = 0}; }
+
+SeaDescription Components() {
+  SeaDescription sea = Wind(6);
+  sea.waves = std::make_shared<JonswapSpectrum>(std::vector<JonswapWaves>{
+      {.significant_wave_height = 0.5, .peak_period = 3.2, .travels_towards = 3},
+      {.significant_wave_height = 1.2, .peak_period = 9, .gamma = 7, .travels_towards = 2, .spread = 0.3}});
+  return sea;
+}
+
+void Compile(benchmark::State& state, const SeaDescription& sea) {
+  const SeaCompiler compiler;
+  for (auto _ : state) benchmark::DoNotOptimize(compiler.Compile(sea, kNotMeasured)->digest());
+}
+BENCHMARK_CAPTURE(Compile, wind, Wind(7))->Name("compile/wind")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Compile, components, Components())->Name("compile/components")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Compile, calm, Wind(0))->Name("compile/calm")->Unit(benchmark::kMillisecond);
+
+void Compiler(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(std::make_unique<SeaCompiler>());
+}
+BENCHMARK(Compiler)->Name("compiler")->Unit(benchmark::kMillisecond);
+
+void Interpolator(benchmark::State& state) {
+  const UncertaintyTable table = SeaCompiler().Compile(Wind(7), kNotMeasured).value();
+  for (auto _ : state) benchmark::DoNotOptimize(std::make_unique<ColumnInterpolator>(table));
+}
+BENCHMARK(Interpolator)->Name("interpolator")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace albtpu::bench

@@ -1,6 +1,10 @@
 #include "tests/bench/service/raw_peer.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <array>
@@ -8,58 +12,77 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-
-#include "tests/bench/service/raw_socket.h"
+#include <thread>
 
 namespace albtpu::bench {
 namespace {
 
-constexpr std::array<AxisId, 4> kColumns = {AxisId::kIncidence, AxisId::kAzimuth, AxisId::kFootprint, AxisId::kDepth};
-constexpr std::size_t kHeader = sizeof(std::uint32_t) + sizeof(float);
+struct Header {
+  std::uint32_t count;
+  float wind_speed;
+};
 
-std::size_t RequestBytes(std::size_t count) { return kHeader + kColumns.size() * count * sizeof(float); }
-std::size_t AnswerBytes(std::size_t count) { return count * (2 + kAskedQuantities * sizeof(float)); }
-
-void Check(bool good, const char* what) {
-  if (good) return;
-  std::cerr << "service_bench: " << what << ": " << std::strerror(errno) << "\n";
-  std::exit(1);
+std::size_t RequestBytes(const Question& question, std::size_t count) {
+  return sizeof(Header) + question.columns * count * sizeof(float);
+}
+std::size_t AnswerBytes(const Question& question, std::size_t count) {
+  return count * (question.quantities * sizeof(float) + 2);
 }
 
-const float* FloatsAt(const char* bytes) { return reinterpret_cast<const float*>(bytes); }
+void CheckCall(bool good, const char* what) { Check(good, std::string(what) + ": " + std::strerror(errno)); }
 
-PulseColumns ReadRequest(const char* bytes, std::size_t count) {
-  PulseColumns pulses{.size = count, .axis = {}};
-  pulses.axis[Index(AxisId::kWindSpeed)] = {FloatsAt(bytes + sizeof(std::uint32_t)), 1};
-  for (std::size_t i = 0; i < kColumns.size(); ++i)
-    pulses.axis[Index(kColumns[i])] = {FloatsAt(bytes + kHeader) + i * count, count};
-  return pulses;
+void SendAtOnce(int socket) {
+  const int on = 1;
+  CheckCall(setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on) == 0, "TCP_NODELAY");
 }
 
-AnswerColumns AnswerIn(char* bytes, std::size_t count) {
-  AnswerColumns answers;
-  for (std::size_t q = 0; q < kAskedQuantities; ++q) answers.values[q] = reinterpret_cast<float*>(bytes) + q * count;
-  answers.outcomes = reinterpret_cast<std::uint8_t*>(bytes) + kAskedQuantities * count * sizeof(float);
-  answers.outcome_axes = answers.outcomes + count;
-  return answers;
+sockaddr_in Loopback(std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
 }
 
-void Serve(int socket, const ColumnInterpolator& interpolator) {
-  std::vector<char> requests(2 * RequestBytes(kMostRawPulses)), answer(AnswerBytes(kMostRawPulses));
+// False when the other side has closed the connection.
+bool WriteAll(int socket, std::span<iovec> parts) {
+  while (!parts.empty()) {
+    msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = parts.size();
+    const ssize_t result = sendmsg(socket, &message, MSG_NOSIGNAL);
+    if (result <= 0) return false;
+    auto sent = static_cast<std::size_t>(result);
+    for (; !parts.empty() && sent >= parts[0].iov_len; parts = parts.subspan(1)) sent -= parts[0].iov_len;
+    if (parts.empty()) return true;
+    parts[0].iov_base = static_cast<char*>(parts[0].iov_base) + sent;
+    parts[0].iov_len -= sent;
+  }
+  return true;
+}
+
+void Serve(int socket, const Question& question, const AnswerRaw& answer) {
+  std::vector<char> requests(2 * RequestBytes(question, kMostRawPulses)), bytes(AnswerBytes(question, kMostRawPulses));
   std::size_t have = 0;
   for (;;) {
     const ssize_t received = recv(socket, requests.data() + have, requests.size() - have, 0);
     if (received <= 0) break;
     have += static_cast<std::size_t>(received);
     std::size_t taken = 0;
-    while (have - taken >= kHeader) {
-      std::uint32_t count;
-      std::memcpy(&count, requests.data() + taken, sizeof count);
-      if (have - taken < RequestBytes(count)) break;
-      interpolator.Interpolate({}, ReadRequest(requests.data() + taken, count), 0, count,
-                               AnswerIn(answer.data(), count));
-      if (!WriteAll(socket, answer.data(), AnswerBytes(count))) break;
-      taken += RequestBytes(count);
+    while (have - taken >= sizeof(Header)) {
+      const char* const request = requests.data() + taken;
+      const auto* const header = reinterpret_cast<const Header*>(request);
+      const std::size_t count = header->count;
+      if (have - taken < RequestBytes(question, count)) break;
+      const auto* const numbers = reinterpret_cast<const float*>(header + 1);
+      Columns columns;
+      for (std::size_t c = 0; c < question.columns; ++c) columns[c] = {numbers + c * count, count};
+      auto* const values = reinterpret_cast<float*>(bytes.data());
+      answer(header->wind_speed, columns, values,
+             reinterpret_cast<std::uint8_t*>(values + question.quantities * count));
+      iovec part{bytes.data(), AnswerBytes(question, count)};
+      if (!WriteAll(socket, {&part, 1})) break;
+      taken += RequestBytes(question, count);
     }
     have -= taken;
     std::memmove(requests.data(), requests.data() + taken, have);
@@ -69,29 +92,50 @@ void Serve(int socket, const ColumnInterpolator& interpolator) {
 
 }  // namespace
 
-void ServeRaw(const ColumnInterpolator& interpolator) {
-  ServeConnections([&interpolator](int socket) { Serve(socket, interpolator); });
+void Check(bool good, const std::string& what) {
+  if (good) return;
+  std::cerr << "service_bench: " << what << "\n";
+  std::exit(1);
 }
 
-RawConnection::RawConnection(const std::string& port)
-    : socket_(ConnectTo(port)), outgoing_(RequestBytes(kMostRawPulses)), incoming_(2 * AnswerBytes(kMostRawPulses)) {}
+void ServeRaw(const Question& question, const AnswerRaw& answer) {
+  const int listener = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = Loopback(0);
+  socklen_t length = sizeof address;
+  CheckCall(bind(listener, reinterpret_cast<sockaddr*>(&address), length) == 0, "bind");
+  CheckCall(listen(listener, SOMAXCONN) == 0, "listen");
+  CheckCall(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &length) == 0, "getsockname");
+  std::cout << ntohs(address.sin_port) << std::endl;
+  for (;;) {
+    const int socket = accept(listener, nullptr, nullptr);
+    CheckCall(socket >= 0, "accept");
+    SendAtOnce(socket);
+    std::thread([socket, &question, &answer] { Serve(socket, question, answer); }).detach();
+  }
+}
+
+RawConnection::RawConnection(const std::string& port, const Question& question)
+    : socket_(socket(AF_INET, SOCK_STREAM, 0)),
+      question_(question),
+      incoming_(2 * AnswerBytes(question, kMostRawPulses)) {
+  const sockaddr_in address = Loopback(static_cast<std::uint16_t>(std::stoi(port)));
+  CheckCall(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0, "connect");
+  SendAtOnce(socket_);
+}
 
 RawConnection::~RawConnection() { close(socket_); }
 
-void RawConnection::Send(const PulseColumns& pulses) {
-  const auto count = static_cast<std::uint32_t>(pulses.size);
-  std::memcpy(outgoing_.data(), &count, sizeof count);
-  std::memcpy(outgoing_.data() + sizeof count, pulses[AxisId::kWindSpeed].data(), sizeof(float));
-  char* column = outgoing_.data() + kHeader;
-  for (AxisId axis : kColumns) {
-    std::memcpy(column, pulses[axis].data(), count * sizeof(float));
-    column += count * sizeof(float);
-  }
-  Check(WriteAll(socket_, outgoing_.data(), RequestBytes(count)), "send");
+void RawConnection::Send(const FlightLine& line, std::size_t begin, std::size_t count) {
+  Header header{static_cast<std::uint32_t>(count), line.wind_speed()};
+  const Columns columns = line.columns(begin, count);
+  std::array<iovec, 1 + columns.size()> parts{{{&header, sizeof header}}};
+  for (std::size_t c = 0; c < question_.columns; ++c)
+    parts[1 + c] = {const_cast<float*>(columns[c].data()), columns[c].size_bytes()};
+  CheckCall(WriteAll(socket_, std::span(parts).first(1 + question_.columns)), "send");
 }
 
-void RawConnection::Receive(std::size_t pulse_count, const AnswerColumns& answers) {
-  const std::size_t bytes = AnswerBytes(pulse_count);
+void RawConnection::Receive(AnswerMemory& answers, std::size_t begin, std::size_t count) {
+  const std::size_t bytes = AnswerBytes(question_, count);
   if (begin_ + bytes > incoming_.size()) {
     std::memmove(incoming_.data(), incoming_.data() + begin_, end_ - begin_);
     end_ -= begin_;
@@ -99,14 +143,10 @@ void RawConnection::Receive(std::size_t pulse_count, const AnswerColumns& answer
   }
   while (end_ - begin_ < bytes) {
     const ssize_t received = recv(socket_, incoming_.data() + end_, incoming_.size() - end_, 0);
-    Check(received > 0, "recv");
+    CheckCall(received > 0, "recv");
     end_ += static_cast<std::size_t>(received);
   }
-  const AnswerColumns here = AnswerIn(incoming_.data() + begin_, pulse_count);
-  for (std::size_t q = 0; q < kAskedQuantities; ++q)
-    std::memcpy(answers.values[q], here.values[q], pulse_count * sizeof(float));
-  std::memcpy(answers.outcomes, here.outcomes, pulse_count);
-  std::memcpy(answers.outcome_axes, here.outcome_axes, pulse_count);
+  answers.Put(question_, begin, count, incoming_.data() + begin_);
   begin_ += bytes;
   if (begin_ == end_) begin_ = end_ = 0;
 }

@@ -1,9 +1,10 @@
-// service_bench serve-raw TABLE.h5
+// service_bench serve-raw|serve-raw-budget --table TABLE.h5
 // service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
 //               [--connections N] [--seconds S] [--beside N]
 //
-// Queries a server for some seconds, checks the answers against the table, and prints one JSON object: pulses and calls
-// per second, the latency of calls (s), and the processor time of client and server per pulse (s).
+// Serves a table over plain TCP connections. Or queries a server for some seconds, checks the answers against the
+// table, and prints one JSON object: pulses and calls per second, the latency of calls (s), and the processor time of
+// client and server per pulse (s).
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -22,7 +23,6 @@
 #include "tables/file/table_io.h"
 #include "tests/bench/service/flight_line.h"
 #include "tests/bench/service/load.h"
-#include "tests/bench/service/load_record.h"
 #include "tests/bench/service/raw_peer.h"
 
 namespace albtpu::bench {
@@ -39,27 +39,44 @@ struct Options {
   double seconds = 2;
 };
 
-constexpr std::array<std::pair<std::string_view, void (*)(const Load&, Record&)>, 6> kPeers = {{
+constexpr std::array<std::pair<std::string_view, void (*)(const Load&, Record&)>, 8> kPeers = {{
     {"raw", AskRaw},
     {"columns", AskColumns},
     {"stream", AskStream},
     {"rows", AskRows},
     {"raw-single", AskRawSingle},
     {"stream-single", AskStreamSingle},
+    {"budget", AskBudget},
+    {"raw-budget", AskRawBudget},
 }};
 
-void ExpectAnswersOf(const ColumnInterpolator& table, const FlightLine& line,
+// The answers of the table itself over a plain connection, or in this process.
+AnswerRaw AnswersOf(const ColumnInterpolator& table, bool budget) {
+  if (!budget) {
+    return [&table](const float& wind_speed, const Columns& columns, float* numbers, std::uint8_t* outcomes) {
+      const std::size_t count = columns[0].size();
+      table.Interpolate({}, PulsesOf(wind_speed, columns), 0, count, AnswersIn(numbers, outcomes, count));
+    };
+  }
+  return [&table](const float& wind_speed, const Columns& columns, float* numbers, std::uint8_t* outcomes) {
+    QueryBudgetOnAllCores(table, BudgetPulsesOf(wind_speed, columns), OptionsOfBudget(),
+                          BudgetAnswersIn(numbers, outcomes, columns[0].size()));
+  };
+}
+
+// Ends the program unless all answers equal those of the table itself bit by bit.
+void ExpectAnswersOf(const ColumnInterpolator& table, bool budget, const FlightLine& line,
                      const std::vector<AnswerMemory>& answers) {
   AnswerMemory expected(line.size());
-  table.Interpolate({}, line.pulses(), 0, line.size(), expected.columns());
-  for (const AnswerMemory& memory : answers) memory.ExpectSame(expected);
+  AnswersOf(table, budget)(line.wind_speed(), line.columns(0, line.size()), expected.numbers(), expected.outcomes());
+  for (const AnswerMemory& memory : answers) Check(memory == expected, "answers differ from those of the table itself");
 }
 
 int Ask(const Options& options, const ColumnInterpolator& table) {
   const auto peer =
       std::find_if(kPeers.begin(), kPeers.end(), [&](const auto& known) { return known.first == options.peer; });
   Check(peer != kPeers.end(), "no peer '" + options.peer + "'");
-  const FlightLine line(kBatches * options.batch), bulk_line(kBatches * kStreamBatch);
+  const FlightLine line(kBatches * options.batch), bulk_line(options.beside > 0 ? kBatches * kStreamBatch : 0);
   std::vector<AnswerMemory> answers(options.callers, AnswerMemory(line.size()));
   std::vector<AnswerMemory> bulk_answers(options.beside, AnswerMemory(bulk_line.size()));
   const double client_before = OwnProcessorTime(), server_before = ProcessorTimeOf(options.server_pid);
@@ -84,8 +101,8 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
       {"client_cpu_per_pulse", (OwnProcessorTime() - client_before) / pulses},
       {"server_cpu_per_pulse", (ProcessorTimeOf(options.server_pid) - server_before) / pulses},
       {"bulk_pulses_per_second", static_cast<double>(bulk.pulses()) / elapsed}};
-  ExpectAnswersOf(table, line, answers);
-  ExpectAnswersOf(table, bulk_line, bulk_answers);
+  ExpectAnswersOf(table, options.peer.ends_with("budget"), line, answers);
+  if (options.beside > 0) ExpectAnswersOf(table, false, bulk_line, bulk_answers);
   std::cout << report.dump() << "\n";
   return 0;
 }
@@ -93,7 +110,9 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
 int Main(int argc, char** argv) {
   Options options;
   CLI::App app("Queries an uncertainty server as fast as it answers.", "service_bench");
-  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, rows, stream or stream-single")
+  app.add_option(
+         "peer", options.peer,
+         "serve-raw, serve-raw-budget, raw, raw-single, raw-budget, columns, rows, stream, stream-single or budget")
       ->required();
   app.add_option("--table", options.table, "The table to query")->required();
   app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
@@ -109,9 +128,9 @@ int Main(int argc, char** argv) {
   const auto table = ReadTable(options.table);
   Check(table.ok(), table.status().ToString());
   const ColumnInterpolator interpolator(*table);
-  if (options.peer != "serve-raw") return Ask(options, interpolator);
-  ServeRaw(interpolator);
-  return 0;
+  const bool budget = options.peer.ends_with("budget");
+  if (options.peer.starts_with("serve-raw")) ServeRaw(budget ? kBudget : kSeaSurface, AnswersOf(interpolator, budget));
+  return Ask(options, interpolator);
 }
 
 // Keeps the freed memory of messages, whose page faults would cost more than the messages themselves. In so short a

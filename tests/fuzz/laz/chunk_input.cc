@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <iterator>
 
 #include "absl/status/statusor.h"
@@ -51,6 +52,24 @@ ChunkCoding& CodingFor(int point_format, std::size_t extra, bool version4) {
   return coding;
 }
 
+constexpr std::uint64_t kBegin = 1000;  // Of the chunk in its source.
+
+// A chunk amid a file whose other bytes must not be read.
+class ChunkSource final : public laz::ByteSource {
+ public:
+  explicit ChunkSource(std::string_view bytes) : bytes_(bytes) {}
+  std::uint64_t size() const override { return kBegin + bytes_.size() + 1000; }
+  absl::Status ReadAt(std::uint64_t offset, std::span<char> to) const override {
+    ALBTPU_MUST(offset >= kBegin && offset <= kBegin + bytes_.size());
+    ALBTPU_MUST(to.size() <= kBegin + bytes_.size() - offset);
+    std::memcpy(to.data(), bytes_.data() + (offset - kBegin), to.size());
+    return absl::OkStatus();
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
 }  // namespace
 
 ChunkInput ParseChunkInput(std::string_view input) {
@@ -66,13 +85,6 @@ ChunkInput ParseChunkInput(std::string_view input) {
   chunk.step = 1 + head(4) % kMostPoints;
   chunk.bytes = input.substr(kChunkHeadSize);
   return chunk;
-}
-
-std::string ChunkHead(int point_format, std::size_t extra_bytes, std::size_t points, std::size_t step) {
-  const auto* extra = std::find(std::begin(kExtraBytes), std::end(kExtraBytes), extra_bytes);
-  ALBTPU_MUST(extra != std::end(kExtraBytes) && points <= kMostInByte);
-  return {static_cast<char>(point_format), static_cast<char>(extra - std::begin(kExtraBytes)),
-          static_cast<char>(kExactEnd), static_cast<char>(points), static_cast<char>(step - 1)};
 }
 
 std::string WithPoints(std::string head, std::size_t points) {
@@ -103,6 +115,35 @@ std::size_t LayerCount(const LaszipRecord& record) {
     }
   }
   return count;
+}
+
+DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std::size_t record_length,
+                         std::uint64_t points, std::size_t decoded, std::size_t step, bool exact) {
+  const ChunkSource source(bytes);
+  DecodedChunk chunk;
+  chunk.status = decoder.Begin(source, kBegin, kBegin + bytes.size(), points);
+  if (!chunk.status.ok()) return chunk;
+  chunk.records.resize(decoded * record_length);
+  for (std::size_t i = 0; i < decoded && chunk.status.ok(); i += step) {
+    const std::size_t count = std::min(step, decoded - i);
+    chunk.status = decoder.Decode({chunk.records.data() + i * record_length, count * record_length});
+  }
+  if (!chunk.status.ok() || decoded < points) return chunk;
+  chunk.status = decoder.End(exact);
+  if (!chunk.status.ok()) return chunk;
+  ALBTPU_MUST(decoder.position() > kBegin && decoder.position() <= kBegin + bytes.size());
+  chunk.position = decoder.position() - kBegin;
+  return chunk;
+}
+
+void MustSurviveCoding(ChunkCoding& coding, std::string_view records) {
+  const std::size_t record_length = coding.record.record_length(), points = records.size() / record_length;
+  std::string bytes;
+  coding.encoder->Encode(records, bytes);
+  const DecodedChunk again = DecodeChunk(*coding.decoder, bytes, record_length, points, points, points, true);
+  ALBTPU_MUST(again.status.ok());
+  ALBTPU_MUST(again.records == records);
+  ALBTPU_MUST(again.position == bytes.size());
 }
 
 }  // namespace albtpu::fuzz

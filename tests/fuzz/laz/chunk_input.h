@@ -1,4 +1,5 @@
 // The input of the fuzz targets for chunks: five bytes that choose how a chunk is coded and decoded, then the chunk.
+// And how it is decoded, holding the decoder to its own bytes.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "absl/status/status.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/items/chunk_decoder.h"
 #include "formats/laz/items/laszip_record.h"
 #include "formats/laz/items/point_encoders.h"
@@ -40,14 +43,25 @@ struct ChunkInput {
 // Requires kChunkHeadSize bytes or more.
 ChunkInput ParseChunkInput(std::string_view input);
 
-// The head of an input: all points (at most 240) are decoded, and the end is known.
-std::string ChunkHead(int point_format, std::size_t extra_bytes, std::size_t points, std::size_t step);
-
-// The same head for a chunk of other points: 1 to 240.
+// The head of an input for a chunk of other points: 1 to 240.
 std::string WithPoints(std::string head, std::size_t points);
 
 // The streams of a layered chunk. Behind its first record lie its number of points and the size of each stream, 4 bytes
 // each, then the streams. 0: the chunk is not layered.
 std::size_t LayerCount(const laz::LaszipRecord& record);
+
+struct DecodedChunk {
+  absl::Status status;
+  std::string records;
+  std::uint64_t position = 0;  // Where the chunk ends; if all its points were decoded.
+};
+
+// Decodes `bytes` as a chunk of `points` points, of which `decoded` points become records, `step` points at a time.
+// Aborts when the decoder reads bytes outside of the chunk.
+DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std::size_t record_length,
+                         std::uint64_t points, std::size_t decoded, std::size_t step, bool exact);
+
+// Aborts unless `records` are the same after they have been encoded and decoded. Requires an encoder.
+void MustSurviveCoding(ChunkCoding& coding, std::string_view records);
 
 }  // namespace albtpu::fuzz
