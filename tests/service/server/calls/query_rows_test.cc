@@ -61,7 +61,7 @@ TEST_F(QueryPulses, InterpolatesTheNamedTable) {
     EXPECT_FALSE(plain.azimuth_absent() || plain.has_sea_surface_standard_error() || plain.has_s44());
     options.set_standard_errors(true);
     const PulseUncertainty reference = Interpolate(table, TablesPulse());
-    for (const auto [wire, coverage] :
+    for (const auto& [wire, coverage] :
          {std::pair(v1::COVERAGE_UNSPECIFIED, Coverage::kTwoSigma), std::pair(v1::COVERAGE_P95, Coverage::kP95)}) {
       options.set_coverage(wire);
       const v1::PulseUncertainty answer = AskOne(WirePulse(), options);
