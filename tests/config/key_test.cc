@@ -23,7 +23,10 @@ struct Written {
 std::vector<double> BeyondRange(const ValueFacts& values) {
   const auto far = [](double end) { return 0.01 * std::max(1.0, std::abs(end)); };
   std::vector<double> beyond = {*values.least - far(*values.least), -1e12, NAN};
-  if (std::isfinite(*values.greatest)) beyond.push_back(*values.greatest + far(*values.greatest));
+  if (std::isfinite(*values.greatest)) {
+    beyond.push_back(*values.greatest + far(*values.greatest));
+    beyond.push_back(HUGE_VAL);
+  }
   return beyond;
 }
 
@@ -35,8 +38,10 @@ std::vector<Written> WrongValues(const ValueFacts& values) {
     for (const char* text : {"true", "[1]", "{}", "''", "2020-06-08"}) wrong.push_back({"", text});
     if (values.type == "number") wrong.push_back({"much", "'much'"});
   } else if (values.type == "3 numbers") {
-    for (const double number : BeyondRange(values))
+    for (const double number : BeyondRange(values)) {
       wrong.push_back({absl::StrCat(number, ",0.1,0.1"), absl::StrCat("[", number, ", 0.1, 0.1]")});
+      wrong.push_back({absl::StrCat("0.1,0.1,", number), absl::StrCat("[0.1, 0.1, ", number, "]")});
+    }
     for (const char* text : {"0.1,0.1", "0.1,0.1,0.1,0.1", "a,b,c"})
       wrong.push_back({text, absl::StrCat("'", text, "'")});
     for (const char* text : {"1", "[]", "[0.1, 0.1]", "[0.1, 0.1, '1']"}) wrong.push_back({"", text});

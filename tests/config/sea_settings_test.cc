@@ -101,18 +101,6 @@ SeaSettings Merged(const SeaSettings& flags, const SeaSettings& file) {
   return Merge(of_flags, of_file).sea;
 }
 
-TEST(FlagsAndSurveyFile, CompleteEachOther) {
-  SeaSettings of_file = OneWave(), flags;
-  of_file.water_depth = 12;
-  flags.wind_speed = 6;
-  flags.tail = "wind";
-  const SeaSettings sea = Merged(flags, of_file);
-  EXPECT_EQ(sea.wind_speed, 6);
-  EXPECT_EQ(sea.water_depth, 12);
-  EXPECT_EQ(sea.tail, "wind");
-  EXPECT_EQ(sea.waves.size(), 1u);
-}
-
 TEST(FlagsAndSurveyFile, GiveOtherWavesOfWhichTheFlagsCount) {
   SeaSettings waves = OneWave(), buoy;
   buoy.file = "41010.data_spec";

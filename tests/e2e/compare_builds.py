@@ -20,7 +20,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import compare_surveys  # noqa: E402
@@ -210,8 +209,7 @@ def compare_help_and_exits(old, new):
 def metrics_of(build):
     with serving.Server(build.programs["albtpu-serve"], "--tables", build.table.parent, "--metrics",
                         "127.0.0.1:0") as server:
-        url = re.search(r"http://\S+", server.wait_for("metrics on"))[0]
-        page = urllib.request.urlopen(url).read().decode()
+        page = server.metrics()
     return "\n".join(sorted({re.sub(r"(\}|\w) [-+.\deInfNa]+$", r"\1", line) for line in page.splitlines()
                              if not line.startswith("albtpu_build_info") and 'le="' not in line}))
 

@@ -3,11 +3,11 @@
 Usage: configure_test.py CMAKE SOURCE_FOLDER C_COMPILER CXX_COMPILER
 """
 
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from commands import make_folder, run
 
 CMAKE, SOURCE, C_COMPILER, CXX_COMPILER = sys.argv[1:5]
 # CMake takes a package for missing while one of these is ON.
@@ -20,14 +20,11 @@ not built: benchmarks and peers_test (Google Benchmark is missing); apt-get inst
 
 class Configuration(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="albtpu configured ")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = make_folder(self.addCleanup, "albtpu configured ")
 
     def configure(self, name, *flags):
-        return subprocess.run([CMAKE, "-S", SOURCE, "-B", self.folder / name, "-GNinja",
-                               f"-DCMAKE_C_COMPILER={C_COMPILER}", f"-DCMAKE_CXX_COMPILER={CXX_COMPILER}", *flags],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return run(CMAKE, "-S", SOURCE, "-B", self.folder / name, "-GNinja", f"-DCMAKE_C_COMPILER={C_COMPILER}",
+                   f"-DCMAKE_CXX_COMPILER={CXX_COMPILER}", *flags, stderr=subprocess.STDOUT)
 
     def not_built(self, name, *flags):
         configured = self.configure(name, *flags)

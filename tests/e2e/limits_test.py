@@ -11,6 +11,7 @@ import ssl
 import sys
 import threading
 import unittest
+from concurrent import futures
 
 import grpc
 
@@ -25,17 +26,20 @@ REFLECTION_THREADS = 16  # Of limits.h.
 
 class Limits(SecurityTest):
     def test_close_silent_connections(self):
-        for flags in ((), self.tls()):
-            host, port = self.serve(*flags).address.split(":")
-            with socket.create_connection((host, int(port)), PATIENCE) as silent:
-                while silent.recv(4096):  # Without TLS, the server sends its settings first.
-                    pass
+        open_to_all, secure = self.serve().address, self.serve(*self.tls()).address
         context = ssl.create_default_context(cafile=self.ca)
         context.set_alpn_protocols(["h2"])
-        with socket.create_connection((host, int(port)), PATIENCE) as plain:
-            with context.wrap_socket(plain, server_hostname=host) as silent:
-                while silent.recv(4096):
+
+        def wait_for_the_end(address, handshake):
+            host, port = address.split(":")
+            with socket.create_connection((host, int(port)), PATIENCE) as plain:
+                silent = context.wrap_socket(plain, server_hostname=host) if handshake else plain
+                while silent.recv(4096):  # The server sends its settings first.
                     pass
+                silent.close()
+
+        with futures.ThreadPoolExecutor() as pool:
+            list(pool.map(wait_for_the_end, (open_to_all, secure, secure), (False, False, True)))
 
     def test_close_connections_that_do_not_speak_http2(self):
         host, port = self.serve().address.split(":")
@@ -44,7 +48,7 @@ class Limits(SecurityTest):
             while browser.recv(4096):
                 pass
 
-    def assert_refused(self, code, server, request, method="QueryColumns", **options):
+    def assert_call_fails(self, code, server, request, method="QueryColumns", **options):
         with grpc.insecure_channel(server.address, [("grpc.enable_http_proxy", 0)]) as channel:
             with self.assertRaises(grpc.RpcError) as failure:
                 getattr(UncertaintyServiceStub(channel), method)(request, timeout=PATIENCE, **options)
@@ -55,17 +59,17 @@ class Limits(SecurityTest):
         server = self.serve()
         exhausted = grpc.StatusCode.RESOURCE_EXHAUSTED
         long = pb.QueryColumnsRequest(pulses=dict(depth=bytes(5 << 20)))
-        self.assert_refused(exhausted, server, long)
+        self.assert_call_fails(exhausted, server, long)
         aircraft = pb.QueryBudgetRequest(aircraft=dict(roll=bytes(9 << 20)))
-        self.assert_refused(exhausted, server, aircraft, "QueryBudget")
+        self.assert_call_fails(exhausted, server, aircraft, "QueryBudget")
         short = pb.QueryColumnsRequest()
-        self.assert_refused(exhausted, server, short, metadata=[("note", "x" * 20000)])
+        self.assert_call_fails(exhausted, server, short, metadata=[("note", "x" * 20000)])
         self.assertEqual(server.stop(signal.SIGTERM), 0)
 
     def test_refuse_compressed_messages_without_decompressing_them(self):
         server = self.serve()
-        bomb = pb.QueryColumnsRequest(pulses=dict(depth=bytes(256 << 20)))
-        failure = self.assert_refused(grpc.StatusCode.UNIMPLEMENTED, server, bomb,
+        bomb = pb.QueryColumnsRequest(pulses=dict(depth=bytes(160 << 20)))
+        failure = self.assert_call_fails(grpc.StatusCode.UNIMPLEMENTED, server, bomb,
                                       compression=grpc.Compression.Gzip)
         status = pathlib.Path(f"/proc/{server.process.pid}/status").read_text()
         peak = int(re.search(r"VmHWM:\s+(\d+) kB", status)[1])
@@ -91,7 +95,7 @@ class Limits(SecurityTest):
         server = self.serve()
         budget = pb.QueryBudgetRequest(options=dict(table="ä" * 1_000_000, located=1))
         for long, method in ((request, "QueryColumns"), (budget, "QueryBudget")):
-            failure = self.assert_refused(grpc.StatusCode.NOT_FOUND, server, long, method)
+            failure = self.assert_call_fails(grpc.StatusCode.NOT_FOUND, server, long, method)
             self.assertLess(len(failure.details()), 2000)
 
 

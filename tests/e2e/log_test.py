@@ -1,67 +1,48 @@
 """Tests what albtpu-serve logs and what it does not.
 
-Usage: log_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+Usage: log_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 """
 
 import json
 import os
 import signal
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import grpc
-import numpy as np
 
-from serving import PATIENCE, Server, connect, make_stubs
-
-SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
-make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
-             for name in ("budget", "pulse", "sea", "table", "uncertainty", "uncertainty_service")))
-from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
-from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from served import TablesTest, columns
+from serving import PATIENCE
 
 ID = "survey-42.line_7"
+PULSES = [5] * 4  # Their depths, m.
 
 
-def columns(**options):
-    return pb.QueryColumnsRequest(options=options, pulses={
-        axis: np.full(4, 5, "<f4").tobytes() for axis in ("wind_speed", "incidence", "footprint", "depth")})
-
-
-class Log(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        subprocess.run([SYNTHETIC_TABLE, os.path.join(self.folder, "survey.h5")], check=True)
-
-    def serve(self, *flags):
-        self.server = Server(SERVE, "--tables", self.folder, *flags)
-        self.addCleanup(self.server.__exit__)
-        channel = connect(self.server.address)
-        self.addCleanup(channel.close)
-        self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+class Log(TablesTest):
+    def start(self, *flags):
+        self.server = self.serve(*flags)
+        self.stub = self.stub_of(self.server)
 
     def request_missing_table(self, request_id):
         """Requests a table that does not exist; returns the id that the server gives the call."""
         with self.assertRaises(grpc.RpcError) as failure:
-            self.stub.QueryColumns(columns(table="nowhere"), timeout=PATIENCE, wait_for_ready=True,
+            self.stub.QueryColumns(columns(PULSES, table="nowhere"), timeout=PATIENCE, wait_for_ready=True,
                                    metadata=[("x-request-id", request_id)] if request_id else None)
         return dict(failure.exception.trailing_metadata())["x-request-id"]
 
     def stop(self):
         """Stops the server and returns the lines of its log."""
+        self.channel.close()  # An idle client takes five seconds to notice that its server stops.
         self.assertEqual(self.server.stop(signal.SIGTERM), 0)
         self.server.wait_for("stopped")
         return self.server.lines
 
     def test_is_json_on_request(self):
-        self.serve("--log-json")
+        self.start("--log-json")
         self.request_missing_table(ID)
-        list(self.stub.StreamColumns(iter([pb.StreamColumnsRequest(query=columns())] * 3), timeout=PATIENCE))
-        os.truncate(os.path.join(self.folder, "survey.h5"), 100)
+        list(self.stub.StreamColumns(iter([pb.StreamColumnsRequest(query=columns(PULSES))] * 3), timeout=PATIENCE))
+        os.truncate(self.tables / "quick.h5", 100)
         self.server.process.send_signal(signal.SIGHUP)
         self.server.wait_for("not reloaded")
         lines = [json.loads(line) for line in self.stop()]
@@ -78,7 +59,7 @@ class Log(unittest.TestCase):
         self.assertGreater(streamed["seconds"], 0)
 
     def test_contains_the_id_of_the_caller_or_a_generated_one(self):
-        self.serve("--log-json")
+        self.start("--log-json")
         self.assertEqual(self.request_missing_table(ID), ID)
         made = [self.request_missing_table(other) for other in ("", "a b", "x" * 65, "\"")]
         for request_id in made:
@@ -89,13 +70,13 @@ class Log(unittest.TestCase):
         self.assertEqual(logged, [ID, *made])
 
     def test_omits_successful_calls(self):
-        self.serve()
+        self.start()
         for _ in range(50):
-            self.stub.QueryColumns(columns(), timeout=PATIENCE, wait_for_ready=True)
+            self.stub.QueryColumns(columns(PULSES), timeout=PATIENCE, wait_for_ready=True)
         self.assertEqual(len(self.stop()), 3)
 
     def test_cannot_be_flooded(self):
-        self.serve("--log-json")
+        self.start("--log-json")
         for _ in range(1000):
             self.request_missing_table("")
         calls = [json.loads(line) for line in self.stop() if "call failed" in line]
@@ -108,7 +89,7 @@ class Log(unittest.TestCase):
         self.assertLessEqual(max(per_second.values()), 200)
 
     def test_is_plain_text_by_default(self):
-        self.serve()
+        self.start()
         self.request_missing_table(ID)
         self.assertRegex(self.stop()[1], r"\Aalbtpu-serve: call failed: there is no table 'nowhere'.* "
                                          rf"\[request_id={ID} method=QueryColumns code=NOT_FOUND .*\]\Z")

@@ -2,7 +2,7 @@
 
 Tests that need promtool (Debian package prometheus) are skipped without it.
 
-Usage: metrics_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+Usage: metrics_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 """
 
 import json
@@ -13,58 +13,30 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
-import urllib.request
 
 import grpc
 import numpy as np
 
-from serving import PATIENCE, Server, connect, make_stubs
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from served import TablesTest, budget, columns, make_table
+from serving import PATIENCE
 
-SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
-make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
-             for name in ("budget", "pulse", "sea", "table", "uncertainty", "uncertainty_service")))
-from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
-from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
-
-MONITORING = pathlib.Path(PROTO_FOLDER).parent / "docs/monitoring"
+MONITORING = pathlib.Path(__file__).resolve().parents[2] / "docs/monitoring"
 PROMTOOL = shutil.which("promtool")
 SAMPLE = re.compile(r'(\w+)(?:\{(.*)\})? (\S+)')
 needs_promtool = unittest.skipUnless(PROMTOOL, "promtool is missing; apt-get install prometheus")
 
 
-def columns(depths, **options):
-    return pb.QueryColumnsRequest(options=options, pulses={
-        "wind_speed": np.float32(5).tobytes(), "incidence": np.float32(10).tobytes(),
-        "footprint": np.float32(1).tobytes(), "depth": np.array(depths, "<f4").tobytes()})
-
-
-class Metrics(unittest.TestCase):
+class Metrics(TablesTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.make_table("1")
-        self.server = Server(SERVE, "--tables", self.folder, "--metrics", "127.0.0.1:0")
-        self.addCleanup(self.server.__exit__)
-        self.url = self.server.wait_for("metrics on").split()[-1]
-        channel = connect(self.server.address)
-        self.addCleanup(channel.close)
-        self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
-
-    def make_table(self, factor):
-        subprocess.run([SYNTHETIC_TABLE, os.path.join(self.folder, "survey.h5"), "--factor", factor],
-                       check=True)
-
-    def fetch(self):
-        no_proxy = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        with no_proxy.open(self.url, timeout=PATIENCE) as answer:
-            return answer.read().decode()
+        super().setUp()
+        self.server = self.serve("--metrics", "127.0.0.1:0")
+        self.stub = self.stub_of(self.server)
 
     def samples(self):
         """The samples by name and labels, as the server writes them."""
-        lines = [line for line in self.fetch().splitlines() if line and not line.startswith("#")]
+        lines = [line for line in self.server.metrics().splitlines() if line and not line.startswith("#")]
         matches = [SAMPLE.fullmatch(line) for line in lines]
         self.assertNotIn(None, matches)
         return {(match[1], frozenset(re.findall(r'(\w+)="(.*?)"', match[2] or ""))): float(match[3])
@@ -77,10 +49,7 @@ class Metrics(unittest.TestCase):
         return self.stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=True)
 
     def ask_budget(self, depths, table=""):
-        request = pb.QueryBudgetRequest(
-            options=dict(located="SURFACE_LOCATION_LEVEL", table=table), pulses=columns(depths).pulses,
-            aircraft=dict(altitude=np.float32(400).tobytes(), beam_azimuth=np.float32(90).tobytes()))
-        return self.stub.QueryBudget(request, timeout=PATIENCE, wait_for_ready=True)
+        return self.stub.QueryBudget(budget(depths, table=table), timeout=PATIENCE, wait_for_ready=True)
 
     def test_count_calls_and_pulses_exactly(self):
         for _ in range(10):
@@ -119,18 +88,18 @@ class Metrics(unittest.TestCase):
     def test_name_the_tables_in_use_and_count_reloads(self):
         def digest():
             (labels,) = [dict(labels) for name, labels in self.samples() if name == "albtpu_table_info"]
-            self.assertEqual((labels["name"], labels["default"]), ("survey", "true"))
+            self.assertEqual((labels["name"], labels["default"]), ("quick", "true"))
             return labels["digest"]
         self.assertEqual(digest(), self.ask(columns([1])).table.digest)
-        self.make_table("2")
+        make_table(self.tables / "quick.h5", "--factor", "2")
         self.server.process.send_signal(signal.SIGHUP)
         self.server.wait_for("tables reloaded")
         self.assertEqual(digest(), self.ask(columns([1])).table.digest)
-        os.truncate(os.path.join(self.folder, "survey.h5"), 10)
+        os.truncate(self.tables / "quick.h5", 10)
         self.server.process.send_signal(signal.SIGHUP)
         self.server.wait_for("tables not reloaded")
         self.assertEqual(self.value("albtpu_last_reload_successful"), 0)
-        self.make_table("2")
+        make_table(self.tables / "quick.h5", "--factor", "2")
         for times in (2, 3):
             self.server.process.send_signal(signal.SIGHUP)
             self.server.wait_for("tables reloaded", times)
@@ -164,7 +133,7 @@ class Metrics(unittest.TestCase):
     @needs_promtool
     def test_have_the_format_that_prometheus_expects(self):
         self.ask(columns([1]))
-        check = subprocess.run([PROMTOOL, "check", "metrics"], input=self.fetch(), capture_output=True,
+        check = subprocess.run([PROMTOOL, "check", "metrics"], input=self.server.metrics(), capture_output=True,
                                text=True)
         self.assertEqual((check.returncode, check.stderr), (0, ""))
 
@@ -181,14 +150,10 @@ class Metrics(unittest.TestCase):
         self.assertIn(f'clamp_max(process_max_fds{{job="albtpu"}}, {most})', (MONITORING / "alerts.yaml").read_text())
 
     def test_need_a_free_address_on_this_machine(self):
-        taken = self.url.removeprefix("http://").removesuffix("/metrics")
-        for address, exit_code, problem in ((taken, 1, "Address already in use"),
-                                            ("0.0.0.0:0", 2, "--metrics"), ("9464", 2, "--metrics")):
-            result = subprocess.run([SERVE, "--tables", self.folder, "--listen", "127.0.0.1:0", "--metrics",
-                                     address], capture_output=True, text=True, timeout=PATIENCE)
-            self.assertEqual(result.returncode, exit_code, result.stderr)
-            self.assertRegex(result.stderr, r"\Aalbtpu-serve: [^\n]+\n\Z")
-            self.assertIn(problem, result.stderr)
+        taken = self.server.wait_for("metrics on").removesuffix("/metrics").rpartition("/")[2]
+        for address, code, problem in ((taken, 1, "Address already in use"), ("0.0.0.0:0", 2, "--metrics"),
+                                       ("9464", 2, "--metrics")):
+            self.assert_does_not_start(code, [problem], "--metrics", address)
 
 
 if __name__ == "__main__":

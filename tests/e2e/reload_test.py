@@ -1,98 +1,59 @@
 """Tests that tables can be replaced under albtpu-serve without any effect on calls in progress.
 
-Usage: reload_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+Usage: reload_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 """
 
 import os
 import shutil
 import signal
 import socket
-import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 
 import grpc
 import numpy as np
 
-from serving import PATIENCE, Server, connect, make_stubs
-
-SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
-make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
-             for name in ("budget", "pulse", "sea", "table", "uncertainty", "uncertainty_service", "admin_service")))
-from albtpu.v1 import admin_service_pb2, admin_service_pb2_grpc  # noqa: E402
-from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
-from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
+from albtpu.v1 import admin_service_pb2, admin_service_pb2_grpc
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from served import TablesTest, budget, columns, make_table
+from serving import PATIENCE, connect
 
 RELOADS = 100
 
 
-def columns(count):
-    """A request for `count` equal pulses."""
-    return pb.QueryColumnsRequest(pulses={
-        "wind_speed": np.full(count, 5, "<f4").tobytes(), "incidence": np.float32(10).tobytes(),
-        "footprint": np.float32(1).tobytes(), "depth": np.float32(4).tobytes()})
-
-
-def budget(count):
-    """The same pulses, and the share of the sea surface in their budget."""
-    return pb.QueryBudgetRequest(
-        options={"located": "SURFACE_LOCATION_LEVEL"}, pulses=columns(count).pulses,
-        quantities=["BUDGET_QUANTITY_THU_SEA"],
-        aircraft={"altitude": np.float32(400).tobytes(), "beam_azimuth": np.float32(90).tobytes()})
-
-
-def read_budget(answer):
-    values = set(np.frombuffer(answer.budget.thu_sea, "<f4").tolist())
-    assert len(values) == 1, f"one budget has answers from two tables: {values}"
-    return answer.table.digest, values.pop()
-
-
 def read(answer):
-    """The digest, and the THU, which is the same for all pulses of an answer."""
-    values = set(np.frombuffer(answer.sea_surface.thu, "<f4").tolist())
+    """The digest, and the THU of an answer or of its share of the sea, which is the same for all its pulses."""
+    column = answer.budget.thu_sea if hasattr(answer, "budget") else answer.sea_surface.thu
+    values = set(np.frombuffer(column, "<f4").tolist())
     assert len(values) == 1, f"one message has answers from two tables: {values}"
     return answer.table.digest, values.pop()
 
 
-class ReloadTest(unittest.TestCase):
+class ReloadTest(TablesTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.tables = os.path.join(self.folder, "tables")
-        os.mkdir(self.tables)
+        super().setUp()
         for factor in (1, 2, 3):
-            subprocess.run([SYNTHETIC_TABLE, self.source_of(factor), "--factor", str(factor)], check=True)
-        self.put(1)
-        self.server = Server(SERVE, "--tables", self.tables)
-        self.addCleanup(self.server.__exit__)
-        channel = connect(self.server.address)
-        self.addCleanup(channel.close)
-        self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
-        self.admin = admin_service_pb2_grpc.AdminServiceStub(channel)
+            make_table(self.folder / f"{factor}.h5", "--factor", str(factor))
+        self.server = self.serve()
+        self.stub = self.stub_of(self.server)
 
-    def source_of(self, factor):
-        return os.path.join(self.folder, f"{factor}.h5")
+    def put(self, factor):
+        """Replaces the table by that of `factor`, atomically."""
+        shutil.copy(self.folder / f"{factor}.h5", self.folder / "new")
+        os.replace(self.folder / "new", self.tables / "quick.h5")
 
-    def put(self, factor, name="survey"):
-        """Replaces the table `name` by that of `factor`, atomically."""
-        path = os.path.join(self.tables, name + ".h5")
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        shutil.copy(self.source_of(factor), path + ".new")
-        os.replace(path + ".new", path)
-
-    def reload(self):
-        answer = self.admin.ReloadTables(admin_service_pb2.ReloadTablesRequest(), timeout=PATIENCE,
-                                         wait_for_ready=True)
+    def reload(self, address=None):
+        """What became of each table."""
+        with connect(address or self.server.address) as channel:
+            answer = admin_service_pb2_grpc.AdminServiceStub(channel).ReloadTables(
+                admin_service_pb2.ReloadTablesRequest(), timeout=PATIENCE, wait_for_ready=True)
         return {table.name: admin_service_pb2.TableChange.Name(table.change).removeprefix("TABLE_CHANGE_")
                 for table in answer.tables}
 
-    def ask(self, table=""):
-        request = columns(3)
-        request.options.table = table
-        return read(self.stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=True))
+    def ask(self):
+        return read(self.stub.QueryColumns(columns([4] * 3), timeout=PATIENCE, wait_for_ready=True))
 
 
 class Load:
@@ -112,7 +73,7 @@ class Load:
 
     def run(self, work):
         with connect(self.address) as channel:
-            stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+            stub = UncertaintyServiceStub(channel)
             while not self.stopping.is_set():
                 try:
                     work(stub)
@@ -127,19 +88,20 @@ class Load:
                 self.answered.setdefault(digest, set()).add(thu)
 
     def ask_long(self, stub):
-        self.count(read(stub.QueryColumns(columns(20000), timeout=PATIENCE, wait_for_ready=True)))
+        self.count(read(stub.QueryColumns(columns([4] * 20000), timeout=PATIENCE, wait_for_ready=True)))
 
     def ask_budget(self, stub):
-        digest, thu = read_budget(stub.QueryBudget(budget(20000), timeout=PATIENCE, wait_for_ready=True))
+        request = budget([4] * 20000, ["BUDGET_QUANTITY_THU_SEA"])
+        digest, thu = read(stub.QueryBudget(request, timeout=PATIENCE, wait_for_ready=True))
         with self.lock:
             self.calls += 1
             self.budgets.setdefault(digest, set()).add(thu)
 
     def ask_short(self, stub):
-        self.count(read(stub.QueryColumns(columns(1), timeout=PATIENCE, wait_for_ready=True)))
+        self.count(read(stub.QueryColumns(columns([4]), timeout=PATIENCE, wait_for_ready=True)))
 
     def stream(self, stub):
-        requests = [pb.StreamColumnsRequest(query=columns(10000))] * 8
+        requests = [pb.StreamColumnsRequest(query=columns([4] * 10000))] * 8
         answers = [read(message.answer)
                    for message in stub.StreamColumns(iter(requests), timeout=PATIENCE, wait_for_ready=True)]
         assert len(answers) == len(requests), f"{len(answers)} answers to {len(requests)} requests"
@@ -162,7 +124,7 @@ class Reloads(ReloadTest):
                 self.server.process.send_signal(signal.SIGHUP)
                 self.server.wait_for("tables reloaded", times=i + 1)
             else:
-                self.assertEqual(self.reload(), {"survey": "LOADED"})
+                self.assertEqual(self.reload(), {"quick": "LOADED"})
         load.stop()
         print(f"{RELOADS} reloads under {load.calls} calls, {len(load.failures)} failures")
         self.assertEqual(load.failures, [])
@@ -180,6 +142,7 @@ class Reloads(ReloadTest):
         self.server.process.send_signal(signal.SIGHUP)
         self.reload()
         self.assertEqual(len({self.ask() for _ in range(5)}), 1)
+        self.channel.close()  # An idle client takes five seconds to notice that its server stops.
         self.assertEqual(self.server.stop(signal.SIGTERM), 0)
 
 
@@ -188,12 +151,9 @@ class Callers(ReloadTest):
         address = self.address_of_this_machine()
         if address is None:
             self.skipTest("this machine has only loopback addresses")
-        server = Server(SERVE, "--tables", self.tables, "--insecure", listen="0.0.0.0:0")
-        self.addCleanup(server.__exit__)
-        port = server.address.rpartition(":")[2]
-        with connect(f"{address}:{port}") as channel, self.assertRaises(grpc.RpcError) as failure:
-            admin_service_pb2_grpc.AdminServiceStub(channel).ReloadTables(
-                admin_service_pb2.ReloadTablesRequest(), timeout=PATIENCE, wait_for_ready=True)
+        port = self.serve("--insecure", listen="0.0.0.0:0").address.rpartition(":")[2]
+        with self.assertRaises(grpc.RpcError) as failure:
+            self.reload(f"{address}:{port}")
         self.assertEqual(failure.exception.code(), grpc.StatusCode.PERMISSION_DENIED)
 
     @staticmethod

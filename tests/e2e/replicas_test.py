@@ -3,28 +3,25 @@
 Usage: replicas_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
 
-import pathlib
-import re
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 import urllib.error
-import urllib.request
 
 import names
 import numpy as np
 
 import albtpu
+from commands import make_folder, run
+from served import SERVE, make_table
 from serving import PATIENCE, Server
 
 NAME = "replicas.test"  # A domain reserved for tests (RFC 6761).
 ADDRESSES = ("127.0.0.1", "127.0.0.2")
-SERVE, SYNTHETIC_TABLE, QUERY = sys.argv[1:4]
+QUERY = sys.argv[3]
 PULSES = 10_000_000  # A few tenths of a second from Python.
 LINES = 3_000_000  # A second or two of CSV.
 
@@ -32,15 +29,13 @@ LINES = 3_000_000  # A second or two of CSV.
 class Replica(Server):
     def __init__(self, tables, listen):
         super().__init__(SERVE, "--tables", tables, "--metrics", "127.0.0.1:0", listen=listen)
-        self.metrics = re.search(r"http://\S+", self.wait_for("metrics on"))[0]
 
     def count(self, metric):
         """The sum of a metric over its labels."""
         lines = None
         while lines is None:  # A busy server may close the connection after a second, while we write or read.
             try:
-                with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
-                    lines = page.read().decode().splitlines()
+                lines = self.metrics().splitlines()
             except ConnectionResetError:
                 continue
             except urllib.error.URLError as error:
@@ -59,10 +54,8 @@ def depths(count):
 class Replicas(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        (cls.folder / "tables").mkdir()
-        subprocess.run([SYNTHETIC_TABLE, cls.folder / "tables/quick.h5"], check=True)
+        cls.folder = make_folder(cls.addClassCleanup)
+        make_table(cls.folder / "tables/quick.h5")
         (cls.folder / "in.csv").write_text("depth\n" + "".join(f"{depth:.3f}\n" for depth in depths(LINES // 10)) * 10)
 
     def setUp(self):
@@ -83,36 +76,39 @@ class Replicas(unittest.TestCase):
                     return replica
         raise AssertionError("no replica is busy")
 
-    def csv(self, output):
-        command = [QUERY, "csv", "in.csv", output, "--server", self.address, "--wind-speed", "5", "--incidence", "10",
-                   "--footprint", "0.5", "--overwrite"]
-        return subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+    def csv(self, output, *source):
+        """A command that annotates the file."""
+        return (QUERY, "csv", "in.csv", output, *source, "--wind-speed", "5", "--incidence", "10", "--footprint", "0.5",
+                "--overwrite")
+
+    def start(self, output):
+        return subprocess.Popen(self.csv(output, "--server", self.address), cwd=self.folder, stderr=subprocess.PIPE,
+                                text=True)
 
     def assert_written(self, client, output):
         said = client.communicate(timeout=PATIENCE)[1]
         self.assertEqual(client.returncode, 0, said)
         undisturbed = self.folder / "undisturbed.csv"
         if not undisturbed.exists():
-            self.assertEqual(subprocess.run([QUERY, "csv", "in.csv", undisturbed, "--table", "tables/quick.h5",
-                                             "--wind-speed", "5", "--incidence", "10", "--footprint", "0.5"],
-                                            cwd=self.folder, capture_output=True).returncode, 0)
+            alone = run(*self.csv(undisturbed, "--table", "tables/quick.h5"), cwd=self.folder)
+            self.assertEqual(alone.returncode, 0, alone.stderr)
         self.assertTrue((self.folder / output).read_bytes() == undisturbed.read_bytes())
         self.assertEqual((self.folder / output).read_bytes().count(b"\n"), LINES + 1)
 
     def test_share_the_work(self):
-        self.assert_written(self.csv("out.csv"), "out.csv")
+        self.assert_written(self.start("out.csv"), "out.csv")
         pulses = [replica.count("albtpu_pulses_total") for replica in self.replicas]
         self.assertEqual(sum(pulses), LINES)
         self.assertGreater(min(pulses), 0.2 * LINES)  # There are only a few chunks.
 
     def test_answer_each_pulse_of_a_file_once_when_one_is_killed(self):
-        client = self.csv("killed.csv")
+        client = self.start("killed.csv")
         self.busy_one().stop(signal.SIGKILL)
         self.assertIsNone(client.poll(), "the client finished first")
         self.assert_written(client, "killed.csv")
 
     def test_answer_each_pulse_of_a_file_once_when_one_stops_responding(self):
-        client = self.csv("silent.csv")
+        client = self.start("silent.csv")
         silent = self.busy_one()
         silent.process.send_signal(signal.SIGSTOP)  # Like a machine that has lost its network.
         self.assertIsNone(client.poll(), "the client finished first")

@@ -16,10 +16,12 @@ from concurrent import futures
 
 import grpc
 
+import albtpu
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 from authority import openssl
-from secured import PULSE_FLAGS, QUERY, SERVE, SecurityTest
+from commands import run
+from secured import PULSE_FLAGS, QUERY, SecurityTest
 from serving import PATIENCE
 
 HEALTH = "/grpc.health.v1.Health/Check"
@@ -27,43 +29,32 @@ REFLECTION = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"
 
 
 class Starting(SecurityTest):
-    def assert_fails(self, exit_code, problem, *flags):
-        command = [SERVE, "--tables", self.folder / "tables", "--listen", "127.0.0.1:0", *flags]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
-        self.assertEqual(result.returncode, exit_code, result.stderr)
-        self.assertRegex(result.stderr, r"\Aalbtpu-serve: [^\n]+\n\Z")
-        self.assertRegex(result.stderr, problem)
-
     def test_requires_flags_that_belong_together(self):
-        self.assert_fails(2, "--tls-cert requires --tls-key", "--tls-cert", self.certificate)
-        self.assert_fails(2, "--tls-key requires --tls-cert", "--tls-key", self.key)
-        self.assert_fails(2, "--tls-client-ca requires --tls-cert", "--tls-client-ca", self.ca)
-        self.assert_fails(2, "--token-file requires --tls-cert", "--token-file", self.key)
-        self.assert_fails(2, "--tls-cert: is empty", "--tls-cert", "", "--tls-key", self.key)
+        for problem, *flags in (("--tls-cert requires --tls-key", "--tls-cert", self.certificate),
+                                ("--tls-key requires --tls-cert", "--tls-key", self.key),
+                                ("--tls-client-ca requires --tls-cert", "--tls-client-ca", self.ca),
+                                ("--token-file requires --tls-cert", "--token-file", self.key),
+                                ("--tls-cert: is empty", "--tls-cert", "", "--tls-key", self.key)):
+            self.assert_does_not_start(2, (problem,), *flags)
 
-    def test_requires_usable_certificates(self):
-        expired, its_key = self.authority.issue("expired", days=-1)
-        nothing, junk = self.folder / "nothing.pem", self.file("junk.pem", "junk")
-        self.assert_fails(1, "--tls-cert: .*nothing.pem: No such file", *self.tls(certificate=nothing))
-        self.assert_fails(1, "--tls-key: .*tables: is a folder", *self.tls(key=self.folder / "tables"))
-        self.assert_fails(1, "--tls-cert: .*junk.pem: holds no certificate", *self.tls(certificate=junk))
-        self.assert_fails(1, "--tls-key: .*junk.pem: holds no key", *self.tls(key=junk))
-        self.assert_fails(1, "client.key: is not the key of the certificate in .*server.pem",
-                          *self.tls(key=self.client["key"]))
-        self.assert_fails(1, "expired.pem: the certificate expired on",
-                          *self.tls(certificate=expired, key=its_key))
-        self.assert_fails(1, "--tls-client-ca: .*junk.pem", *self.tls("--tls-client-ca", junk))
-        weak, its_key = self.folder / "weak.pem", self.folder / "weak.key"
-        openssl("req", "-x509", "-newkey", "rsa:1024", "-nodes", "-subj", "/CN=weak", "-keyout", its_key,
+    def test_requires_usable_files(self):
+        expired, key_of_expired = self.authority.issue("expired", days=-1)
+        nothing, junk = self.folder / "nothing.pem", self.write("junk.pem", "junk")
+        weak, key_of_weak = self.folder / "weak.pem", self.folder / "weak.key"
+        openssl("req", "-x509", "-newkey", "rsa:1024", "-nodes", "-subj", "/CN=weak", "-keyout", key_of_weak,
                 "-out", weak)
-        self.assert_fails(1, "--tls-cert: .*weak.pem: TLS refuses it .*: expected RSA with 2048 bits or more",
-                          *self.tls(certificate=weak, key=its_key))
-
-    def test_requires_tokens_that_cannot_be_guessed(self):
-        for text, problem in (("", "holds no token"), ("short", "line 1 has 5 characters"),
-                              ("two words of some length", "line 1 is not a token")):
-            self.assert_fails(1, f"--token-file: .*bad.tokens: {problem}",
-                              *self.tls("--token-file", self.file("bad.tokens", text)))
+        for flag, problem, *flags in (
+                ("--tls-cert: ", "nothing.pem: No such file", *self.tls(certificate=nothing)),
+                ("--tls-key: ", "tables: is a folder", *self.tls(key=self.tables)),
+                ("--tls-cert: ", "junk.pem: holds no certificate", *self.tls(certificate=junk)),
+                ("--tls-key: ", "junk.pem: holds no key", *self.tls(key=junk)),
+                ("client.key: is not the key of the certificate in ", "server.pem", *self.tls(key=self.client["key"])),
+                ("expired.pem: ", "the certificate expired on", *self.tls(certificate=expired, key=key_of_expired)),
+                ("--tls-client-ca: ", "junk.pem", *self.tls("--tls-client-ca", junk)),
+                ("--tls-cert: ", "expected RSA with 2048 bits or more", *self.tls(certificate=weak, key=key_of_weak)),
+                ("--token-file: ", "bad.tokens: holds no token",
+                 *self.tls("--token-file", self.write("bad.tokens", "")))):
+            self.assert_does_not_start(1, (flag, problem), *flags)
 
     def test_allows_addresses_beyond_this_machine_with_tls(self):
         server = self.serve(*self.tls(), listen="0.0.0.0:0")
@@ -83,7 +74,10 @@ class OneWay(SecurityTest):
         self.assert_answers(server, ca=self.ca)
 
     def test_is_not_trusted_by_clients_of_another_authority(self):
-        self.assert_refuses(self.serve(*self.tls()), "UNAVAILABLE", "", ca=self.stranger.certificate)
+        server = self.serve(*self.tls())
+        self.assert_refuses(server, "UNAVAILABLE", "", ca=self.stranger.certificate)
+        with self.assertRaises(albtpu.UnreachableError):
+            self.connect(server, tls=True).tables()  # Of the authorities that the system trusts.
 
     def test_is_not_trusted_for_another_host_name(self):
         certificate, key = self.authority.issue("elsewhere", hosts="DNS:elsewhere.example")
@@ -113,23 +107,19 @@ class OneWay(SecurityTest):
 class Asking(SecurityTest):
     """Errors of albtpu-query about flags and files."""
 
-    def assert_fails(self, exit_code, problem, *flags):
-        result = subprocess.run([QUERY, "pulse", *PULSE_FLAGS, *flags], capture_output=True, text=True,
-                                timeout=PATIENCE)
-        self.assertEqual(result.returncode, exit_code, result.stderr)
-        self.assertRegex(result.stderr, problem)
-
     def test_requires_flags_that_belong_together(self):
         server = "--server", "localhost:1"
-        self.assert_fails(2, "--tls-ca requires --server", "--tls-ca", self.ca)
-        self.assert_fails(2, "--tls-cert requires --tls-key", *server, "--tls-cert", self.client["cert"])
-        self.assert_fails(2, "--tls-key requires --tls-cert", *server, "--tls-key", self.client["key"])
+        for problem, *flags in (("--tls-ca requires --server", "--tls-ca", self.ca),
+                                ("--tls-cert requires --tls-key", *server, "--tls-cert", self.client["cert"]),
+                                ("--tls-key requires --tls-cert", *server, "--tls-key", self.client["key"])):
+            self.assert_refused(run(QUERY, "pulse", *PULSE_FLAGS, *flags), 2, problem)
 
 
 class BothWays(SecurityTest):
     """Mutual TLS: clients show certificates as well."""
 
     def setUp(self):
+        super().setUp()
         self.server = self.serve(*self.tls("--tls-client-ca", self.ca))
 
     def test_answers_clients_with_a_certificate(self):
@@ -150,7 +140,8 @@ class BothWays(SecurityTest):
 
 class Tokens(SecurityTest):
     def setUp(self):
-        self.tokens = self.file("tokens", self.token + "\n")
+        super().setUp()
+        self.tokens = self.write("tokens", self.token + "\n")
         self.server = self.serve(*self.tls("--token-file", self.tokens), "--metrics", "127.0.0.1:0")
 
     def test_grant_access(self):
@@ -174,7 +165,7 @@ class Tokens(SecurityTest):
         line = self.server.wait_for("call refused: the token is not accepted")
         self.assertIn("method=ListTables code=UNAUTHENTICATED request_id=flight-7", line)
         self.assertNotIn(wrong, "\n".join(self.server.lines))
-        metrics = self.metrics(self.server)
+        metrics = self.server.metrics()
         self.assertIn('albtpu_refused_calls_total{reason="no token"} 1\n', metrics)
         self.assertIn('albtpu_refused_calls_total{reason="wrong token"} 1\n', metrics)
 
@@ -193,14 +184,14 @@ class Tokens(SecurityTest):
 
     def test_follow_changes_of_their_file(self):
         other = secrets.token_hex(32)
-        self.file("tokens", f"{self.token}\n{other}\n")
+        self.write("tokens", f"{self.token}\n{other}\n")
         self.assert_answers(self.server, ca=self.ca, token=self.token)
         self.assert_answers(self.server, ca=self.ca, token=other)
-        self.file("tokens", other)
+        self.write("tokens", other)
         self.assert_refuses(self.server, "UNAUTHENTICATED", "the token is not accepted", ca=self.ca, token=self.token)
-        self.file("tokens", "")  # Invalid: the previous tokens stay in use.
+        self.write("tokens", "")  # Invalid: the previous tokens stay in use.
         self.assert_answers(self.server, ca=self.ca, token=other)
-        self.wait_for_line(self.server, "tokens: holds no token")
+        self.server.wait_for("tokens: holds no token")
         self.assertNotIn(other, "\n".join(self.server.lines))
 
     def channel(self):
@@ -212,6 +203,7 @@ class Rotation(SecurityTest):
     """Files are replaced while the server runs, without any failed call."""
 
     def setUp(self):
+        super().setUp()
         self.copies = {name: self.copy(path, f"rotating.{name}") for name, path in (
             ("certificate", self.certificate), ("key", self.key), ("ca", self.ca))}
         self.server = self.serve(
@@ -235,7 +227,7 @@ class Rotation(SecurityTest):
         certificate, key = self.authority.issue("renewed")
         self.copy(key, "rotating.key")
         self.assertEqual(self.shown(), self.certificate.read_text())  # Half replaced: the old pair stays in use.
-        self.wait_for_line(self.server, "is not the key of")
+        self.server.wait_for("is not the key of")
         self.copy(certificate, "rotating.certificate")
         self.assertEqual(self.shown(), certificate.read_text())
         old.tables()
@@ -244,7 +236,7 @@ class Rotation(SecurityTest):
     def test_updates_the_expiry_in_the_metrics(self):
         def expiry():
             return float(re.search(r"^albtpu_certificate_expiry_timestamp_seconds (\S+)$",
-                                   self.metrics(self.server), re.MULTILINE)[1])
+                                   self.server.metrics(), re.MULTILINE)[1])
         def end(certificate):
             text = subprocess.run(["openssl", "x509", "-noout", "-enddate", "-in", certificate],
                                   capture_output=True, text=True, check=True).stdout.strip()
@@ -260,7 +252,7 @@ class Rotation(SecurityTest):
     def test_survives_missing_and_invalid_files(self):
         self.copies["certificate"].unlink()
         self.assert_answers(self.server, ca=self.ca, **self.client)
-        self.file("rotating.certificate", "junk")
+        self.write("rotating.certificate", "junk")
         self.assert_answers(self.server, ca=self.ca, **self.client)
         self.assertEqual(self.shown(), self.certificate.read_text())
 

@@ -1,35 +1,18 @@
-"""Runs albtpu-serve for a test, and makes clients for it from the .proto files alone."""
+"""Runs albtpu-serve for a test, and connects to it."""
 
-import atexit
 import json
 import os
 import queue
 import re
-import shutil
 import subprocess
-import sys
-import tempfile
 import threading
+import urllib.request
 
 import grpc
 
 READY = re.compile(r"ready on (\S+), \d+ tables?, (default '.+'|no default)")
 ALLOWANCE = int(os.environ.get("ALBTPU_ALLOWANCE", "1"))  # Factor for time and memory, which sanitizers need.
 PATIENCE = 60 * ALLOWANCE  # Seconds: on a loaded machine, milliseconds may become that long.
-
-
-def make_stubs(*protos):
-    """Generates importable modules from `protos`, pairs of an import folder and a path in it.
-
-    Returns the folder of the modules.
-    """
-    output = tempfile.mkdtemp()
-    atexit.register(shutil.rmtree, output)
-    for folder, path in protos:
-        subprocess.run(["protoc", "-I", folder, f"--python_out={output}", f"--grpc_out={output}",
-                        "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin", path], check=True)
-    sys.path.insert(0, output)
-    return output
 
 
 def connect(address):
@@ -83,6 +66,13 @@ class Server:
             if not self.logged.wait_for(lambda: len(found()) >= times, PATIENCE):
                 raise RuntimeError(f"no '{text}' in the log: {self.lines}")
             return found()[0]
+
+    def metrics(self):
+        """The page that Prometheus receives from a server with --metrics."""
+        url = self.wait_for("metrics on").split()[-1]
+        no_proxy = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        with no_proxy.open(url, timeout=PATIENCE) as page:
+            return page.read().decode()
 
     def stop(self, signal):
         """Sends `signal`; returns the exit code."""

@@ -6,19 +6,18 @@ Usage: validate_test.py ALBTPU_GENERATE
 import csv
 import html.parser
 import importlib.util
-import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
+
+from commands import make_folder, run
 
 GENERATE = sys.argv[1]
 
 
 def validate(*arguments):
-    return subprocess.run([GENERATE, "validate", *arguments], capture_output=True, text=True)
+    return run(GENERATE, "validate", *arguments, timeout=None)
 
 
 class Page(html.parser.HTMLParser):
@@ -52,9 +51,7 @@ class Page(html.parser.HTMLParser):
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="albtpu-report-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name) / "a report"
+        cls.folder = make_folder(cls.addClassCleanup) / "a report"
         cls.made = validate("--quick", "--output", cls.folder)
         assert cls.made.returncode == 0, cls.made.stderr
         cls.text = (cls.folder / "report.html").read_text()
@@ -110,9 +107,8 @@ class Report(unittest.TestCase):
                 f'<iframe id="f" src="report.html" style="width:{width}px;height:800px;border:0"></iframe>'
                 "<p id=seen></p><script>f.onload = () => { const page = f.contentDocument.documentElement;"
                 "seen.textContent = `widths ${page.scrollWidth} ${page.clientWidth}`; }</script>")
-            seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu",
-                                   "--allow-file-access-from-files", "--virtual-time-budget=20000", "--dump-dom",
-                                   frame.as_uri()], capture_output=True, text=True, timeout=120).stdout
+            seen = run(browser, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",
+                       "--virtual-time-budget=20000", "--dump-dom", frame.as_uri()).stdout
             frame.unlink()
             scroll, client = map(int, re.search(r"widths (\d+) (\d+)", seen).groups())
             self.assertLessEqual(scroll, client, f"wider than {width} pixels")

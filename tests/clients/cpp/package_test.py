@@ -6,14 +6,13 @@ Usage: package_test.py CMAKE BUILD_FOLDER C_COMPILER CXX_COMPILER
 import csv
 import io
 import json
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
+from commands import make_folder, run
 from serving import Server
 
 CMAKE, BUILD, C_COMPILER, CXX_COMPILER = sys.argv[1:5]
@@ -49,9 +48,7 @@ PLUGIN = {
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="albtpu package ")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = make_folder(cls.addClassCleanup, "albtpu package ")
         cls.prefix = cls.folder / "moved"
         subprocess.run([CMAKE, "--install", BUILD, "--prefix", cls.folder / "installed"], check=True,
                        capture_output=True)
@@ -77,7 +74,7 @@ class Package(unittest.TestCase):
         return build
 
     def run_program(self, *command):
-        result = subprocess.run(command, capture_output=True, text=True)
+        result = run(*command)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout
 
@@ -112,7 +109,7 @@ class Package(unittest.TestCase):
         self.assertIn(pulse["digest"], stamp)
         self.assertEqual(from_server, from_table)
 
-        lost = subprocess.run([build / "ask", server.address], capture_output=True, text=True)
+        lost = run(build / "ask", server.address)
         self.assertEqual(lost.returncode, 1)
         self.assertIn(server.address, lost.stderr)
 

@@ -19,7 +19,6 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
         self.digest = self.source.table().reference.digest
         self.before_answer = before_answer or (lambda *_: None)
         self.requests = []
-        self.metadata = {}
 
     def StreamColumns(self, requests, context):
         for request in requests:
@@ -28,7 +27,6 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
             yield pb.StreamColumnsResponse(answer=self.answer(request.query))
 
     def ListTables(self, request, context):
-        self.metadata = dict(context.invocation_metadata())
         self.before_answer(self, request, context)
         only = dict(reference=self.reference(), title="Fake")
         return pb.ListTablesResponse(tables=[only], default_table="fake")
@@ -66,15 +64,12 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
 
 
 class Running:
-    """Runs `service` on `address`, by default on a free port of the loopback."""
+    """Runs `service` on a free port of the loopback."""
 
-    def __init__(self, service, address="127.0.0.1:0", credentials=None):
+    def __init__(self, service):
         self.server = grpc.server(futures.ThreadPoolExecutor(4), options=[("grpc.so_reuseport", 0)])
         uncertainty_service_pb2_grpc.add_UncertaintyServiceServicer_to_server(service, self.server)
-        host = address.rpartition(":")[0]
-        port = (self.server.add_secure_port(address, credentials) if credentials
-                else self.server.add_insecure_port(address))
-        self.address = f"{host}:{port}"
+        self.address = f"127.0.0.1:{self.server.add_insecure_port('127.0.0.1:0')}"
         self.server.start()
 
     def __enter__(self):

@@ -52,10 +52,6 @@ class Beams(unittest.TestCase):
             self.assertEqual(beams.incidence[2, i], one.incidence)
             self.assertAlmostEqual(float(one.beam_azimuth), np.degrees(np.arctan2(2, 1)) + 2, 12)
 
-    def test_reach_points_above_the_water_in_a_straight_line(self):
-        beams = geometry.beams(east=300, north=0, height=410, depth=-10)
-        self.assertEqual((beams.slant_range, beams.water_path), (500, 0))
-
     def test_are_nan_where_the_sensor_is_not_above_the_water_or_a_number_is_missing(self):
         depth = np.ma.masked_array([5.0, 5.0, 5.0], [False, False, True])
         beams = geometry.beams(east=30, north=0, height=[400, -400, 400], depth=depth)

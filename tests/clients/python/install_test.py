@@ -9,8 +9,9 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from commands import make_folder
 
 PACKAGE, TABLE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 QUERY = """import albtpu, sys, albtpu.v1.uncertainty_service_pb2_grpc
@@ -37,8 +38,7 @@ xarray.open_dataset(sys.argv[1])
 class Installation(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.folder = make_folder(cls.addClassCleanup)
         source = cls.folder / "source"  # The build writes into the source folder.
         shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}

@@ -89,6 +89,10 @@ ARGUMENTS = {
     "servers": [
         *((albtpu.connect, dict(target=target), "it should be HOST:PORT")
           for target in ("", "localhost", "two words:1", None, 50051)),
+        *((albtpu.connect, dict(target="localhost:1", **files), message) for files, message in (
+            (dict(ca="nowhere.pem"), "'ca', .*nowhere.pem: No such file"),
+            (dict(ca=sys.argv[1]), "should be a PEM file"),
+            (dict(cert="me.pem"), "give both 'cert' and 'key'"), (dict(key="me.key"), "give both 'cert' and 'key'"))),
         (CLOSED.tables, {}, "is closed: connect again"), (CLOSED.table, {}, "is closed: connect again"),
         (CLOSED.query, PULSE, "is closed: connect again")],
 }

@@ -48,26 +48,9 @@ class Seas(Served):
         self.assertTrue(any("wind" in sentence for sentence in answer.sea.assumptions))
         self.assertIsNone(self.service.query(wind_speed=5, incidence=10, footprint=0.6, depth=8).sea)
 
-    def test_do_not_use_wind_and_fetch_of_pulses(self):
-        some = pulses(1000)
-        answer = self.service.query(sea=CROSSED, **some)
-        for others in (dict(wind_speed=np.full(1000, np.nan)), dict(wind_speed=5, fetch=np.linspace(1, 9, 1000))):
-            np.testing.assert_array_equal(self.service.query(sea=CROSSED, **some, **others).thu, answer.thu)
-
-    def test_repeat_after_half_a_turn(self):
-        some = pulses(1000)
-        azimuth = np.float32(some.pop("azimuth")) // 1
-        np.testing.assert_array_equal(self.service.query(sea=CROSSED, **some, azimuth=azimuth).thu,
-                                      self.service.query(sea=CROSSED, **some, azimuth=azimuth + 180).thu)
-
     def test_answer_a_query_without_pulses(self):
         answer = self.service.query(sea=CROSSED, incidence=10, footprint=0.5, depth=np.empty((0, 3)))
         self.assertEqual((answer.thu.shape, answer.table.id), ((0, 3), self.service.sea_table(CROSSED).reference.id))
-
-    def test_calm_moves_no_pulse(self):
-        answer = self.service.query(sea=albtpu.Sea.calm(), incidence=[0, 20], footprint=0.5, depth=10)
-        np.testing.assert_array_equal(answer.thu, 0)
-        np.testing.assert_array_equal(answer.tvu, 0)
 
     def test_are_refused_by_the_server_with_the_name_of_the_wrong_number(self):
         with self.assertRaisesRegex(albtpu.ServiceError, r"components\[0\]\.peak_period is 0 s"):

@@ -5,10 +5,8 @@ Usage: sea_test.py ALBTPU_SEA_STATES
 
 import gzip
 import math
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -17,6 +15,7 @@ import xarray
 import albtpu
 from albtpu import spectrum
 from albtpu.v1 import sea_pb2
+from commands import FolderTest
 
 SEA_STATES = sys.argv[1]
 FREQUENCIES = (0.033, 0.05, 0.1, 0.225, 0.35, 0.485)
@@ -58,12 +57,7 @@ def of_library(path):
             for time, state in map(str.split, lines)}
 
 
-class Ndbc(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Ndbc(FolderTest):
     def test_has_the_bits_of_the_library(self):
         for write in (write_real_time, write_history):
             path = write(self.folder)

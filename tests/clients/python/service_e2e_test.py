@@ -80,6 +80,14 @@ class Service(Served):
                     self.assert_alike(self.service.query(**query, table=name), file.query(**query),
                                       f"{name} at {coverage} without {left_out}", ties)
 
+    def test_has_the_bits_of_the_file_at_its_nodes(self):
+        file, random = self.files["synthetic"], np.random.default_rng(1)
+        nodes = {name: random.choice(axis.nodes, PULSES) for name, axis in file.table().axes.items()}
+        ours, theirs = (source.query(**nodes, standard_errors=True) for source in (self.service, file))
+        self.assertTrue(ours.interpolated.all())
+        for name, array in theirs.to_dict().items():
+            np.testing.assert_array_equal(ours.to_dict()[name], array, name)
+
     def test_agrees_with_the_file_for_constant_columns(self):
         file = self.files["synthetic"]
         pulses = pulses_of_all_kinds(file.table(), 3000, seed=5)

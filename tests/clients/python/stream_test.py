@@ -1,9 +1,10 @@
-"""Large queries in batches, and servers that fail during a query.
+"""Connections by names and addresses, large queries in batches, and servers that fail during a query.
 
 Usage: stream_test.py TABLE.h5
 """
 
 import io
+import pathlib
 import sys
 import threading
 import unittest
@@ -23,12 +24,14 @@ BATCH = 32768
 PULSES = 3 * BATCH + 100
 DEPTHS = np.linspace(0, 25, PULSES)  # The greatest depths are out of domain.
 PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5)
+HOSTS = pathlib.Path("/etc/hosts")  # Missing in some minimal containers, where no name can be resolved.
+LOCALHOST = HOSTS.is_file() and "localhost" in HOSTS.read_text().split()
 
 
 class Stream(unittest.TestCase):
-    def run_service(self, before_answer=None, **flags):
+    def run_service(self, before_answer=None):
         service = FakeService(TABLE, before_answer)
-        running = Running(service, **flags)
+        running = Running(service)
         self.addCleanup(running.stop)
         return service, running
 
@@ -42,6 +45,15 @@ class Stream(unittest.TestCase):
             expected = table.query(**PULSE, depth=DEPTHS, **options)
         for name, array in expected.to_dict().items():
             np.testing.assert_array_equal(answer.to_dict()[name], array, name)
+
+    def test_connects_to_names_and_addresses(self):
+        _, running = self.run_service()
+        port = running.address.rpartition(":")[2]
+        names = (f"localhost:{port}", f"dns:///localhost:{port}") if LOCALHOST else ()
+        for target in (running.address, f"dns:///{running.address}", f"ipv4:{running.address}", *names):
+            with albtpu.connect(target, patience=5) as client:
+                self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
+                self.assertTrue(client.tables()[0].is_default)
 
     def test_puts_the_answers_to_all_batches_into_their_places(self):
         service, running = self.run_service()

@@ -5,11 +5,9 @@ Usage: table_file_test.py ALBTPU_SYNTHETIC_TABLE INTERPOLATE_RANDOM_PULSES
 
 import hashlib
 import io
-import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import h5py
@@ -17,6 +15,7 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 import albtpu
+from commands import make_folder
 from random_pulses import pulses_of_all_kinds
 
 SYNTHETIC_TABLE, INTERPOLATE = sys.argv[1:3]
@@ -27,8 +26,7 @@ PULSE = dict(wind_speed=5, fetch=5000, incidence=10, azimuth=30, footprint=0.5, 
 class TableFile(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.folder = make_folder(cls.addClassCleanup)
         cls.path = cls.make("synthetic.h5")
         cls.source = albtpu.open_table(cls.path)
         cls.table = cls.source.table()
@@ -220,9 +218,7 @@ VIOLATIONS = (
 class TableOfOneSea(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, folder)
-        cls.path = folder / "sea.h5"
+        cls.path = make_folder(cls.addClassCleanup) / "sea.h5"
         subprocess.run([SYNTHETIC_TABLE, cls.path, "--sea"], check=True)
         cls.source = albtpu.open_table(cls.path)
 

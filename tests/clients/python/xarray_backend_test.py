@@ -7,7 +7,6 @@ import io
 import pathlib
 import shutil
 import sys
-import tempfile
 import unittest
 from unittest import mock
 
@@ -17,14 +16,14 @@ import xarray
 
 import albtpu
 from albtpu.xarray_backend import AlbtpuBackendEntrypoint
+from commands import FolderTest
 
 TABLE = pathlib.Path(sys.argv[1])
 
 
-class Backend(unittest.TestCase):
+class Backend(FolderTest):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.backend = AlbtpuBackendEntrypoint()
 
     def open(self, file, **options):

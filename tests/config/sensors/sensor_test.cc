@@ -161,15 +161,6 @@ TEST(Sensor, NamesTheKeyThatIsMeant) {
   EXPECT_THAT(ErrorOf(std::string(40000, ' ')), HasSubstr("give the TOML that describes the sensor"));
 }
 
-TEST(Sensor, MayBeCutAnywhere) {
-  const std::string text = kWhole;
-  for (std::size_t size = 0; size < text.size(); ++size) {
-    const absl::StatusOr<Sensor> sensor = ParseSensor(text.substr(0, size));
-    if (sensor.ok()) continue;
-    EXPECT_THAT(std::string(sensor.status().message()), StartsWith("line ")) << size;
-  }
-}
-
 TEST(ReadSensor, NamesTheFile) {
   const albtpu::testing::TemporaryFolder folder;
   const std::filesystem::path path = folder / "mine.toml";

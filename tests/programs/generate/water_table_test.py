@@ -3,13 +3,12 @@
 Usage: water_table_test.py ALBTPU_GENERATE
 """
 
+import functools
 import json
-import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
+
+from commands import FolderTest, run
 
 GENERATE = sys.argv[1]
 CAMPAIGN = """
@@ -29,26 +28,20 @@ photons = 4000
 [interpolation]
 checked_pulses = 3
 """
-ENVIRONMENT = os.environ | {"SOURCE_DATE_EPOCH": "1700000000"}
+generate = functools.partial(run, GENERATE, environment={"SOURCE_DATE_EPOCH": "1700000000"})
 
 
-def generate(*arguments):
-    return subprocess.run([GENERATE, *map(str, arguments)], capture_output=True, text=True, env=ENVIRONMENT,
-                          stdin=subprocess.DEVNULL, timeout=300)
-
-
-class WaterTableTest(unittest.TestCase):
+class WaterTableTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.campaign = self.folder / "few.toml"
-        self.campaign.write_text(CAMPAIGN)
+        super().setUp()
+        self.campaign = self.write("few.toml", CAMPAIGN)
+
+    def make(self, *flags):
+        return self.assert_succeeds(generate("table", "--campaign", self.campaign, *flags))
 
     def table(self, name, *flags):
-        result = generate("table", "--campaign", self.campaign, "--output", self.folder / name, *flags)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return (self.folder / name).read_bytes(), result.stdout
+        said = self.make("--output", self.folder / name, *flags)
+        return (self.folder / name).read_bytes(), said
 
     def test_is_the_same_however_it_is_made(self):
         whole, answer = self.table("whole.h5", "--threads", 1)
@@ -56,10 +49,8 @@ class WaterTableTest(unittest.TestCase):
         self.assertEqual(self.table("threads.h5", "--threads", 2)[0], whole)
         work = self.folder / "work"
         for shard in (0, 1, 2):
-            result = generate("table", "--campaign", self.campaign, "--work", work, "--shard", f"{shard}/3")
-            self.assertEqual(result.returncode, 0, result.stderr)
-        merged = generate("merge", "--work", work, "--output", self.folder / "merged.h5")
-        self.assertEqual(merged.returncode, 0, merged.stderr)
+            self.make("--work", work, "--shard", f"{shard}/3")
+        self.assert_succeeds(generate("merge", "--work", work, "--output", self.folder / "merged.h5"))
         self.assertEqual((self.folder / "merged.h5").read_bytes(), whole)
         for unit in sorted(work.glob("*.unit"))[::2]:
             unit.unlink()
@@ -68,10 +59,9 @@ class WaterTableTest(unittest.TestCase):
         self.assertEqual(names, {"water", "pulse"})
 
     def test_plan_counts_its_cells(self):
-        result = generate("plan", "--campaign", self.campaign)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stdout, r"waters and incidences +4\n")
-        self.assertRegex(result.stdout, r"cells +108\n")
+        plan = self.assert_succeeds(generate("plan", "--campaign", self.campaign))
+        self.assertRegex(plan, r"waters and incidences +4\n")
+        self.assertRegex(plan, r"cells +108\n")
 
     def test_refuses_what_is_no_water(self):
         for old, new, *parts in (
@@ -84,11 +74,8 @@ class WaterTableTest(unittest.TestCase):
                 ("photons = 4000", "photons = 1", "effort.photons"),
                 ("[effort]", "[beam]\nprofile = \"gaussian\"\n[effort]", "'beam' is no key")):
             self.campaign.write_text(CAMPAIGN.replace(old, new))
-            result = generate("table", "--campaign", self.campaign, "--output", self.folder / "no.h5")
-            self.assertNotEqual(result.returncode, 0, new)
-            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-            for part in parts:
-                self.assertIn(part, result.stderr)
+            self.assert_refused(generate("table", "--campaign", self.campaign, "--output", self.folder / "no.h5"), 1,
+                                *parts)
             self.assertFalse((self.folder / "no.h5").exists())
 
     def test_point_takes_an_attenuation_and_an_albedo(self):
@@ -98,13 +85,11 @@ class WaterTableTest(unittest.TestCase):
         a, b = 0.108717, 0.279559
         by_kd = generate("water-point", *beam, "--kd", (a * a + 0.12 * a * b)**0.5, "--omega0", b / (a + b))
         direct = generate("water-point", *beam, "--absorption", a, "--scattering", b)
-        self.assertEqual(by_kd.returncode, 0, by_kd.stderr)
+        of_kd = json.loads(self.assert_succeeds(by_kd))
         for name, value in json.loads(direct.stdout).items():
-            self.assertAlmostEqual(json.loads(by_kd.stdout)[name], value, delta=1e-4 + 1e-3 * abs(value))
+            self.assertAlmostEqual(of_kd[name], value, delta=1e-4 + 1e-3 * abs(value))
         for flags in (("--kd", 0.1), ("--absorption", 0.1), ("--kd", 0.1, "--omega0", 0.8, "--absorption", 0.1), ()):
-            result = generate("water-point", *beam, *flags)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn("two numbers", result.stderr)
+            self.assert_refused(generate("water-point", *beam, *flags), 2, "two numbers")
 
 
 if __name__ == "__main__":

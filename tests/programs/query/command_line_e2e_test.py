@@ -19,8 +19,8 @@ APPENDED = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu", "bia
 
 
 class CommandLineTest(programs.Test):
-    def pulse(self, *flags):
-        return query("pulse", "--table", self.table, *flags)
+    def pulse(self, *flags, **options):
+        return query("pulse", "--table", self.table, *flags, **options)
 
     def test_pulse_csv_and_server_give_the_same_numbers(self):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
@@ -62,32 +62,22 @@ class CommandLineTest(programs.Test):
                           "--beam-azimuth and --wind-from")
         self.assert_fails(self.pulse(*pulse, "--altitude", 400), 2, "--altitude alone does not give the footprint")
 
-    def test_pulse_prints_answers_on_standard_output_only(self):
-        result = self.pulse(*PULSE)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        self.assertIn("2 sigma", result.stdout)
-        self.assertNotIn(str(self.folder), result.stdout)
-
     def test_out_of_domain_is_an_answer(self):
         result = self.pulse(*PULSE[:-1], 500)
-        self.assertEqual(result.returncode, 0)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("OUT_OF_DOMAIN:depth:above", result.stdout)
-        self.assertIn("from 0 to 20 m", result.stdout)
+        self.assertNotIn(str(self.folder), result.stdout)
 
     def test_wrong_flags_are_bad_usage(self):
-        for flags in (("--depth", "nan"), ("--depth", "inf"), ("--depth", "-1"), ("--depth", "deep"),
-                      ("--depth", ""), ("--wind-speed", "-5"), ("--fetch", "nan"), ("--fetch", "-inf"),
-                      ("--fetch", "-1"), ("--azimuth", "inf"), ("--coverage", "3sigma"), ("--s44-order", "3"),
-                      ("--no-such-flag",), ("--footprint",), ("--server", "localhost:1"),
-                      ("--server", "localhost"), ("--server", "localhost:0"), ("--server", ""),
-                      ("--table-name", "quick"), ("--table-name", "")):
+        # Flags that a survey file has, too, are tested by tests/config/keys_e2e_test.py.
+        for flags in (("--depth", "nan"), ("--depth", "-1"), ("--depth", "deep"), ("--depth", ""), ("--azimuth", "inf"),
+                      ("--no-such-flag",), ("--footprint",), ("--server", "localhost:1"), ("--server", "localhost"),
+                      ("--server", "localhost:0"), ("--server", ""), ("--table-name", "quick"), ("--table-name", "")):
             with self.subTest(flags=flags):
                 others = [pair for pair in zip(PULSE[::2], PULSE[1::2]) if pair[0] != flags[0]]
                 arguments = [part for pair in others for part in pair]
                 self.assert_fails(self.pulse(*arguments, *flags), 2, flags[0])
         self.assert_fails(self.pulse(*PULSE[2:]), 2, "--wind-speed")
-        self.assert_fails(query(), 2)
-        self.assert_fails(query("no-such-command"), 2)
         self.assertEqual(self.pulse(*PULSE, "--fetch", "inf", "--azimuth", "-30").returncode, 0)
 
     def test_each_command_takes_the_flags_that_mean_something_for_it(self):
@@ -103,13 +93,10 @@ class CommandLineTest(programs.Test):
 
     def test_flags_without_effect_are_bad_usage(self):
         files = ("in.csv", "out.csv", "--table", self.table)
-        for command, flags in ((("tables",), ("--overwrite",)), (("tables",), ("--standard-errors",)),
-                               (("tables",), ("--coverage", "p95")), (("tables",), ("--s44-order", "1b")),
-                               (("tables",), ("--depth", 3)), (("pulse", *PULSE), ("--overwrite",)),
-                               (("pulse", *PULSE), ("--resume",)), (("csv", *files), ("--json",)),
-                               (("csv", *files), ("--recursive",)), (("csv", *files), ("--classes", 40)),
-                               (("csv", *files), ("--token-file", "token")), (("las", *files), ("--depth", 3)),
-                               (("health",), ("--table", self.table)),
+        for command, flags in ((("tables",), ("--standard-errors",)), (("tables",), ("--depth", 3)),
+                               (("pulse", *PULSE), ("--overwrite",)), (("csv", *files), ("--json",)),
+                               (("csv", *files), ("--classes", 40)), (("csv", *files), ("--token-file", "token")),
+                               (("las", *files), ("--depth", 3)), (("health",), ("--table", self.table)),
                                (("health", "--server", "localhost:1"), ("--coverage", "p95"))):
             with self.subTest(command=command[0], flags=flags):
                 self.assert_fails(query(*command, *flags), 2, flags[0])
@@ -117,34 +104,20 @@ class CommandLineTest(programs.Test):
     def test_misspelt_words_get_a_suggestion(self):
         for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, plan, report, crosscheck, "
                                       "trajectory, sea, sensors, keys, tables, health"),
-                                     (["plus"], "'plus' is not a command", "did you mean pulse?"),
-                                     (["pulse", "--wind-sped", 5], "did you mean --wind-speed?"),
                                      (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),
-                                     (["csv", "a.csv", "b.csv", "--overwrit"], "did you mean --overwrite?"),
                                      (["pulse", *PULSE, "--coverage", "2sigm"], 'did you mean "2sigma"?'),
-                                     (["--depth", 3, "pulse"], "put it after the command"),
-                                     (["pulse", "words"], "'words'"), ([], "no command is given")):
+                                     ([], "no command is given")):
             with self.subTest(arguments=arguments):
                 self.assert_fails(query(*arguments), 2, *expected)
 
     def test_the_interpolation_error_stands_beside_the_standard_error(self):
         tables = pathlib.Path(__file__).resolve().parents[3] / "tables/shipped"
         survey = ("--table", tables / "survey.h5")
-        thu = "thu                    0.26 % rms, 0.79 % at the 99th percentile"
-        for flags in ((), ("--standard-errors",)):
-            text = query("pulse", *PULSE, *survey, *flags, check=0).stdout
-            self.assertIn(thu, text)
-            with programs.server(tables) as address:
-                self.assertEqual(query("pulse", *PULSE, "--server", address, *flags, check=0).stdout, text)
-        answer = json.loads(query("pulse", *PULSE, *survey, "--json", check=0).stdout)
-        self.assertAlmostEqual(answer["thu_interpolation_error_rms"], 0.00256942)
-        self.assertAlmostEqual(answer["thu_interpolation_error_percentile_99"], 0.00791342)
-        published = query("pulse", "--table", tables / "birkebak2018_model.h5", "--wind-speed", 3, "--incidence", 10,
-                          "--azimuth", 0, "--footprint", 0.25, "--depth", 1, check=0).stdout
-        self.assertIn("INTERPOLATED", published)
-        self.assertIn("interpolation error      not known", published)
-        source = self.folder / "in.csv"
-        source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
+        text = query("pulse", *PULSE, *survey, "--standard-errors", check=0).stdout
+        self.assertIn("thu                    0.26 % rms, 0.79 % at the 99th percentile", text)
+        with programs.server(tables) as address:
+            self.assertEqual(query("pulse", *PULSE, "--server", address, "--standard-errors", check=0).stdout, text)
+        source = self.write("in.csv", "wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
         noted = query("csv", source, self.folder / "out.csv", *survey, "--standard-errors", check=0).stderr
         self.assertIn("albtpu-query: interpolation error, relative, at random pulses all over the table: "
                       "refraction_along_wind 0.28 % rms", noted)
@@ -162,10 +135,8 @@ class CommandLineTest(programs.Test):
             self.assert_fails(las(source, target, without=name), 2, name)
         for more in (("--altitude", 400), ("--divergence", 1), ("--altitude", 400, "--divergence", 1),
                      ("--aperture", 0.1), ("--wind-from", 10), ("--flight-direction", 10),
-                     ("--azimuth", 10, "--wind-from", 10, "--flight-direction", 10), ("--classes", "256"),
-                     ("--classes", "bottom"), ("--classes", ""), ("--water-classes", "surface"), ("--units", "yard"),
-                     ("--altitude", "nan"), ("--water-level", "nan"), ("--water-level", ""), ("--scanner", "conical"),
-                     ("--lever-arm", "1,2"), ("--lever-arm", "560,0,-300"), ("--water-classes", 40),
+                     ("--azimuth", 10, "--wind-from", 10, "--flight-direction", 10), ("--units", "yard"),
+                     ("--scanner", "conical"), ("--lever-arm", "560,0,-300"), ("--water-classes", 40),
                      ("--classes", "26,27", "--water-classes", "27,9")):
             with self.subTest(more=more):
                 self.assert_fails(las(source, target, more=more), 2)
@@ -209,39 +180,39 @@ class CommandLineTest(programs.Test):
         os.mkfifo(self.folder / "pipe")
         before = self.names()
         table = ("--table", self.table)
-        self.assert_fails(query("csv", source, target, *table), 1, "in.csv line 3, column 'depth': 'deep'")
-        self.assert_fails(query("csv", self.folder / "no.csv", target, *table), 1, "no.csv")
-        self.assert_fails(query("csv", source, self.folder / "no" / "out.csv", *table), 1, "out.csv")
-        self.assert_fails(query("csv", source, source, *table, "--overwrite"), 1, "is the input itself")
-        self.assert_fails(query("csv", source, target, "--table", self.folder / "no.h5"), 1, "no.h5")
-        self.assert_fails(query("csv", source, target, "--table", source), 1, "in.csv")
-        self.assert_fails(query("csv", source, target, "--server", "127.0.0.1:1"), 1, "127.0.0.1:1")
+        for arguments, part in (
+                (("csv", source, target, *table), "in.csv line 3, column 'depth': 'deep'"),
+                (("csv", self.folder / "no.csv", target, *table), "no.csv"),
+                (("csv", source, self.folder / "no" / "out.csv", *table), "out.csv"),
+                (("csv", source, source, *table, "--overwrite"), "is the input itself"),
+                (("csv", source, target, "--table", self.folder / "no.h5"), "no.h5"),
+                (("csv", source, target, "--table", source), "in.csv"),
+                (("csv", source, target, "--server", "127.0.0.1:1"), "127.0.0.1:1"),
+                (("las", source, target, *table, *FLAGS), "is not a LAS file"),
+                (("las", self.folder / "pipe", target, *table, *FLAGS), "pipe: is not a regular file")):
+            self.assert_fails(query(*arguments), 1, part)
         self.assert_fails(query("csv", source, target, *table, "--depth", 3), 2, "--depth")
-        self.assert_fails(query("las", source, target, *table, *FLAGS), 1, "is not a LAS file")
-        self.assert_fails(query("las", self.folder / "pipe", target, *table, *FLAGS), 1, "pipe: is not a regular file")
         self.assertEqual(self.names(), before)
 
     def test_installed_tables_answer_by_default(self):
         tables = self.folder / "tables"
         tables.mkdir()
-        environment = {**os.environ, "ALBTPU_TABLES": str(tables)}
-        self.assert_fails(query("pulse", *PULSE, env=environment), 1, "--table")
+        environment = {"ALBTPU_TABLES": str(tables)}
+        self.assert_fails(query("pulse", *PULSE, environment=environment), 1, "--table")
         make_table(tables / "one.h5", "--id", "one")
-        self.assertIn("one", query("pulse", *PULSE, env=environment, check=0).stdout)
         make_table(tables / "two.h5", "--id", "two", "--factor", "2")
-        self.assert_fails(query("pulse", *PULSE, env=environment), 1, "one, two")
-        self.assertIn("two", query("pulse", *PULSE, "--table-name", "two", env=environment, check=0).stdout)
+        self.assert_fails(query("pulse", *PULSE, environment=environment), 1, "one, two")
+        self.assertIn("two", query("pulse", *PULSE, "--table-name", "two", environment=environment, check=0).stdout)
         make_table(tables / "survey.h5", "--id", "all")
-        self.assertIn("all", query("pulse", *PULSE, env=environment, check=0).stdout)
-        listed = query("tables", env=environment, check=0).stdout
+        self.assertIn("all", query("pulse", *PULSE, environment=environment, check=0).stdout)
+        listed = query("tables", environment=environment, check=0).stdout
         self.assertIn("survey (default)", listed)
         with programs.server(tables) as address:
             self.assertEqual(query("tables", "--server", address, check=0).stdout, listed)
 
     def test_full_standard_output_is_a_failure(self):
         with open("/dev/full", "w") as full:
-            command = [programs.PATHS["query"], "pulse", "--table", self.table, *map(str, PULSE)]
-            result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+            result = self.pulse(*PULSE, stdout=full)
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
@@ -249,8 +220,7 @@ class CommandLineTest(programs.Test):
         reader, writer = os.pipe()
         os.close(reader)
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
-        command = [programs.PATHS["query"], "las", source, target, "--table", self.table, *map(str, FLAGS)]
-        self.assertEqual(subprocess.run(command, stderr=writer).returncode, 0)
+        query("las", source, target, "--table", self.table, *FLAGS, stderr=writer, check=0)
         os.close(writer)
         self.assertTrue(target.exists())
 

@@ -13,7 +13,7 @@ import numpy as np
 
 import programs
 from las_file import LasFile
-from programs import FLAGS, make_flight, query
+from programs import make_flight, query
 
 ALTITUDE, DIVERGENCE = 400.0, 1.5  # m, mrad
 WIND_FROM, FLIGHT = 100.0, 30.0  # degree
@@ -133,16 +133,6 @@ class LasTest(programs.Test):
                 result = self.annotate(source, target, 26 if point_format < 6 else 40, 0, "--overwrite")
                 self.check(source, target, 26 if point_format < 6 else 40, 0)
                 self.assertEqual("whole degrees" in result.stderr, point_format < 6)
-
-    def test_server_writes_the_same_bytes(self):
-        source = make_flight(self.folder / "in.las")
-        with programs.server(self.folder) as address:
-            for coverage in ("2sigma", "p95"):
-                local, remote = (self.folder / f"{kind}_{coverage}.las" for kind in ("local", "remote"))
-                query("las", source, local, "--table", self.table, "--coverage", coverage, *FLAGS, check=0)
-                query("las", source, remote, "--server", address, "--coverage", coverage, *FLAGS, check=0)
-                self.assertEqual(local.read_bytes(), remote.read_bytes())
-            self.assertNotEqual(local.read_bytes(), (self.folder / "local_2sigma.las").read_bytes())
 
     def test_many_files_into_a_folder(self):
         make_flight(self.folder / "a.las")

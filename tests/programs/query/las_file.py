@@ -49,6 +49,10 @@ class LasFile:
     def scan_angles(self):
         return self.field(16, "i1") * 1.0 if self.point_format < 6 else self.field(18, "<i2") * 0.006
 
+    def columns(self):
+        """The extra dimensions by name, where all are float32, in double precision."""
+        return {name: self.field(where[0], "<f4").astype(float) for name, where in self.extra_dimensions().items()}
+
     def extra_dimensions(self):
         """The contents of the Extra Bytes record: name -> (offset in a point, type, no-data, description)."""
         (payload,) = [data for user, record, _, data in self.vlrs if user == b"LASF_Spec" and record == 4]

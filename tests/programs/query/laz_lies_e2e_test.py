@@ -1,6 +1,9 @@
-"""albtpu-query las with LAZ files that are cut short or lie: one message, nothing written, little memory and time."""
+"""albtpu-query las with LAZ files that are cut short or lie: one message, nothing written, little memory and time.
 
-import random
+tests/formats/laz has all lies, of the chunk table, of chunks and of each field, and cuts at each byte; here is one of
+each kind.
+"""
+
 import resource
 import struct
 import time
@@ -8,7 +11,6 @@ import time
 import programs
 from programs import FLAGS, laz_copy, make_flight
 
-SEED = 20240501
 MOST_MEMORY = 2 << 30  # Bytes of addresses, of which threads and libraries reserve most.
 LONGEST = 20  # s for a file of some hundred kilobytes, on a busy machine.
 # Offsets in the header of LAS 1.4.
@@ -41,7 +43,7 @@ class Lies(programs.Test):
         self.assertLess(time.monotonic() - begin, LONGEST)
         return result
 
-    def assert_refused(self, data, *parts):
+    def assert_noticed(self, data, *parts):
         result = self.run_on(data)
         written = self.names()
         for name in {"out.laz", "out.laz.json"} & set(written):
@@ -61,50 +63,26 @@ class Lies(programs.Test):
     def test_the_file_is_read_as_it_is(self):
         self.assertEqual(self.run_on(self.file).returncode, 0)
 
-    def test_file_cut_anywhere(self):
-        cuts = [0, 3, 4, 100, 226, 227, 374, 375, self.record - 60, self.record, self.record + 20, self.begin - 1,
-                self.begin, self.begin + 7, self.begin + 8, self.begin + 9, self.begin + 40, self.begin + 100,
-                self.table - 1, self.table, self.table + 4, self.table + 8, self.table + 9, len(self.file) - 1]
-        numbers = random.Random(SEED)
-        cuts += [numbers.randrange(len(self.file)) for _ in range(15)]
-        for cut in cuts:
+    def test_file_cut_in_each_of_its_parts(self):
+        for cut in (0, 100, 374, self.record + 20, self.begin, self.begin + 8, self.begin + 100, self.table,
+                    self.table + 8, len(self.file) - 1):
             with self.subTest(bytes=cut):
-                self.assert_refused(self.file[:cut])
+                self.assert_noticed(self.file[:cut])
 
     def test_header(self):
         for what, fields in {
-                "more points": [("<Q", POINT_COUNT, self.points + 1)],
-                "fewer points": [("<Q", POINT_COUNT, self.points - 1)],
+                "a point more": [("<Q", POINT_COUNT, self.points + 1)],
                 "a chunk more": [("<Q", POINT_COUNT, self.points + 9000)],
-                "2^32 points": [("<Q", POINT_COUNT, 1 << 32)],
-                "2^63 points": [("<Q", POINT_COUNT, 1 << 63)],
                 "2^64 - 1 points": [("<Q", POINT_COUNT, (1 << 64) - 1)],
                 "another format": [("B", POINT_FORMAT, 0x80 | 7)],
-                "an older format": [("B", POINT_FORMAT, 0x80 | 1)],
-                "an unknown format": [("B", POINT_FORMAT, 0x80 | 11)],
-                "the old mark of compression": [("B", POINT_FORMAT, 0x40 | 6)],
-                "both marks": [("B", POINT_FORMAT, 0xC0 | 6)],
+                "both marks of compression": [("B", POINT_FORMAT, 0xC0 | 6)],
                 "no mark of compression": [("B", POINT_FORMAT, 6)],
-                "longer records": [("<H", RECORD_LENGTH, 33)],
-                "shorter records": [("<H", RECORD_LENGTH, 31)],
-                "too short records": [("<H", RECORD_LENGTH, 29)],
-                "empty records": [("<H", RECORD_LENGTH, 0)],
                 "the longest records": [("<H", RECORD_LENGTH, 65535)],
                 "points beyond the end": [("<I", OFFSET_TO_POINTS, len(self.file) + 1)],
-                "points at the end": [("<I", OFFSET_TO_POINTS, len(self.file) - 3)],
-                "points in the header": [("<I", OFFSET_TO_POINTS, 100)],
-                "points a byte later": [("<I", OFFSET_TO_POINTS, self.begin + 1)],
-                "no VLR": [("<I", VLR_COUNT, 0)],
                 "2^32 - 1 VLRs": [("<I", VLR_COUNT, 0xFFFFFFFF)],
-                "EVLRs in the points": [("<Q", EVLR_START, self.begin + 50), ("<I", EVLR_COUNT, 1)],
-                "EVLRs beyond the end": [("<Q", EVLR_START, 1 << 62), ("<I", EVLR_COUNT, 1)]}.items():
+                "EVLRs in the points": [("<Q", EVLR_START, self.begin + 50), ("<I", EVLR_COUNT, 1)]}.items():
             with self.subTest(what):
-                self.assert_refused(self.changed(*fields))
-
-    def test_file_whose_writer_was_stopped_before_the_table(self):
-        """LASzip leaves the place of the offset in it until the table is written."""
-        data = self.changed(("<Q", self.begin, self.begin))[:self.table]
-        self.assertEqual(self.run_on(data).returncode, 0)
+                self.assert_noticed(self.changed(*fields))
 
     def test_one_chunk_of_2_to_the_32_points(self):
         for point_format in (1, 6):
@@ -115,7 +93,7 @@ class Lies(programs.Test):
                 data = bytearray(self.source.read_bytes())
                 struct.pack_into("<Q", data, POINT_COUNT, 4294967294)
                 struct.pack_into("<I", data, 107, 0)
-                self.assert_refused(data)
+                self.assert_noticed(data)
 
 
 if __name__ == "__main__":

@@ -92,9 +92,9 @@ class ManyFilesTest(programs.Test):
         for name, values in depths.items():
             (source / f"{name}.csv").write_text("depth\n" + "".join(f"{depth}\n" for depth in values))
         flags = ("csv", source, "--output-dir", out, "--table", self.table, "--wind-speed", 5, "--incidence", 12,
-                 "--resume")
+                 "--footprint", 0.5, "--resume")
         for run in range(2):  # The second one finds the outputs of the first.
-            result = query(*flags, "--footprint", 0.5)
+            result = query(*flags)
             self.assert_fails(result, 1, "in all 3 files: only 3 of 7 pulses got a number",
                               "4 OUT_OF_DOMAIN:depth:below: depth -4 to -1 m is below 0 m", "negative downwards?")
             lines = [line for line in result.stderr.splitlines() if "upside_down.csv: no pulse got a number" in line]
@@ -104,10 +104,6 @@ class ManyFilesTest(programs.Test):
         for name, values in depths.items():
             self.assertEqual(len((out / f"{name}.csv").read_text().splitlines()), 1 + len(values))
             self.assertTrue((out / f"{name}.csv.json").is_file())
-        for path in out.iterdir():
-            path.unlink()
-        self.assert_fails(query(*flags, "--footprint", 60), 1, "in all 3 files: no pulse got a number", "in cm?")
-        self.assert_fails(query(*flags, "--altitude", 400, "--divergence", 0.0015, "--overwrite"), 1, "in rad?")
 
     def test_killed_run_resumes_where_it_stopped(self):
         survey, out = self.make_survey(4, 20)

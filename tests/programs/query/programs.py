@@ -7,10 +7,10 @@ import contextlib
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "e2e"))
+from commands import FolderTest, run  # noqa: E402
 from serving import Server  # noqa: E402
 
 PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
@@ -19,8 +19,7 @@ FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--
 
 def query(*arguments, check=None, **keywords):
     """Runs albtpu-query. Fails if `check` is given and is not its exit code."""
-    command = [PATHS["query"], *map(str, arguments)]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=300, **keywords)
+    result = run(PATHS["query"], *arguments, **keywords)
     if check is not None and result.returncode != check:
         raise AssertionError(f"albtpu-query {arguments} exited {result.returncode}: {result.stderr}")
     return result
@@ -49,22 +48,15 @@ def server(folder):
         yield running.address
 
 
-class Test(unittest.TestCase):
+class Test(FolderTest):
     """A test with its own folder and a table in it, `table`."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.table = make_table(self.folder / "quick.h5")
 
     def toml(self, text, name="survey.toml"):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def names(self):
-        return sorted(path.name for path in self.folder.iterdir())
+        return self.write(name, text)
 
     def assert_fails(self, result, code, *parts):
         """Checks for one clear message at the end of standard error, and nothing on standard output."""

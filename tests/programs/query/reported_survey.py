@@ -68,8 +68,8 @@ class Survey:
                 values = las.field(4 * axis, "<i4") * las.scale[axis] + las.offset[axis]
                 columns.setdefault(name, []).append(values[bottom])
             columns.setdefault("line", []).append(las.field(20, "<u2")[bottom])
-            for name, where in las.extra_dimensions().items():
-                columns.setdefault(name, []).append(las.field(where[0], "<f4")[bottom].astype(float))
+            for name, values in las.columns().items():
+                columns.setdefault(name, []).append(values[bottom])
         return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 

@@ -1,21 +1,14 @@
 """The same settings give the same total, and the same refusal, from one pulse, CSV, LAS and a server."""
 
 import json
-import os
-import pathlib
-import sys
 
 import numpy as np
 
+import albtpu
 import programs
+from albtpu.v1.budget_pb2 import AirErrors
 from las_file import LasFile
 from programs import query
-
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "clients/python/src"))
-
-import albtpu  # noqa: E402
-from albtpu.v1.budget_pb2 import AirErrors  # noqa: E402
 
 SENSOR = "[sensor]\nname = 'riegl-vq-880-g'\nlever_arm = [0.3, -0.2, 0.5]\n"
 DECIDED = "[datum]\nsigma = 0.08\n[water]\ncolumn = 'none'\n"
@@ -42,6 +35,7 @@ REFUSED = {
     "water column": (PULSE.replace("column = 'none'", "kd = 0.1"), "the water column is not decided"),
     "both decisions": (PULSE.replace("column", "bias = 'none'\ncolumn"), "contradicts column"),
     "receiver": (PULSE.replace("column = 'none'", "bias = 'none'"), "lacks detector"),
+    "no sensor": ("[sigma]\nscan = 0.1\n" + SEA, "[sigma] has no effect without a sensor"),
     "scan": (PULSE.replace("riegl-vq-880-g", "usgs-eaarl-b"), "no source gives scan (degree)"),
     "sensor": (PULSE.replace("880", "88"), "did you mean riegl-vq-880-g?"),
     "range to a level": (LEVEL + "[sigma]\nsurface_range = 0.02\n", "surface_range has no effect where a level"),
@@ -52,12 +46,12 @@ REFUSED = {
 MOTION = {"roll": 3, "pitch": 4, "heading": 30, "velocity_north": 60, "velocity_east": 35, "velocity_down": 1,
           "roll_rate": 0.5, "pitch_rate": 1, "yaw_rate": 2}
 NUMBERS = ("thu", "tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea")
+ENTRIES = ("NN", "EE", "DD", "NE", "ND", "ED")
 
 
 class SameTotals(programs.Test):
     def setUp(self):
         super().setUp()
-        os.environ["ALBTPU_SENSORS"] = str(ROOT / "config/sensors/shipped")
         self.settings = self.folder / "survey.toml"
         self.pulses = self.folder / "pulses.csv"
         self.pulses.write_text("incidence,beam_azimuth,depth,altitude,footprint," + ",".join(MOTION) +
@@ -72,7 +66,8 @@ class SameTotals(programs.Test):
 
     def ask_csv(self, pulses, *source):
         out = self.folder / "out.csv"
-        result = query("csv", pulses, out, "--survey", self.settings, "--details", "--overwrite", *source)
+        result = query("csv", pulses, out, "--survey", self.settings, "--details", "--s44-order", "1b",
+                       "--overwrite", *source)
         if result.returncode:
             return result, None
         lines = [line.split(",") for line in out.read_text().splitlines()]
@@ -111,10 +106,14 @@ class SameTotals(programs.Test):
                     self.assertEqual(answer.returncode, 0, answer.stderr)
                     total = json.loads(answer.stdout)
                     expected = {number: np.float32(total[number]) for number in NUMBERS}
+                    total_alone = {f"covariance_{entry}": np.float32(total["covariance_total"][entry])
+                                   for entry in ENTRIES} | {"bias_vertical": np.float32(total["bias_vertical"])}
                     for source in (("--table", self.table), ("--server", address)):
                         _, columns = self.ask_csv(self.pulses, *source)
                         found = {key: value[0] for key, value in self.numbers_of_csv(columns).items()}
                         self.assertEqual(found, expected)
+                        self.assertEqual({name: np.float32(columns[name][0]) for name in total_alone}, total_alone)
+                        self.assertEqual(columns["s44_order_met"][0], total["s44_order_met"])
                     budget = self.budget_of_server(service, total)
                     # The height of the waves that a location does not see is not among the stated numbers.
                     same = NUMBERS if total["plan"]["located"] == "pulse" else ("thu_air", "tvu_air")
@@ -132,8 +131,7 @@ class SameTotals(programs.Test):
                 self.settings.write_text(text)
                 result, out = self.ask_las()
                 self.assertEqual(result.returncode, 0, result.stderr)
-                las = LasFile(out)
-                number = {key: las.field(where[0], "<f4") for key, where in las.extra_dimensions().items()}
+                number = {key: values.astype(np.float32) for key, values in LasFile(out).columns().items()}
                 rows = np.flatnonzero(number["total_thu"] >= 0)[:2000]
                 self.assertGreater(len(rows), 100)
                 pulses = self.folder / "of_points.csv"

@@ -9,7 +9,7 @@ import programs
 import sea_states
 from las_file import LasFile
 from programs import make_flight, query
-from sea_states import FLIGHT, FLIGHT_START, WAVES, uncertainties, utc
+from sea_states import FLIGHT, FLIGHT_START, uncertainties, utc
 from simulated_survey import SimulatedSurvey
 
 
@@ -96,14 +96,6 @@ class SeaSeriesTest(sea_states.Test):
         self.assertEqual((sea["first"]["time"], sea["last"]["time"]), (utc(start - 1800), utc(start + 1800)))
         weeks = self.sea_csv(*((start - 1800 + 3600 * hour, 1, 200) for hour in range(-200, 200)), name="weeks.csv")
         self.assert_fails(query(*flags, "--overwrite", "--sea", weeks), 1, "more than one week", "--sea-time")
-
-    def test_runs_are_resumed_with_the_same_sea_only(self):
-        source = make_flight(self.folder / "in.las")
-        flags = ("las", source, self.folder / "out.las", *FLIGHT, *WAVES, "--resume")
-        query(*flags, check=0)
-        self.assertIn("already complete", query(*flags, check=0).stderr)
-        tail = self.toml("[sea]\ntail = 'wind'\n")
-        self.assert_fails(query(*flags, "--survey", tail), 1, "parameters.sea.tail", "add --overwrite")
 
 
 if __name__ == "__main__":

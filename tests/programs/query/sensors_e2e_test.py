@@ -1,7 +1,6 @@
 """albtpu-query sensors: all sensors, one of them, and messages."""
 
 import json
-import os
 import pathlib
 
 import programs
@@ -13,7 +12,7 @@ NUMBERS = {"scan", "bottom_range", "surface_range", "range_offset", "lever_arm",
 
 
 def sensors(*arguments, folder=SHIPPED, check=None):
-    return query("sensors", *arguments, env={**os.environ, "ALBTPU_SENSORS": str(folder)}, check=check)
+    return query("sensors", *arguments, environment={"ALBTPU_SENSORS": str(folder)}, check=check)
 
 
 class SensorsTest(programs.Test):
@@ -47,20 +46,16 @@ class SensorsTest(programs.Test):
         self.assertNotIn(str(SHIPPED), text)
 
     def test_reads_a_file_of_the_user(self):
-        mine = self.folder / "mine.toml"
-        mine.write_text("title = 'Mine'\n[attitude]\nvalue = [0.0025, 0.0025, 0.005]\nunit = 'degree'\n"
-                        "source = 'its manual'\n")
+        mine = self.write("mine.toml", "title = 'Mine'\n[attitude]\nvalue = [0.0025, 0.0025, 0.005]\nunit = 'degree'\n"
+                                       "source = 'its manual'\n")
         self.assertIn("attitude       [0.0025, 0.0025, 0.005] degree, its manual", sensors(mine, check=0).stdout)
         mine.write_text("title = 'Mine'\n[scan]\nvalue = 0.02\nunit = 'degree'\n")
-        self.assert_fails(sensors(mine), 1, f"{mine}: line 2: [scan] source is missing; give")
-        self.assert_fails(sensors(folder=self.folder), 1, f"{mine}: line 2: [scan] source is missing; give")
+        for result in (sensors(mine), sensors(folder=self.folder)):
+            self.assert_fails(result, 1, f"{mine}: line 2: [scan] source is missing; give")
 
     def test_names_the_sensor_that_is_meant(self):
         self.assert_fails(sensors("riegl-vq-88-g"), 1, "did you mean riegl-vq-880-g?")
-        self.assert_fails(sensors("sonar"), 1, "there are arete-pills, ")
-        self.assert_fails(sensors("a", folder=self.folder / "none"), 1, "ALBTPU_SENSORS")
         self.assert_fails(sensors(""), 2, "name")
-        self.assert_fails(sensors("--survey", "x"), 2, "--survey")
         empty = sensors(folder=self.folder / "none", check=0)
         self.assertEqual(empty.stdout, "")
         self.assertIn("there are no sensors in ", empty.stderr)

@@ -61,9 +61,6 @@ class Details:
     """What `albtpu-query las --details` wrote for each point, in double precision."""
 
     def __init__(self, path):
-        las = LasFile(path)
-        dimensions = las.extra_dimensions()
+        columns = LasFile(path).columns()
         for name in ("sea_thu", "sea_tvu", "incidence", "beam_azimuth", "footprint", "water_depth", "slant_range"):
-            offset, kind, _, _ = dimensions[name]
-            assert kind == 9, f"{name} is not a float32"
-            setattr(self, name, las.field(offset, "<f4").astype(float))
+            setattr(self, name, columns[name])

@@ -1,18 +1,13 @@
-"""albtpu-query trajectory, from outside: sound files are shown, others are refused by name.
-
-Usage: trajectory_e2e_test.py query=ALBTPU_QUERY (other arguments are ignored)
-"""
+"""albtpu-query trajectory, from outside: sound files are shown, others are refused by name."""
 
 import json
 import math
 import pathlib
 import struct
-import subprocess
-import sys
-import tempfile
-import unittest
 
-PROGRAMS = dict(argument.split("=", 1) for argument in sys.argv[1:])
+import programs
+from programs import query
+
 COURSE, SPEED, RATE = math.radians(344.4), 56.5, 50
 NORTH, EAST = SPEED * math.cos(COURSE), SPEED * math.sin(COURSE)
 START = 313200  # s of the week: Wednesday 15:00
@@ -46,26 +41,16 @@ def ascii_text(count=1000, start=146968200):
                    for t, lat, lon in positions(count)).encode()
 
 
-class Trajectory(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def write(self, name, data):
-        path = pathlib.Path(self.folder.name, name)
-        path.write_bytes(data)
-        return str(path)
-
-    def run_query(self, *arguments, code=0):
-        result = subprocess.run([PROGRAMS["query"], "trajectory", *map(str, arguments)], capture_output=True, text=True)
-        self.assertEqual(result.returncode, code, result.stderr)
-        return result
+class Trajectory(programs.Test):
+    def file(self, name, data):
+        (self.folder / name).write_bytes(data)
+        return self.folder / name
 
     def json_of(self, *arguments, code=0):
-        return json.loads(self.run_query(*arguments, "--json", code=code).stdout)["files"]
+        return json.loads(query("trajectory", *arguments, "--json", check=code).stdout)["files"]
 
     def test_shows_an_sbet(self):
-        shown, = self.json_of(self.write("a.out", sbet()))
+        shown, = self.json_of(self.file("a.out", sbet()))
         self.assertEqual((shown["error"], shown["format"], shown["records"]), (None, "SBET", 876))
         self.assertEqual((shown["start"], shown["start_utc"], shown["gaps"]), (START, None, 1))
         self.assertAlmostEqual(shown["end"], START + 19.98, delta=1e-6)
@@ -80,40 +65,41 @@ class Trajectory(unittest.TestCase):
         self.assertIsNone(shown["sigma_north"])
 
     def test_shows_an_smrmsg(self):
-        shown, = self.json_of(self.write("a.out", smrmsg()))
+        shown, = self.json_of(self.file("a.out", smrmsg()))
         self.assertEqual((shown["format"], shown["records"], shown["gaps"], shown["rate"]), ("SMRMSG", 20, 0, 1))
         self.assertEqual([shown["sigma_north"], shown["sigma_east"], shown["sigma_down"]], [.02, .03, .05])
         self.assertAlmostEqual(shown["sigma_heading"], 0.05, delta=1e-15)
         self.assertIsNone(shown["speed"])
 
     def test_shows_an_ascii_trajectory_with_its_date(self):
-        shown, = self.json_of(self.write("a.txt", ascii_text()))
+        shown, = self.json_of(self.file("a.txt", ascii_text()))
         self.assertEqual((shown["format"], shown["records"]), ("ASCII", 1000))
         self.assertEqual(shown["start_utc"], "2016-05-11T02:16:23Z")  # 1146968200 s since 1980-01-06, minus 17 s
         self.assertIsNone(shown["velocity_difference"])
 
     def test_prints_text_for_people(self):
-        text = self.run_query(self.write("a.out", sbet()), self.write("b.out", smrmsg())).stdout
+        text = query("trajectory", self.file("a.out", sbet()), self.file("b.out", smrmsg()), check=0).stdout
         self.assertIn("(Wednesday 15:00:00)", text)
         self.assertIn("1 above 0.2 s, the longest of 2.500 s from 313205.000 s", text)
         self.assertIn("velocity check passed", text)
         self.assertIn("format         SMRMSG", text)
 
     def test_shows_sound_files_beside_refused_ones(self):
-        self.write("a.out", sbet())
-        self.write("b.out", sbet()[:1000])
-        self.write("c.out", b"")
-        self.write("d.txt", ascii_text().replace(b" 25.1", b" 95.1"))
-        files = self.json_of(self.folder.name, code=1)
+        flight = self.folder / "flight"
+        flight.mkdir()
+        for name, data in (("a.out", sbet()), ("b.out", sbet()[:1000]), ("c.out", b""),
+                           ("d.txt", ascii_text().replace(b" 25.1", b" 95.1"))):
+            self.file(f"flight/{name}", data)
+        files = self.json_of(flight, code=1)
         self.assertEqual([pathlib.Path(shown["file"]).name for shown in files], ["a.out", "b.out", "c.out", "d.txt"])
         self.assertEqual([shown["error"] is None for shown in files], [True, False, False, False])
         self.assertIn("not a multiple of 136", files[1]["error"])
         self.assertIn("is empty", files[2]["error"])
         self.assertIn("line 1, column 3 'latitude'", files[3]["error"])
-        result = self.run_query(self.folder.name, code=1)
+        result = query("trajectory", flight, check=1)
         self.assertIn("format         SBET", result.stdout)
         self.assertEqual(len(result.stderr.splitlines()), 3)
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    programs.main()

@@ -51,12 +51,14 @@ TEST(BudgetSource, OfASeaTakesTheAxisOfTheSea) {
   const RunningServer server;
   BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
   pulses.axes[Index(AxisId::kWindSpeed)].clear();
-  const auto remote = ServerSeas(server.address()).value()->Open(albtpu::testing::MeasuredWaves()).value();
-  const auto local = LocalSeas()->Open(albtpu::testing::MeasuredWaves()).value();
-  BudgetMemory from_server(pulses.size), from_table(pulses.size);
-  ASSERT_TRUE(remote->AnswerBudget(UsualOptions(), pulses.columns(), from_server.columns()).ok());
-  ASSERT_TRUE(local->AnswerBudget(UsualOptions(), pulses.columns(), from_table.columns()).ok());
-  ExpectSame(from_server, from_table);
+  for (const KnownSea& sea : albtpu::testing::SeasOfAllForms()) {
+    const auto remote = ServerSeas(server.address()).value()->Open(sea).value();
+    const auto local = LocalSeas()->Open(sea).value();
+    BudgetMemory from_server(pulses.size), from_table(pulses.size);
+    ASSERT_TRUE(remote->AnswerBudget(UsualOptions(), pulses.columns(), from_server.columns()).ok());
+    ASSERT_TRUE(local->AnswerBudget(UsualOptions(), pulses.columns(), from_table.columns()).ok());
+    ExpectSame(from_server, from_table);
+  }
 }
 
 TEST(BudgetSource, RefusesTheSameOptionsOnAServerAndInThisProcess) {

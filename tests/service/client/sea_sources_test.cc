@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 constexpr std::array<std::array<float, 2>, kAxisCount> kRanges = {
     {{-5, 20}, {-1, 1e5}, {-1, 32}, {-400, 400}, {0.05f, 7}, {-1, 65}}};  // Inside and outside the table.
 
-TEST(SeaSources, GiveTheSameBitsInProcessAndOnAServer) {
+TEST(SeaSources, SayTheSameAndGiveTheSameBitsInProcessAndOnAServer) {
   const RunningServer server;
   const auto local = LocalSeas();
   const auto remote = ServerSeas(server.address()).value();
@@ -29,28 +29,19 @@ TEST(SeaSources, GiveTheSameBitsInProcessAndOnAServer) {
   for (const KnownSea& sea : SeasOfAllForms()) {
     const auto here = local->Open(sea).value(), there = remote->Open(sea).value();
     EXPECT_EQ(here->table().digest, there->table().digest);
+    EXPECT_EQ(here->table().attributes, there->table().attributes);
+    const SeaSummary said = here->table().sea.value(), heard = there->table().sea.value();
+    EXPECT_EQ(said.x_azimuth, heard.x_azimuth);
+    EXPECT_EQ(said.significant_wave_height, heard.significant_wave_height);
+    EXPECT_EQ(said.wind_speed_10m, heard.wind_speed_10m);
+    EXPECT_EQ(said.water_depth, heard.water_depth);
+    EXPECT_EQ(said.tail_from, heard.tail_from);
+    EXPECT_EQ(said.share_measured, heard.share_measured);
+    EXPECT_EQ(said.assumptions, heard.assumptions);
     AnswerMemory ours(pulses.size()), theirs(pulses.size());
     ASSERT_TRUE(here->Answer(query, pulses.columns(), ours.columns()).ok());
     ASSERT_TRUE(there->Answer(query, pulses.columns(), theirs.columns()).ok());
     EXPECT_TRUE(ours == theirs);
-  }
-}
-
-TEST(SeaSources, SayTheSameOfASea) {
-  const RunningServer server;
-  const auto local = LocalSeas();
-  const auto remote = ServerSeas(server.address()).value();
-  for (const KnownSea& sea : SeasOfAllForms()) {
-    const auto ours = local->Open(sea).value(), theirs = remote->Open(sea).value();
-    const SeaSummary here = ours->table().sea.value(), there = theirs->table().sea.value();
-    EXPECT_EQ(here.x_azimuth, there.x_azimuth);
-    EXPECT_EQ(here.significant_wave_height, there.significant_wave_height);
-    EXPECT_EQ(here.wind_speed_10m, there.wind_speed_10m);
-    EXPECT_EQ(here.water_depth, there.water_depth);
-    EXPECT_EQ(here.tail_from, there.tail_from);
-    EXPECT_EQ(here.share_measured, there.share_measured);
-    EXPECT_EQ(here.assumptions, there.assumptions);
-    EXPECT_EQ(ours->table().attributes, theirs->table().attributes);
   }
 }
 

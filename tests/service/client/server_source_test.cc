@@ -180,19 +180,5 @@ TEST(ServerSource, UsesAServerAgainWhenItIsBack) {
   QueryUntil(*source, [&](int) { return first->answers() > 0; });
 }
 
-TEST(ServerSource, NoticesThatItsTableChanged) {
-  auto first = std::make_unique<RunningServer>();
-  const std::string address = first->address();
-  const auto source = OpenServer(address, "").value();
-  first->Stop();
-  first.reset();
-  const RunningServer second({.factor = 2}, address);
-  const PulseMemory pulses = MixedPulses(1);
-  AnswerMemory answers(1);
-  const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
-  EXPECT_EQ(status.code(), absl::StatusCode::kAborted) << status;
-  EXPECT_THAT(std::string(status.message()), HasSubstr("table quick changed from digest"));
-}
-
 }  // namespace
 }  // namespace albtpu::client

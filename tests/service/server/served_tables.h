@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
@@ -75,12 +76,33 @@ class ServedTables : public ::testing::Test {
     return (*stub_.*method)(&context, request, &response);
   }
 
-  grpc::Status QueryPulses(const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response) {
-    return Call(&v1::UncertaintyService::Stub::QueryPulses, request, response);
+  // The method that takes a request, and its response.
+  static auto MethodOf(const v1::QueryPulsesRequest&) {
+    return std::pair(&v1::UncertaintyService::Stub::QueryPulses, v1::QueryPulsesResponse());
   }
-  grpc::Status QueryColumns(const v1::QueryColumnsRequest& request, v1::QueryColumnsResponse& response) {
-    return Call(&v1::UncertaintyService::Stub::QueryColumns, request, response);
+  static auto MethodOf(const v1::QueryColumnsRequest&) {
+    return std::pair(&v1::UncertaintyService::Stub::QueryColumns, v1::QueryColumnsResponse());
   }
+  static auto MethodOf(const v1::QueryBudgetRequest&) {
+    return std::pair(&v1::UncertaintyService::Stub::QueryBudget, v1::QueryBudgetResponse());
+  }
+  static auto MethodOf(const v1::CompileSeaRequest&) {
+    return std::pair(&v1::UncertaintyService::Stub::CompileSea, v1::CompileSeaResponse());
+  }
+
+  template <typename Request>
+  grpc::Status StatusOf(const Request& request) {
+    auto [method, response] = MethodOf(request);
+    return Call(method, request, response);
+  }
+  template <typename Request>
+  auto Ask(const Request& request) {
+    auto [method, response] = MethodOf(request);
+    const grpc::Status status = Call(method, request, response);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return response;
+  }
+
   grpc::Status ListTables(v1::ListTablesResponse& response) {
     return Call(&v1::UncertaintyService::Stub::ListTables, v1::ListTablesRequest(), response);
   }
@@ -123,6 +145,8 @@ inline std::string Column(const std::vector<float>& values) {
   return bytes;
 }
 
+inline std::vector<int> Bytes(const std::string& column) { return {column.begin(), column.end()}; }
+
 inline std::vector<float> Floats(const std::string& column) {
   std::vector<float> values(column.size() / sizeof(float));
   if (!values.empty()) std::memcpy(values.data(), column.data(), column.size());
@@ -138,17 +162,22 @@ inline std::string FieldOf(const grpc::Status& status) {
   return has_field ? bad.field_violations(0).field() : "";
 }
 
-// The same pulse as WirePulse(), `count` times.
-inline v1::PulseColumns WireColumns(std::size_t count) {
-  const v1::Pulse pulse = WirePulse();
+// The fields that pulses have, in columns.
+inline v1::PulseColumns InColumns(const std::vector<v1::Pulse>& pulses) {
   v1::PulseColumns columns;
-  columns.set_wind_speed(Column(std::vector<float>(count, pulse.wind_speed())));
-  columns.set_fetch(Column(std::vector<float>(count, pulse.fetch())));
-  columns.set_incidence(Column(std::vector<float>(count, pulse.incidence())));
-  columns.set_azimuth(Column(std::vector<float>(count, pulse.azimuth())));
-  columns.set_footprint(Column(std::vector<float>(count, pulse.footprint())));
-  columns.set_depth(Column(std::vector<float>(count, pulse.depth())));
+  for (int f = 0; f < v1::Pulse::descriptor()->field_count(); ++f) {
+    const google::protobuf::FieldDescriptor* const field = v1::Pulse::descriptor()->field(f);
+    std::vector<float> column;
+    for (const v1::Pulse& pulse : pulses)
+      if (pulse.GetReflection()->HasField(pulse, field))
+        column.push_back(pulse.GetReflection()->GetFloat(pulse, field));
+    columns.GetReflection()->SetString(&columns, columns.GetDescriptor()->FindFieldByName(field->name()),
+                                       Column(column));
+  }
   return columns;
 }
+
+// The same pulse as WirePulse(), `count` times.
+inline v1::PulseColumns WireColumns(std::size_t count) { return InColumns(std::vector<v1::Pulse>(count, WirePulse())); }
 
 }  // namespace albtpu::server

@@ -35,31 +35,18 @@ TEST_F(Catalog, FindsTablesByName) {
   EXPECT_EQ(OrDie(catalog.Find("quick"))->table.digest(), table_.digest());
 }
 
-TEST_F(Catalog, UsesTheGivenDefault) {
-  Add("quick.h5");
-  Add("survey.h5");
-  EXPECT_EQ(OrDie(OrDie(Load("quick")).Find(""))->name, "quick");
-}
-
-TEST_F(Catalog, RejectsADefaultThatDoesNotExist) {
-  Add("quick.h5");
+// tests/tables/file/table_folder_test.cc has all ways to a default.
+TEST_F(Catalog, HasADefaultThatExistsAndIsNotPublished) {
+  WriteOrDie(testing::SyntheticTable({.published = true}), folder_ / "article.h5");
+  Add("b.h5");
+  EXPECT_EQ(OrDie(OrDie(Load()).Find(""))->name, "b");
+  EXPECT_EQ(OrDie(OrDie(Load()).Find("article"))->name, "article");
+  Add("a.h5");
+  EXPECT_EQ(OrDie(Load()).Find("").status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(OrDie(OrDie(Load("b")).Find(""))->name, "b");
   const absl::Status status = Load("survey").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
-  EXPECT_THAT(std::string(status.message()), AllOf(HasSubstr("'survey'"), HasSubstr("quick")));
-}
-
-TEST_F(Catalog, MayHaveNoDefault) {
-  Add("a.h5");
-  Add("b.h5");
-  EXPECT_EQ(OrDie(Load()).Find("").status().code(), absl::StatusCode::kFailedPrecondition);
-}
-
-TEST_F(Catalog, UsesAPublishedTableOnlyIfNamed) {
-  WriteOrDie(testing::SyntheticTable({.published = true}), folder_ / "article.h5");
-  WriteOrDie(testing::SyntheticTable(), folder_ / "bay.h5");
-  const TableCatalog catalog = OrDie(Load());
-  EXPECT_EQ(OrDie(catalog.Find(""))->name, "bay");
-  EXPECT_EQ(OrDie(catalog.Find("article"))->name, "article");
+  EXPECT_THAT(std::string(status.message()), AllOf(HasSubstr("'survey'"), HasSubstr("b")));
 }
 
 TEST_F(Catalog, RejectsAnEmptyFolder) {

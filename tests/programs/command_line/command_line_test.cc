@@ -1,14 +1,81 @@
-#include <gtest/gtest.h>
+#include "programs/command_line/command_line.h"
+
+#include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "programs/command_line/command_line.h"
-
 namespace albtpu::programs {
 namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string ProblemOf(const CLI::Validator& check, std::string text) { return check(text); }
+
+TEST(NotEmpty, RefusesOnlyTheEmptyText) {
+  EXPECT_EQ(ProblemOf(NotEmpty("file"), "a.pem"), "");
+  EXPECT_EQ(ProblemOf(NotEmpty("file"), ""), "is empty; name a file");
+}
+
+TEST(WholeIn, RefusesWhatIsOutOfRangeOrNotAWholeNumber) {
+  const CLI::Validator check = WholeIn(1, 4096);
+  EXPECT_EQ(ProblemOf(check, "1"), "");
+  EXPECT_EQ(ProblemOf(check, "4096"), "");
+  for (const std::string text : {"0", "4097", "2.5", "two", "", "99999999999999999999"}) {
+    EXPECT_EQ(ProblemOf(check, text),
+              "'" + text + "' is not a number in the range; give a whole number from 1 to 4096");
+  }
+}
+
+TEST(OneOf, NamesTheChoicesAndANearMatch) {
+  const CLI::Validator check = OneOf({"uniform", "gaussian"});
+  EXPECT_EQ(ProblemOf(check, "uniform"), "");
+  EXPECT_EQ(ProblemOf(check, "unifrom"), "'unifrom' is unknown (there are uniform, gaussian); did you mean uniform?");
+  EXPECT_EQ(ProblemOf(check, "square"), "'square' is unknown; give one of uniform, gaussian");
+}
+
+class HelpTest : public ::testing::Test {
+ protected:
+  HelpTest() {
+    SetUpProgram(program_, "1.2", "abc");
+    command_ = program_.add_subcommand("pulse", "Ask for one pulse");
+    command_->add_option("--depth", number_, "Depth [m]");
+    command_->add_option("--fetch", number_, "Fetch [m]");
+    Group(*command_, "The sea", {"--fetch"});
+    Group(*command_, "The pulse", {"--depth"});
+    EndHelp(*command_, "Notes.", "--depth 3", "");
+  }
+
+  CLI::App program_{"Asks", "ask"};
+  CLI::App* command_ = nullptr;
+  double number_ = 0;
+};
+
+TEST_F(HelpTest, KnowsTheFullNameOfACommand) {
+  EXPECT_EQ(FullName(program_), "ask");
+  EXPECT_EQ(FullName(*command_), "ask pulse");
+}
+
+TEST_F(HelpTest, ListsOptionsInGroupsAndEndsWithExamples) {
+  const std::string help = command_->help();
+  EXPECT_THAT(help, HasSubstr("\n\nThe pulse:\n  --depth"));
+  EXPECT_THAT(help, HasSubstr("\n\nThe sea:\n  --fetch"));
+  EXPECT_THAT(help, Not(HasSubstr("\n\n\n")));
+  EXPECT_THAT(help, EndsWith("\nNotes.\n\nExamples:\n  ask pulse --depth 3\n  ask pulse\n"));
+}
+
+TEST_F(HelpTest, StatesTheVersion) {
+  try {
+    program_.parse(std::vector<std::string>{"--version"});
+    FAIL();
+  } catch (const CLI::CallForVersion& version) {
+    EXPECT_STREQ(version.what(), "ask 1.2 (abc)");
+  }
+}
 
 // The message for `arguments` of a program with two commands; empty if they are fine.
 std::string MessageFor(std::vector<std::string> arguments) {
