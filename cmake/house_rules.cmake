@@ -112,12 +112,13 @@ function(albtpu_kernels target scope)
 endfunction()
 
 # A GoogleTest program, registered with CTest under one label:
-#   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
+#   albtpu_test(NAME LABEL [ONE_PROCESS] SOURCES ... LIBRARIES ...)
 # It is one test of CTest: most of its tests take milliseconds, and to start it takes longer. Those of `validation` take
-# seconds and are registered one by one, to run beside each other. Others run for less time than the optimization of
+# seconds and are registered one by one, to run beside each other, unless they share in ONE_PROCESS what takes longer
+# than they do. Others run for less time than the optimization of
 # their own code takes; the libraries under test are as released.
 function(albtpu_test name label)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_PROCESS" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
@@ -127,12 +128,15 @@ function(albtpu_test name label)
   endif()
   target_compile_options(${name} PRIVATE ${options})
   set_target_properties(${name} PROPERTIES ALBTPU_TEST_OPTIONS "${options}")
-  if(label STREQUAL "validation")
+  if(label STREQUAL "validation" AND NOT ARG_ONE_PROCESS)
     include(GoogleTest)
     gtest_discover_tests(${name} PROPERTIES LABELS ${label} COST 100 DISCOVERY_TIMEOUT 60)
-  else()
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS ${label})
+    return()
+  endif()
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS ${label})
+  if(label STREQUAL "validation")
+    set_tests_properties(${name} PROPERTIES COST 100)
   endif()
 endfunction()
 

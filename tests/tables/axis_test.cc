@@ -28,44 +28,30 @@ double Place(const Axis& axis, double coordinate) {
   return bracket.has_value() ? static_cast<double>(bracket->lower) + bracket->fraction : -1;
 }
 
-TEST(Axis, RefusesNodesThatDoNotIncrease) {
-  EXPECT_EQ(Problem(AxisId::kDepth, {0, 3, 2}),
-            "axis 'depth' node 2 is 2 m, not above node 1 (3 m): nodes must increase");
-  EXPECT_THAT(Problem(AxisId::kDepth, {0, 3, 3}), HasSubstr("nodes must increase"));
-}
-
-TEST(Axis, RefusesNodesThatSinglePrecisionCannotInterpolateBetween) {
-  EXPECT_THAT(Problem(AxisId::kDepth, {0, std::numeric_limits<float>::denorm_min()}),
-              HasSubstr("node 1 is 1.40129846e-45 m, too close to node 0 (0 m): nodes must be 1e-06 apart"));
-  EXPECT_THAT(Problem(AxisId::kDepth, {0, std::numeric_limits<float>::max()}),
-              HasSubstr("node 1 is 3.40282347e+38 m: nodes must not be above 1e+09"));
-}
-
-TEST(Axis, RefusesNoNodes) { EXPECT_THAT(Problem(AxisId::kFetch, {}), HasSubstr("'fetch' has no nodes")); }
-
-TEST(Axis, RefusesNodesThatAreNotFinite) {
-  EXPECT_THAT(Problem(AxisId::kFetch, {100, kInfinity}), HasSubstr("'fetch' node 1 is inf m: nodes must be finite"));
-  EXPECT_THAT(Problem(AxisId::kWindSpeed, {kNaN}), HasSubstr("'wind_speed' node 0 is nan m s-1"));
-}
-
-TEST(Axis, RefusesNodesThatSinglePrecisionCannotRepresent) {
-  EXPECT_THAT(Problem(AxisId::kFootprint, {0.1}), HasSubstr("not representable in single precision"));
+TEST(Axis, RefusesNodesThatItCannotHave) {
+  constexpr float kLeastFloat = std::numeric_limits<float>::denorm_min(),
+                  kMostFloat = std::numeric_limits<float>::max();
+  struct Case {
+    AxisId id;
+    std::vector<double> nodes;
+    const char* problem;
+  };
+  for (const Case& c :
+       {Case{AxisId::kDepth, {0, 3, 2}, "axis 'depth' node 2 is 2 m, not above node 1 (3 m): nodes must increase"},
+        {AxisId::kDepth, {0, 3, 3}, "nodes must increase"},
+        {AxisId::kDepth, {0, kLeastFloat}, "1.40129846e-45 m, too close to node 0 (0 m): nodes must be 1e-06 apart"},
+        {AxisId::kDepth, {0, kMostFloat}, "node 1 is 3.40282347e+38 m: nodes must not be above 1e+09"},
+        {AxisId::kFetch, {}, "'fetch' has no nodes"},
+        {AxisId::kFetch, {100, kInfinity}, "'fetch' node 1 is inf m: nodes must be finite"},
+        {AxisId::kWindSpeed, {kNaN}, "'wind_speed' node 0 is nan m s-1"},
+        {AxisId::kFootprint, {0.1}, "not representable in single precision"},
+        {AxisId::kFetch, {1, 1e300}, "not representable"},
+        {AxisId::kDepth, {-1, 0}, "'depth' node 0 is -1 m: nodes must not be negative"},
+        {AxisId::kFootprint, {0, 1}, "nodes on a log scale must be positive"},
+        {AxisId::kAzimuth, {0, 91}, "'azimuth' node 1 is 91 degree: nodes must not be above 90 degree"}})
+    EXPECT_THAT(Problem(c.id, c.nodes), HasSubstr(c.problem));
   EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {static_cast<double>(0.1f)}).ok());
-  EXPECT_THAT(Problem(AxisId::kFetch, {1, 1e300}), HasSubstr("not representable"));
-}
-
-TEST(Axis, RefusesNegativeNodes) {
-  EXPECT_THAT(Problem(AxisId::kDepth, {-1, 0}), HasSubstr("'depth' node 0 is -1 m: nodes must not be negative"));
-}
-
-TEST(Axis, RefusesZeroOnALogScale) {
-  EXPECT_THAT(Problem(AxisId::kFootprint, {0, 1}), HasSubstr("nodes on a log scale must be positive"));
   EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {0, 1}, Scale::kLinear).ok());
-}
-
-TEST(Axis, RefusesAzimuthsAboveAQuarterTurn) {
-  EXPECT_THAT(Problem(AxisId::kAzimuth, {0, 91}),
-              HasSubstr("'azimuth' node 1 is 91 degree: nodes must not be above 90 degree"));
 }
 
 TEST(Axis, LocatesItsNodesExactly) {

@@ -74,6 +74,13 @@ Provenance MakeProvenance(const SyntheticOptions& options) {
 
 }  // namespace
 
+TableParts PartsOf(const UncertaintyTable& table) {
+  TableParts parts{table.axes(), {}, table.provenance()};
+  for (const Quantity quantity : kQuantities)
+    if (const Variable* variable = table.variable(quantity)) parts.variables[Index(quantity)] = *variable;
+  return parts;
+}
+
 Axis MakeAxis(AxisId id, const std::vector<double>& nodes, const TableSchema& kind) {
   const std::vector<float> rounded(nodes.begin(), nodes.end());
   return OrDie(Axis::Create(kind.axes[Index(id)], {rounded.begin(), rounded.end()}));

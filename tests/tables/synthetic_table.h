@@ -25,6 +25,17 @@ UncertaintyTable SyntheticSea();
 // A table with one or two nodes on each axis, and with `scale` for every variable: small enough to check by hand.
 UncertaintyTable TinyTable(Scale scale = Scale::kLinear, const TableSchema& kind = kSeaSurface);
 
+// What a table is made of, for tests that change some of it.
+struct TableParts {
+  UncertaintyTable::Axes axes;
+  UncertaintyTable::Variables variables;
+  Provenance provenance;
+
+  Variable& operator[](Quantity quantity) { return *variables[Index(quantity)]; }
+  absl::StatusOr<UncertaintyTable> Create() const { return UncertaintyTable::Create(axes, variables, provenance); }
+};
+TableParts PartsOf(const UncertaintyTable& table);
+
 // The axis of these nodes, which are rounded to single precision. The nodes must be valid.
 Axis MakeAxis(AxisId id, const std::vector<double>& nodes, const TableSchema& kind = kSeaSurface);
 

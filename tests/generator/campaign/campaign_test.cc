@@ -85,19 +85,6 @@ TEST(Campaign, CanAskForRayTracingAlone) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(std::string(kSmall) + "estimator = \"plain\"\n");
   EXPECT_EQ(campaign->effort.estimator, Estimator::kPlain);
   EXPECT_EQ(ParseCampaign(kSmall)->effort.estimator, Estimator::kControlVariate);
-  EXPECT_THAT(ErrorOf(std::string(kSmall) + "estimator = \"none\"\n"),
-              HasSubstr("'effort.estimator' is 'none' (expected control_variate, plain)"));
-}
-
-TEST(Campaign, RefusesWrongKeysOfTheSea) {
-  const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
-  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),
-              HasSubstr("'sea.spectrum' is 'phillips' (expected apel, elfouhaily)"));
-  EXPECT_THAT(ErrorOf(with_sea("spectrum = 3\n")), HasSubstr("line 15: 'sea.spectrum' is 3"));
-  EXPECT_THAT(ErrorOf(with_sea("corrected_above = 0\n")),
-              HasSubstr("line 15: 'sea.corrected_above' is 0 (expected 0.1 to inf m)"));
-  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"elfouhaily\"\nspreading = 2\n")),
-              HasSubstr("'sea.spreading' is not taken by \"elfouhaily\""));
 }
 
 TEST(Campaign, OrdersSeaCasesByWindFetchAndFootprint) {
@@ -116,55 +103,46 @@ TEST(Campaign, StatesTheLineThatIsNotToml) {
   EXPECT_THAT(ErrorOf("id = \"x\"\nversion = = 2\n"), StartsWith("line 2: is not TOML"));
 }
 
-TEST(Campaign, NamesAMissingKey) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "id = \"small\"\n", "")), HasSubstr("'id' is missing"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]\n", "")), HasSubstr("'axes.depth' is missing"));
-}
-
-TEST(Campaign, NamesAnUnknownKeyAndItsNearMatch) {
-  EXPECT_EQ(ErrorOf(Replaced(kSmall, "realizations", "realisations")),
-            "line 13: 'effort.realisations' is no key of a campaign file; did you mean realizations?");
-  EXPECT_THAT(ErrorOf(std::string(kSmall) + "color = 2\n"),
-              HasSubstr("line 14: 'effort.color' is no key of a campaign file; there are estimator, "));
-}
-
-TEST(Campaign, NamesAMisspeltKeyRatherThanTheOneThatIsMissing) {
-  EXPECT_EQ(ErrorOf(Replaced(kSmall, "depth", "deph")),
-            "line 11: 'axes.deph' is no key of a campaign file; did you mean depth?");
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth", "colors")), HasSubstr("'axes.colors' is no key"));
-}
-
-TEST(Campaign, RefusesAValueOfTheWrongType) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "\"strong\"")),
-              HasSubstr("line 6: 'axes.wind_speed' is 'strong' (expected a list of numbers"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations = 50", "realizations = 1")),
-              HasSubstr("line 13: 'effort.realizations' is 1 (expected a whole number from 2"));
-}
-
-TEST(Campaign, RefusesNodesOutOfOrder) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0, 20]", "[20, 0]")), HasSubstr("nodes must increase"));
-}
-
-TEST(Campaign, RefusesNodesThatAreNotFiniteOrNegative) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[3, nan]")), HasSubstr("wind_speed"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = [-1, 10]")), HasSubstr("depth"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = []")), HasSubstr("depth"));
-}
-
-TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[-1, 6]")), HasSubstr("'axes.wind_speed' must be at least 0"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
-}
-
-TEST(Campaign, RefersToAnotherCommandForTheTableOfAMeasuredSea) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, inf]\n[sea]\nfile = \"buoy.csv\"")),
-              HasSubstr("'sea.file' is no key of a campaign file; make the table of a measured sea by albtpu-query sea "
-                        "FILE --output TABLE.h5"));
-}
-
-TEST(Campaign, RequiresTheFullyDevelopedSeaAsTheLastFetch) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, 5000]")), HasSubstr("must be inf"));
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1e7, inf]")), HasSubstr("beyond full development"));
+TEST(Campaign, NamesLineAndKeyOfWhatIsWrong) {
+  struct Case {
+    const char *from, *to, *error;
+  };
+  for (const Case& c : {
+           Case{"id = \"small\"\n", "", "'id' is missing"},
+           {"depth = [0, 10]\n", "", "'axes.depth' is missing"},
+           {"realizations", "realisations",
+            "line 13: 'effort.realisations' is no key of a campaign file; did you mean realizations?"},
+           {"[effort]", "[effort]\ncolor = 2", "'effort.color' is no key of a campaign file; there are estimator, "},
+           // A misspelt key rather than the one that is missing.
+           {"depth", "deph", "line 11: 'axes.deph' is no key of a campaign file; did you mean depth?"},
+           {"depth", "colors", "'axes.colors' is no key"},
+           {"[3, 6]", "\"strong\"", "line 6: 'axes.wind_speed' is 'strong' (expected a list of numbers"},
+           {"realizations = 50", "realizations = 1",
+            "line 13: 'effort.realizations' is 1 (expected a whole number from 2"},
+           {"[effort]", "[effort]\nestimator = \"none\"",
+            "'effort.estimator' is 'none' (expected control_variate, plain)"},
+           {"[0, 20]", "[20, 0]", "nodes must increase"},
+           {"[3, 6]", "[3, nan]", "wind_speed"},
+           {"depth = [0, 10]", "depth = [-1, 10]", "depth"},
+           {"depth = [0, 10]", "depth = []", "depth"},
+           {"[3, 6]", "[-1, 6]", "'axes.wind_speed' must be at least 0"},
+           {"[0.1, 1]", "[0, 1]", "'axes.footprint' must be above 0"},
+           {"[1000, inf]", "[1000, 5000]", "must be inf"},
+           {"[1000, inf]", "[1e7, inf]", "beyond full development"},
+           {"[axes]", "[sea]\nspectrum = \"phillips\"\n[axes]",
+            "'sea.spectrum' is 'phillips' (expected apel, elfouhaily)"},
+           {"[axes]", "[sea]\nspectrum = 3\n[axes]", "line 6: 'sea.spectrum' is 3"},
+           {"[axes]", "[sea]\ncorrected_above = 0\n[axes]",
+            "line 6: 'sea.corrected_above' is 0 (expected 0.1 to inf m)"},
+           {"[axes]", "[sea]\nspectrum = \"elfouhaily\"\nspreading = 2\n[axes]",
+            "'sea.spreading' is not taken by \"elfouhaily\""},
+           // The table of a measured sea is made by another command.
+           {"[axes]", "[sea]\nfile = \"buoy.csv\"\n[axes]",
+            "'sea.file' is no key of a campaign file; make the table of a measured sea by albtpu-query sea FILE "
+            "--output "
+            "TABLE.h5"},
+       })
+    EXPECT_THAT(ErrorOf(Replaced(kSmall, c.from, c.to)), HasSubstr(c.error));
 }
 
 TEST(Campaign, RefusesMoreCellsThanATableHolds) {

@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "generator/campaign/unit.h"
 #include "sea/response/closed_form.h"
 
 namespace albtpu {
@@ -25,11 +27,6 @@ SeaCase ModerateSea(std::vector<BeamOptions> beams) {
 
 Effort Exactly(int realizations) { return {.realizations = realizations, .most_realizations = realizations}; }
 
-void ExpectSame(const Estimate& a, const Estimate& b) {
-  EXPECT_EQ(a.value, b.value);
-  EXPECT_EQ(a.standard_error, b.standard_error);
-}
-
 void ExpectWithinErrors(const Estimate& a, const Estimate& b) {
   EXPECT_NEAR(a.value, b.value, 3.5 * std::hypot(a.standard_error, b.standard_error));
 }
@@ -45,12 +42,11 @@ TEST(MonteCarlo, HasNoErrorsOverACalm) {
     EXPECT_EQ(result.realizations, 0);
     ASSERT_EQ(result.beams.size(), 2);
     for (const BeamUncertainty& beam : result.beams) {
-      ExpectSame(beam.refraction_along_wind, {});
-      ExpectSame(beam.refraction_cross_wind, {});
-      for (const auto* values : {&beam.thu, &beam.tvu, &beam.bias_along_beam, &beam.bias_vertical}) {
-        ASSERT_EQ(values->size(), sea_case.depths.size());
-        for (const Estimate& value : *values) ExpectSame(value, {});
-      }
+      ASSERT_EQ(beam.thu.size(), sea_case.depths.size());
+      std::vector<Estimate> all = {beam.refraction_along_wind, beam.refraction_cross_wind};
+      for (const auto* values : {&beam.thu, &beam.tvu, &beam.bias_along_beam, &beam.bias_vertical})
+        all.insert(all.end(), values->begin(), values->end());
+      for (const Estimate& estimate : all) EXPECT_TRUE(estimate.value == 0 && estimate.standard_error == 0);
     }
   }
 }
@@ -59,23 +55,11 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreads) {
   const SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.25}});
   const auto run = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return Simulate(sea_case, Exactly(101), 5, 6); });
+    return arena.execute([&] { return EncodeResult(Simulate(sea_case, Exactly(101), 5, 6)); });
   };
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 3);
-  const SeaCaseResult one = run(1);
-  for (const int threads : {2, 3}) {
-    const SeaCaseResult many = run(threads);
-    for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
-      ExpectSame(one.beams[b].refraction_along_wind, many.beams[b].refraction_along_wind);
-      ExpectSame(one.beams[b].refraction_cross_wind, many.beams[b].refraction_cross_wind);
-      for (std::size_t d = 0; d < sea_case.depths.size(); ++d) {
-        ExpectSame(one.beams[b].thu[d], many.beams[b].thu[d]);
-        ExpectSame(one.beams[b].tvu[d], many.beams[b].tvu[d]);
-        ExpectSame(one.beams[b].bias_along_beam[d], many.beams[b].bias_along_beam[d]);
-        ExpectSame(one.beams[b].bias_vertical[d], many.beams[b].bias_vertical[d]);
-      }
-    }
-  }
+  const std::string one = run(1);
+  for (const int threads : {2, 3}) EXPECT_EQ(run(threads), one);
 }
 
 TEST(MonteCarlo, DependsOnSeedAndCell) {
@@ -126,28 +110,6 @@ TEST(MonteCarlo, HasAHorizontalUncertaintyOfRefractionTimesDepth) {
   const double both = std::hypot(beam.refraction_along_wind.value, beam.refraction_cross_wind.value);
   EXPECT_NEAR(beam.thu[0].value / 100 / both, 1,
               0.003);  // tangent against angle, and heights in the footprint
-}
-
-TEST(MonteCarlo, WithControlVariatesAgreesWithTracingAlone) {
-  const SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
-  Effort effort = Exactly(1000);
-  const SeaCaseResult controlled = Simulate(sea_case, effort, 3, 0);
-  effort.estimator = Estimator::kPlain;
-  const SeaCaseResult plain = Simulate(sea_case, effort, 3, 1);
-  for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
-    const BeamUncertainty &c = controlled.beams[b], &p = plain.beams[b];
-    ExpectWithinErrors(c.refraction_along_wind, p.refraction_along_wind);
-    ExpectWithinErrors(c.refraction_cross_wind, p.refraction_cross_wind);
-    EXPECT_LT(c.refraction_along_wind.standard_error, 0.1 * p.refraction_along_wind.standard_error);
-    for (const std::size_t d : {1, 2}) {
-      ExpectWithinErrors(c.thu[d], p.thu[d]);
-      ExpectWithinErrors(c.tvu[d], p.tvu[d]);
-      ExpectWithinErrors(c.bias_along_beam[d], p.bias_along_beam[d]);
-      ExpectWithinErrors(c.bias_vertical[d], p.bias_vertical[d]);
-      EXPECT_LT(c.thu[d].standard_error, 0.1 * p.thu[d].standard_error);
-      EXPECT_LT(c.tvu[d].standard_error, 0.25 * p.tvu[d].standard_error);
-    }
-  }
 }
 
 TEST(MonteCarlo, ContinuesUntilTheStandardErrorIsSmallEnough) {

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
+#include "generator/surface/sea_surface.h"
 #include "sea/response/closed_form.h"
 
 namespace albtpu {
@@ -19,32 +21,44 @@ SlopeMoments MomentsOn(const SurfaceModel& model, const std::vector<Ray>& rays) 
   return MomentsOfSlopes(SurfaceCorrelation(model, ReachOfRays(rays, spacing)), rays, spacing, kForm);
 }
 
+Eigen::Matrix2d CovarianceOn(const SurfaceModel& model, const BeamOptions& beam, const std::vector<Ray>& rays) {
+  const double spacing = model.patch().spacing();
+  return HeightSlopeProduct(SurfaceCorrelation(model, ReachOfRays(rays, spacing)), spacing).Covariance(beam);
+}
+
 double Form(const Eigen::Vector3d& squares) {
   return kForm(0, 0) * squares[0] + kForm(1, 1) * squares[1] + 2 * kForm(0, 1) * squares[2];
 }
 
 // A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages over many
 // waves.
-TEST(SlopeMoments, AreThoseOfManySurfaces) {
-  constexpr int kSurfaces = 4000;
+TEST(SlopeMoments, AndProductsWithTheHeightAreThoseOfManySurfaces) {
+  constexpr int kSurfaces = 4000, kRays = 2000;
   const SeaState sea(8, std::numeric_limits<double>::infinity());
-  for (const double footprint : {0.1, 1.5}) {
+  for (const double footprint : {0.2, 3.0}) {
     const BeamOptions options{.incidence = 0.3, .azimuth = 0.6, .footprint = footprint};
-    const std::vector<Ray> rays = Beam(options, 500).Rays(0);
-    const SurfaceModel model(sea, options, {.patch_per_beam = 3, .points_per_footprint = 24, .rays = 500});
+    const std::vector<Ray> rays = Beam(options, kRays).Rays(0);
+    const SurfaceModel model(sea, options, {.patch_per_beam = 3, .points_per_footprint = 32, .rays = kRays});
     const Beam vertical({.footprint = footprint}, 1);  // meets all sides of the waves equally often
     Eigen::ArrayX2d means(kSurfaces, 2);
+    Eigen::ArrayX3d products(kSurfaces, 3);
     Eigen::ArrayXd forms(kSurfaces);
     for (int i = 0; i < kSurfaces; ++i) {
       const HeightField surface = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
-      Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+      double height = 0;
+      Eigen::Vector2d slope = Eigen::Vector2d::Zero(), product = Eigen::Vector2d::Zero();
       Eigen::Vector3d squares = Eigen::Vector3d::Zero();
       for (const Ray& ray : rays) {
-        slope += surface.FacetAt(ray.at_zero).slope / static_cast<double>(rays.size());
-        squares += SlopeSquares(surface.FacetAt(ray.at_zero).slope) / static_cast<double>(rays.size());
+        const HeightField::Facet facet = surface.FacetAt(ray.at_zero);
+        height += facet.HeightAt(ray.at_zero) / kRays;
+        slope += facet.slope / kRays;
+        squares += SlopeSquares(facet.slope) / kRays;
+        product += facet.HeightAt(ray.at_zero) * facet.slope / kRays;
       }
       means.row(i) = slope.transpose().array();
       forms[i] = Form(squares);
+      const Eigen::Vector2d q = product - height * slope;
+      products.row(i) << q.x() * q.x(), q.x() * q.y(), q.y() * q.y();
     }
     const SlopeMoments moments = MomentsOn(model, rays);
     const Eigen::Matrix2d& expected = moments.covariance;
@@ -58,6 +72,14 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     const Estimate mean = Mean(forms), spread = TwoSigma(forms);
     EXPECT_NEAR(mean.value, Form(moments.expected_squares), 4 * mean.standard_error) << footprint;
     EXPECT_NEAR(spread.value, 2 * std::sqrt(moments.variance_of_form), 4 * spread.standard_error) << footprint;
+    const Eigen::Matrix2d of_products = CovarianceOn(model, options, rays);
+    const std::array<double, 3> elements = {of_products(0, 0), of_products(0, 1), of_products(1, 1)};
+    for (int e = 0; e < 3; ++e) {
+      const Estimate product = Mean(products.col(e));
+      // The rays only sample the footprint, which adds a little aliased variance.
+      const double aliased = e == 1 ? 0 : 0.01 * elements[e];
+      EXPECT_NEAR(product.value, elements[e], 4 * product.standard_error + aliased) << footprint << ' ' << e;
+    }
   }
 }
 
@@ -147,6 +169,75 @@ TEST(SlopeMoments, OfAFootprintAreThoseOfTheFilteredWaves) {
         model.FacetSlopeCovariance([&](double k, double psi) { return FootprintPower(options, k, psi); });
     const Eigen::Matrix2d covariance = FootprintSlopeCovariance(correlation, options, spacing);
     EXPECT_LT((covariance - expected).norm() / expected.norm(), 1e-3) << options.footprint;
+  }
+}
+
+// The points of the grid within the footprint and the shares of their cells, from a finer sample than the tested one.
+void PointsWithin(const BeamOptions& beam, double spacing, int reach, std::vector<Eigen::Vector2i>& points,
+                  std::vector<double>& shares) {
+  constexpr int kSamples = 25;
+  const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
+  for (int x = -reach; x <= reach; ++x) {
+    for (int y = -reach; y <= reach; ++y) {
+      int within = 0;
+      for (int s = 0; s < kSamples; ++s) {
+        for (int t = 0; t < kSamples; ++t) {
+          const Eigen::Vector2d at =
+              spacing * Eigen::Vector2d(x + (s + 0.5) / kSamples - 0.5, y + (t + 0.5) / kSamples - 0.5);
+          const double radius = std::hypot(at.dot(along) * std::cos(beam.incidence), at.dot(across));
+          if (2 * radius < beam.footprint) ++within;
+        }
+      }
+      if (within == 0) continue;
+      points.emplace_back(x, y);
+      shares.push_back(within);
+    }
+  }
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  for (double& share : shares) share /= sum;
+}
+
+// The slow twin: Wick's theorem over all pairs of pairs of points, as matrix products without a Fourier transform.
+TEST(HeightSlopeProduct, EqualsTheSumOverAllPairsOfPairsOfPoints) {
+  for (const BeamOptions& beam :
+       {BeamOptions{.footprint = 1}, BeamOptions{.incidence = 0.6, .azimuth = 0.7, .footprint = 3}}) {
+    const SurfaceModel model(SeaState(6, 2e4), beam, {.patch_per_beam = 4, .points_per_footprint = 24, .rays = 500});
+    const double spacing = model.patch().spacing();
+    const std::vector<Ray> rays = Beam(beam, 500).Rays(0);
+    const SurfaceCorrelation correlation(model, ReachOfRays(rays, spacing));
+    std::vector<Eigen::Vector2i> points;
+    std::vector<double> shares;
+    PointsWithin(beam, spacing, correlation.reach() / 2, points, shares);
+
+    const Eigen::Index n = static_cast<Eigen::Index>(points.size());
+    const auto matrix = [&](const Eigen::MatrixXd& of_lag) {  // element (i, j): from i to j
+      Eigen::MatrixXd all(n, n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = 0; j < n; ++j) {
+          const Eigen::Vector2i lag = (points[j] - points[i]).array() + correlation.reach();
+          all(i, j) = of_lag(lag.x(), lag.y());
+        }
+      }
+      return all;
+    };
+    const SurfaceCorrelation::AtPoints& at = correlation.at_points();
+    const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(shares.data(), n);
+    const Eigen::MatrixXd k = Eigen::MatrixXd(w.asDiagonal()) - w * w.transpose();
+    const Eigen::MatrixXd heights = matrix(at.height);
+    const std::array<Eigen::MatrixXd, 2> height_slope = {matrix(at.height_x), matrix(at.height_y)};
+    const std::array<std::array<Eigen::MatrixXd, 2>, 2> slopes = {
+        {{matrix(at.slope_xx), matrix(at.slope_xy)}, {matrix(at.slope_xy), matrix(at.slope_yy)}}};
+    Eigen::Matrix2d expected;
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1}) {
+        // sum K_ij K_kl (C_ik R_jl + G_b(i to l) G_a(k to j))
+        expected(a, b) = (k.transpose() * heights * k * slopes[a][b].transpose()).trace() +
+                         (k.transpose() * height_slope[b] * k.transpose() * height_slope[a]).trace();
+      }
+    }
+    const Eigen::Matrix2d covariance = CovarianceOn(model, beam, rays);
+    EXPECT_LT((covariance - expected).norm() / expected.norm(), 2e-3) << covariance << "\n\n" << expected;
   }
 }
 

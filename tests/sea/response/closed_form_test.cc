@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
 namespace albtpu {
 namespace {
 
@@ -74,6 +78,115 @@ TEST(ClosedForm, FallsAsMoreWavesAreCorrectedFor) {
       const double thu = ClosedForm(SeaState(options), beam, kRefractiveIndex).thu_per_depth;
       EXPECT_LT(thu, before) << model->key << ", " << corrected_above << " m";
       before = thu;
+    }
+  }
+}
+
+constexpr double kPi = std::numbers::pi;
+
+class FootprintOfProfile : public testing::TestWithParam<BeamProfile> {};
+INSTANTIATE_TEST_SUITE_P(, FootprintOfProfile, testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
+                         [](const auto& test) { return std::string(Name(test.param)); });
+
+// The integral of the relative irradiance over the plane, in squared diameters.
+double Power(BeamProfile profile) { return profile == BeamProfile::kUniform ? kPi / 4 : kPi / 8; }
+
+// Midpoint rule in the radius up to `radius`; the edge of the uniform beam falls between two steps.
+double PowerWithin(BeamProfile profile, double radius) {
+  constexpr int kSteps = 20000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = radius * (i + 0.5) / kSteps;
+    sum += RelativeIrradiance(profile, r * r) * 2 * kPi * r * radius / kSteps;
+  }
+  return sum;
+}
+
+TEST_P(FootprintOfProfile, HasItsName) { EXPECT_EQ(FindBeamProfile(Name(GetParam())), GetParam()); }
+
+TEST_P(FootprintOfProfile, IsNormalizedByItsPower) {
+  EXPECT_NEAR(PowerWithin(GetParam(), 2) / Power(GetParam()), 1, 1e-4);
+  EXPECT_EQ(RelativeIrradiance(GetParam(), 0), 1);
+}
+
+TEST_P(FootprintOfProfile, HoldsTheStatedPowerWithinItsRadius) {
+  for (const double power : {0.1, 0.5, 0.9, 0.999})
+    EXPECT_NEAR(PowerWithin(GetParam(), RadiusOfPower(GetParam(), power)) / Power(GetParam()), power, 1e-6) << power;
+}
+
+// The convolution of the irradiance with itself, by the midpoint rule on a grid.
+TEST_P(FootprintOfProfile, OverlapsItselfAsItsConvolutionSays) {
+  constexpr int kHalf = 400;
+  constexpr double kStep = 1.6 / kHalf;  // to 1.6 diameters, where a gaussian beam has ended
+  const auto convolution = [](double apart) {
+    double sum = 0;
+    for (int i = -kHalf; i < kHalf; ++i) {
+      for (int j = -kHalf; j < kHalf; ++j) {
+        const double x = (i + 0.5) * kStep, y = (j + 0.5) * kStep;
+        sum += RelativeIrradiance(GetParam(), x * x + y * y) *
+               RelativeIrradiance(GetParam(), (x - apart) * (x - apart) + y * y) * kStep * kStep;
+      }
+    }
+    return sum;
+  };
+  const double itself = convolution(0);
+  // Cells of the grid on the edge of the uniform beam: a length of pi diameters, half a step, with random signs.
+  const double tolerance = GetParam() == BeamProfile::kUniform ? 2e-3 : 1e-9;
+  for (const double apart : {0.1, 0.35, 0.7, 0.95})
+    EXPECT_NEAR(convolution(apart) / itself, FootprintOverlap(GetParam(), apart), tolerance) << apart;
+}
+
+TEST_P(FootprintOfProfile, OverlapsItselfWhollyWhereItIs) { EXPECT_EQ(FootprintOverlap(GetParam(), 0), 1); }
+
+TEST(UniformFootprint, HasNoOverlapBeyondItsDiameter) {
+  EXPECT_EQ(FootprintOverlap(BeamProfile::kUniform, 1), 0);
+  EXPECT_EQ(FootprintOverlap(BeamProfile::kUniform, 1.5), 0);
+  EXPECT_GT(FootprintOverlap(BeamProfile::kUniform, 0.999), 0);
+}
+
+TEST(UniformFootprint, EndsAtItsDiameter) {
+  EXPECT_EQ(RelativeIrradiance(BeamProfile::kUniform, 0.2499), 1);
+  EXPECT_EQ(RelativeIrradiance(BeamProfile::kUniform, 0.2501), 0);
+}
+
+TEST(GaussianFootprint, FallsToOneOverESquaredAtItsDiameter) {
+  EXPECT_NEAR(RelativeIrradiance(BeamProfile::kGaussian, 0.25), std::exp(-2), 1e-15);
+}
+
+TEST(FindBeamProfile, KnowsNoOthers) { EXPECT_FALSE(FindBeamProfile("ring").has_value()); }
+
+TEST(WidthOnWater, IsTheDiameterOverTheCosineOfTheIncidence) {
+  EXPECT_EQ(WidthOnWater({.footprint = 0.5}), 0.5);
+  EXPECT_NEAR(WidthOnWater({.incidence = kPi / 3, .footprint = 0.5}), 1, 1e-15);
+  EXPECT_EQ(WidthOnWater({.footprint = 0.5, .profile = BeamProfile::kGaussian}), 1);
+}
+
+// A gaussian beam of twice the diameter's width leaves out exp(-8) of its power.
+TEST(WidthOnWater, HoldsAGaussianBeam) {
+  EXPECT_NEAR(RadiusOfPower(BeamProfile::kGaussian, 1 - std::exp(-8)), 1, 1e-12);
+}
+
+// W is the Fourier transform of the irradiance over its power: the mean of cos(k . x) over the ellipse on the water.
+TEST_P(FootprintOfProfile, AveragesAWaveAsTheFourierTransformOfItsIrradiance) {
+  const BeamOptions beam{.incidence = 0.4, .azimuth = 0.5, .footprint = 0.8, .profile = GetParam()};
+  constexpr int kRadii = 2000, kTurns = 64;
+  constexpr double kEnd = 2;  // diameters
+  for (const double k : {1e-4, 0.5, 4.0, 9.0}) {
+    for (const double psi : {0.0, 1.3}) {
+      double sum = 0;
+      for (int i = 0; i < kRadii; ++i) {
+        const double r = kEnd * (i + 0.5) / kRadii;
+        for (int j = 0; j < kTurns; ++j) {
+          const double turn = 2 * kPi * (j + 0.5) / kTurns;
+          const double along = beam.footprint * r * std::cos(turn) / std::cos(beam.incidence);
+          const double across = beam.footprint * r * std::sin(turn);
+          sum += RelativeIrradiance(GetParam(), r * r) *
+                 std::cos(k * (along * std::cos(psi - beam.azimuth) + across * std::sin(psi - beam.azimuth))) * r *
+                 (kEnd / kRadii) * (2 * kPi / kTurns);
+        }
+      }
+      EXPECT_NEAR(sum / Power(GetParam()), FootprintAverage(beam, k, psi), 1e-5) << k << ", " << psi;
+      EXPECT_EQ(FootprintPower(beam, k, psi), std::pow(FootprintAverage(beam, k, psi), 2));
     }
   }
 }

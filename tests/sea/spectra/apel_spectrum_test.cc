@@ -11,20 +11,16 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-// Integral of k^power S dk between two wavenumbers by the trapezoidal rule in log k, fine enough to count as exact.
-double Moment(const ApelSpectrum& spectrum, int power, double lowest, double highest) {
+// Integral of k^power S dk by the trapezoidal rule in log k, fine enough to count as exact.
+double Moment(const ApelSpectrum& spectrum, int power) {
   constexpr int kSteps = 20000;
-  const double step = std::log(highest / lowest) / kSteps;
+  const double lowest = 0.1 * spectrum.peak_wavenumber(), step = std::log(1e5 / lowest) / kSteps;
   double sum = 0;
   for (int i = 0; i <= kSteps; ++i) {
     const double k = lowest * std::exp(i * step);
     sum += (i == 0 || i == kSteps ? 0.5 : 1.0) * std::pow(k, power + 1) * spectrum(k) * step;
   }
   return sum;
-}
-
-double Moment(const ApelSpectrum& spectrum, int power) {
-  return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 1e5);
 }
 
 double SignificantWaveHeight(double wind_speed) {
@@ -125,19 +121,6 @@ TEST(ApelFullyDevelopedFetch, InvertsTheFetchLaw) {
     const double fetch = ApelSpectrum::FullyDevelopedFetch(wind_speed);
     EXPECT_NEAR(ApelSpectrum::InverseWaveAge(wind_speed, fetch), 0.84, 1e-12);
     EXPECT_NEAR(ApelSpectrum::InverseWaveAge(wind_speed, 0.5 * fetch), 0.84 * std::pow(2, 0.33), 1e-12);
-  }
-}
-
-TEST(ApelEnergeticRange, HoldsAllButOnePartInTenThousand) {
-  for (const double wind_speed : {1.0, 5.0, 15.0}) {
-    for (const double fetch : {100.0, 1e4, kFullyDeveloped}) {
-      const ApelSpectrum spectrum(wind_speed, fetch);
-      const auto [lowest, highest] = spectrum.energetic_range();
-      for (const int power : {0, 2}) {
-        EXPECT_NEAR(Moment(spectrum, power, lowest, highest) / Moment(spectrum, power), 1, 1e-4)
-            << wind_speed << " m/s, " << fetch << " m, moment " << power;
-      }
-    }
   }
 }
 

@@ -11,21 +11,16 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-// Integral of k^power S weight(k) dk by the trapezoidal rule in log k, fine enough to count as exact.
-template <typename Weight>
-double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, double highest, const Weight& weight) {
+// Integral of k^power S dk by the trapezoidal rule in log k, fine enough to count as exact.
+double Moment(const ElfouhailySpectrum& spectrum, int power) {
   constexpr int kSteps = 20000;
-  const double step = std::log(highest / lowest) / kSteps;
+  const double lowest = 0.1 * spectrum.peak_wavenumber(), step = std::log(2e4 / lowest) / kSteps;
   double sum = 0;
   for (int i = 0; i <= kSteps; ++i) {
     const double k = lowest * std::exp(i * step);
-    sum += (i == 0 || i == kSteps ? 0.5 : 1.0) * std::pow(k, power + 1) * spectrum(k) * weight(k) * step;
+    sum += (i == 0 || i == kSteps ? 0.5 : 1.0) * std::pow(k, power + 1) * spectrum(k) * step;
   }
   return sum;
-}
-
-double Moment(const ElfouhailySpectrum& spectrum, int power) {
-  return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
 }
 
 // Values computed by an independent Python script from the printed equations (NumPy, double precision), ten digits.
@@ -161,21 +156,6 @@ TEST(ElfouhailyFetchLaw, ApproachesTheFullyDevelopedSea) {
   // For short fetches tanh equals its argument: a power law, within a few per cent of JONSWAP's at Omega = 3.
   EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, 1) / ElfouhailySpectrum::InverseWaveAge(8, 10), std::pow(10, 0.3),
               1e-3);
-}
-
-TEST(ElfouhailyEnergeticRange, HoldsAllButOnePartInTenThousand) {
-  for (const double wind_speed : {1.0, 2.0, 5.0, 15.0}) {
-    for (const double fetch : {100.0, 1e4, kFullyDeveloped}) {
-      const ElfouhailySpectrum spectrum(wind_speed, fetch);
-      const auto [lowest, highest] = spectrum.energetic_range();
-      for (const int power : {0, 2}) {
-        const auto all = [](double) { return 1.0; };
-        const double whole = Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 1e6, all);
-        EXPECT_NEAR(Moment(spectrum, power, lowest, highest, all) / whole, 1, 1e-4)
-            << wind_speed << " m/s, " << fetch << " m, moment " << power;
-      }
-    }
-  }
 }
 
 }  // namespace

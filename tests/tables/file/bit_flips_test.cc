@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
-#include <utility>
 
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
@@ -20,13 +19,12 @@ constexpr std::size_t kUserBlockBits = 8 * seal::kSize;
 
 // Our smallest table: one or two nodes on each axis, without biases and standard errors.
 UncertaintyTable SmallTable() {
-  const UncertaintyTable tiny = testing::TinyTable();
-  UncertaintyTable::Variables variables;
+  testing::TableParts parts = testing::PartsOf(testing::TinyTable());
   for (const Quantity quantity : kQuantities) {
-    if (Describe(quantity).is_bias) continue;
-    variables[Index(quantity)] = Variable{.values = tiny.variable(quantity)->values, .standard_errors = {}};
+    parts[quantity].standard_errors.clear();
+    if (Describe(quantity).is_bias) parts.variables[Index(quantity)].reset();
   }
-  return UncertaintyTable::Create(tiny.axes(), std::move(variables), tiny.provenance()).value();
+  return parts.Create().value();
 }
 
 void Flip(std::string& file, std::size_t bit) { file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8)); }

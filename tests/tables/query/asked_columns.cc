@@ -2,12 +2,29 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <utility>
+#include <random>
 
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu::testing {
+namespace {
+
+std::vector<double> RandomNodes(AxisId axis, std::mt19937& random) {
+  const std::size_t size = 1 + random() % 6;
+  const bool from_zero = axis == AxisId::kIncidence || axis == AxisId::kAzimuth || axis == AxisId::kDepth;
+  std::uniform_real_distribution<double> step(0.1, 3);
+  std::vector<double> nodes = {from_zero ? 0.0 : step(random)};
+  while (nodes.size() < size) nodes.push_back(nodes.back() + step(random));
+  if (axis == AxisId::kAzimuth && size > 1) {
+    for (double& node : nodes) node *= 90 / nodes.back();
+    nodes.back() = 90;
+  }
+  return nodes;
+}
+
+}  // namespace
 
 PulseColumns Pulses(const Columns& columns, std::size_t size) {
   PulseColumns pulses{.size = size, .axis = {}};
@@ -15,26 +32,20 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
-std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size, std::mt19937& random) {
-  const double beyond = (turns ? 4 : 0.01) * (nodes.back() - nodes.front());
-  std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
-  std::vector<float> column;
-  for (std::size_t i = 0; i < size; ++i) {
-    double x = nodes.size() == 1 ? nodes[0] : coordinate(random);
-    if (random() % 8 == 0) x = nodes[random() % nodes.size()];
-    if (random() % 400 == 0) x = std::numeric_limits<float>::quiet_NaN();
-    if (random() % 400 == 0) x = std::numeric_limits<float>::infinity();
-    column.push_back(static_cast<float>(x));
-  }
-  return column;
-}
-
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
   Columns columns;
   for (const Axis& axis : table.axes()) {
-    const bool turns = axis.schema().fold == Fold::kHalfTurn;
-    columns[Index(axis.id())] = RandomColumn(axis.nodes(), turns, size, random);
+    const std::vector<double>& nodes = axis.nodes();
+    const double beyond = (axis.schema().fold == Fold::kHalfTurn ? 4 : 0.01) * (nodes.back() - nodes.front());
+    std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
+    for (std::size_t i = 0; i < size; ++i) {
+      double x = nodes.size() == 1 ? nodes[0] : coordinate(random);
+      if (random() % 8 == 0) x = nodes[random() % nodes.size()];
+      if (random() % 400 == 0) x = std::numeric_limits<float>::quiet_NaN();
+      if (random() % 400 == 0) x = std::numeric_limits<float>::infinity();
+      columns[Index(axis.id())].push_back(static_cast<float>(x));
+    }
   }
   return columns;
 }
@@ -50,6 +61,19 @@ Columns LineColumns(std::size_t size) {
     columns[Index(AxisId::kAzimuth)].push_back(scan_angle > 0 ? 40.0f : 220.0f + 90 * (i / 1000 % 2));
     columns[Index(AxisId::kFootprint)].push_back(0.5f + 0.001f * std::abs(scan_angle));
     columns[Index(AxisId::kDepth)].push_back(8 + 5 * std::sin(along / 300));
+  }
+  return columns;
+}
+
+Columns NodeColumns(const UncertaintyTable& table) {
+  Columns columns;
+  for (std::size_t i = 0; i < ValueCount(table.axes(), Quantity::kThu); ++i) {
+    std::size_t rest = i;
+    for (std::size_t axis = kAxisCount; axis-- > 0;) {
+      const std::vector<double>& nodes = table.axes()[axis].nodes();
+      columns[axis].push_back(static_cast<float>(nodes[rest % nodes.size()]));
+      rest /= nodes.size();
+    }
   }
   return columns;
 }
@@ -86,6 +110,25 @@ std::vector<std::uint32_t> Answers::BitsAt(std::size_t i) const {
   return row;
 }
 
+std::optional<std::size_t> Answers::FirstDifference(const Answers& other) const {
+  const std::size_t size = outcomes.size();
+  std::size_t first = size;
+  const auto compare = [&](const auto& ours, const auto& theirs) {
+    for (std::size_t i = 0; i < first; ++i)
+      if (std::memcmp(&ours[i], &theirs[i], sizeof ours[i]) != 0) first = i;
+  };
+  compare(outcomes, other.outcomes);
+  compare(axes, other.axes);
+  compare(best, other.best);
+  compare(thu, other.thu);
+  compare(tvu, other.tvu);
+  for (std::size_t q = 0; q < kQuantityCount; ++q) {
+    compare(values[q], other.values[q]);
+    compare(errors[q], other.errors[q]);
+  }
+  return first < size ? std::optional(first) : std::nullopt;
+}
+
 Answers Ask(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
   Answers answers(pulses.size);
   interpolator.Interpolate(query, pulses, 0, pulses.size, answers.columns());
@@ -93,14 +136,30 @@ Answers Ask(const ColumnInterpolator& interpolator, const Query& query, const Pu
 }
 
 UncertaintyTable LogTable() {
-  const UncertaintyTable linear = SyntheticTable();
-  UncertaintyTable::Variables variables;
-  for (Quantity quantity : kQuantities) {
-    variables[Index(quantity)] = *linear.variable(quantity);
-    if (Describe(quantity).is_bias) continue;
-    variables[Index(quantity)]->scale = Scale::kLog;
+  TableParts parts = PartsOf(SyntheticTable());
+  for (const Quantity quantity : kQuantities)
+    if (!Describe(quantity).is_bias) parts[quantity].scale = Scale::kLog;
+  return *parts.Create();
+}
+
+std::vector<UncertaintyTable> RoughTables(int count) {
+  std::vector<UncertaintyTable> tables;
+  for (int seed = 1; seed <= count; ++seed) {
+    std::mt19937 random(static_cast<std::uint32_t>(seed));
+    TableParts parts = PartsOf(TinyTable());
+    for (const AxisId axis : kAxes) parts.axes[Index(axis)] = MakeAxis(axis, RandomNodes(axis, random));
+    std::uniform_real_distribution<float> logarithm(std::log(0.001f), 0.0f), bias(-1, 1);
+    for (const Quantity quantity : kQuantities) {
+      const bool is_bias = Describe(quantity).is_bias;
+      parts[quantity].values.resize(ValueCount(parts.axes, quantity));
+      parts[quantity].standard_errors.resize(parts[quantity].values.size());
+      parts[quantity].scale = seed % 3 == 0 && !is_bias ? Scale::kLog : Scale::kLinear;
+      for (float& value : parts[quantity].values) value = is_bias ? bias(random) : std::exp(logarithm(random));
+      for (float& error : parts[quantity].standard_errors) error = std::exp(logarithm(random));
+    }
+    tables.push_back(*parts.Create());
   }
-  return *UncertaintyTable::Create(linear.axes(), std::move(variables), linear.provenance());
+  return tables;
 }
 
 std::vector<UncertaintyTable> TablesOfEachKind() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/tables/query/asked_columns.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {
@@ -23,6 +24,12 @@ constexpr float kRounding = std::numeric_limits<float>::epsilon();
 
 Pulse Typical() {
   return {.wind_speed = 6, .fetch = 5e3f, .incidence = 12, .azimuth = 40.0f, .footprint = 0.6f, .depth = 8};
+}
+
+UncertaintyTable TinyTableWith(const Axis& axis) {
+  testing::TableParts parts = testing::PartsOf(TinyTable());
+  parts.axes[Index(axis.id())] = axis;
+  return parts.Create().value();
 }
 
 float& Coordinate(Pulse& pulse, AxisId axis) {
@@ -103,18 +110,12 @@ TEST(Interpolation, OfLogarithmsAgreesWithItsSlowTwin) {
 
 TEST(Interpolation, IsExactAtEveryNode) {
   for (const UncertaintyTable& table : {SyntheticTable(), TinyTable(Scale::kLog)}) {
-    std::vector<std::size_t> shape;
-    for (const Axis& axis : table.axes()) shape.push_back(axis.size());
-    for (std::size_t i = 0; i < ValueCount(table.axes(), Quantity::kThu); ++i) {
-      Pulse pulse = Typical();
-      std::size_t rest = i;
-      for (std::size_t axis = kAxisCount; axis-- > 0;) {
-        Coordinate(pulse, kAxes[axis]) = static_cast<float>(table.axes()[axis].nodes()[rest % shape[axis]]);
-        rest /= shape[axis];
-      }
-      const PulseUncertainty result = Interpolate(table, pulse);
+    const testing::Columns nodes = testing::NodeColumns(table);
+    const std::size_t size = nodes[0].size(), depths = table.axis(AxisId::kDepth).size();
+    for (std::size_t i = 0; i < size; ++i) {
+      const PulseUncertainty result = Interpolate(table, PulseAt(testing::Pulses(nodes, size), i));
       for (Quantity quantity : kQuantities) {
-        const std::size_t index = Describe(quantity).over_last_axis ? i : i / shape.back();
+        const std::size_t index = Describe(quantity).over_last_axis ? i : i / depths;
         ASSERT_EQ(result[quantity], table.variable(quantity)->values[index]) << i;
         ASSERT_EQ(result.standard_errors[Index(quantity)], table.variable(quantity)->standard_errors[index]) << i;
       }
@@ -130,14 +131,9 @@ TEST(Interpolation, OfALogVariableIsTheGeometricMeanHalfway) {
 }
 
 TEST(Interpolation, FindsANodeGivenInSinglePrecision) {
-  const UncertaintyTable tiny = TinyTable();
-  UncertaintyTable::Axes axes = tiny.axes();
-  axes[Index(AxisId::kFootprint)] = MakeAxis(AxisId::kFootprint, {0.1});
-  UncertaintyTable::Variables variables;
-  for (Quantity quantity : kQuantities) variables[Index(quantity)] = *tiny.variable(quantity);
-  const absl::StatusOr<UncertaintyTable> table = UncertaintyTable::Create(axes, variables, tiny.provenance());
+  const UncertaintyTable table = TinyTableWith(MakeAxis(AxisId::kFootprint, {0.1}));
   const Pulse pulse = {.wind_speed = 3, .incidence = 5, .azimuth = 10.0f, .footprint = 0.1f, .depth = 1};
-  EXPECT_EQ(Interpolate(*table, pulse).outcome, Outcome::kInterpolated);
+  EXPECT_EQ(Interpolate(table, pulse).outcome, Outcome::kInterpolated);
 }
 
 TEST(Interpolation, NamesTheAxisThatThePulseIsOutsideOf) {
@@ -211,21 +207,16 @@ TEST(Interpolation, WithoutAzimuthGivesTheLargerOfDownwindAndCrosswind) {
 }
 
 TEST(Interpolation, WithoutAzimuthNeedsBothEndsOfTheAxis) {
-  const UncertaintyTable tiny = TinyTable();
-  UncertaintyTable::Axes axes = tiny.axes();
-  axes[Index(AxisId::kAzimuth)] = MakeAxis(AxisId::kAzimuth, {0, 45});
-  UncertaintyTable::Variables variables;
-  for (Quantity quantity : kQuantities) variables[Index(quantity)] = *tiny.variable(quantity);
-  const absl::StatusOr<UncertaintyTable> table = UncertaintyTable::Create(axes, variables, tiny.provenance());
+  const UncertaintyTable table = TinyTableWith(MakeAxis(AxisId::kAzimuth, {0, 45}));
   Pulse pulse = {.wind_speed = 3, .incidence = 5, .azimuth = {}, .footprint = 1, .depth = 1};
-  const PulseUncertainty result = Interpolate(*table, pulse);
+  const PulseUncertainty result = Interpolate(table, pulse);
   EXPECT_EQ(OutcomeText(result), "OUT_OF_DOMAIN:azimuth");
   EXPECT_TRUE(result.azimuth_absent);
   ExpectNoNumbers(result);
   pulse.depth = 99;  // Azimuth comes before depth.
-  EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:azimuth");
+  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:azimuth");
   pulse.wind_speed = 99;
-  EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:wind_speed:above");
+  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:wind_speed:above");
 }
 
 TEST(Interpolation, HasNoNumbersForQuantitiesThatTheTableLacks) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/tables/query/table_kinds.h"
+#include "tables/schema.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
 namespace {
@@ -38,20 +39,14 @@ TEST(PulseColumns, OfWrongLengthAreNamed) {
 
 TEST(PulseColumns, MayAllBeEmptyIfThereAreNoPulses) { EXPECT_TRUE(CheckLengths({}).ok()); }
 
-TEST(PulseColumns, MayLackOnlyFetchAndAzimuth) {
-  for (AxisId absent : kAxes) {
-    PulseColumns pulses{.size = 3, .axis = {kOne, kOne, kThree, kThree, kOne, kThree}};
-    pulses.axis[Index(absent)] = {};
-    EXPECT_EQ(CheckLengths(pulses).ok(), absent == AxisId::kFetch || absent == AxisId::kAzimuth);
-  }
-}
-
-TEST(PulseColumns, OfAnotherKindMayLackOnlyWhatTheSchemaAllows) {
-  const TableSchema& schema = testing::kThreeAxes;
-  for (std::size_t absent = 0; absent < schema.axes.size(); ++absent) {
-    PulseColumns pulses{.size = 3, .axis = {kThree, kThree, kThree}};
-    pulses.axis[absent] = {};
-    EXPECT_EQ(CheckLengths(schema, pulses).ok(), absent != 2);
+TEST(PulseColumns, MayLackOnlyWhatTheSchemaAllows) {
+  for (const TableSchema& schema : {kSeaSurface, kOneSea, kWaterColumn}) {
+    for (std::size_t absent = 0; absent < schema.axes.size(); ++absent) {
+      PulseColumns pulses{.size = 3, .axis = {kOne, kOne, kThree, kThree, kOne, kThree}};
+      pulses.axis[absent] = {};
+      EXPECT_EQ(CheckLengths(schema, pulses).ok(), schema.axes[absent].if_absent != IfAbsent::kRefuse)
+          << schema.name << " without " << schema.axes[absent].name;
+    }
   }
 }
 

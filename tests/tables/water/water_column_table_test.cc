@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace albtpu {
 namespace {
@@ -55,13 +56,7 @@ Table::Axes Axes() {
   return axes;
 }
 
-Provenance Origin() {
-  Provenance provenance;
-  provenance.id = std::string("smooth");
-  provenance.version = std::string("1.0");
-  provenance.title = std::string("smooth");
-  return provenance;
-}
+Provenance Origin() { return {.id = "smooth", .version = "1.0", .title = "smooth", .campaign = {}, .attributes = {}}; }
 
 Table::Variables Values() {
   const Table::Axes axes = Axes();
@@ -132,37 +127,33 @@ TEST(WaterColumnTable, AnswersNothingBeyond) {
   const OneWater water = table.Of(0.02, 4);
   const WaterBeam inside{.incidence = 10, .optical_depth = 1, .field_of_view = 1, .pulse_length = 0.1};
   ASSERT_TRUE(water.At(inside).has_value());
-  for (const double x : {-1.0, 25.1, std::nan("")}) {
+  for (const auto& [coordinate, x] : {std::pair(&WaterBeam::incidence, -1.0),
+                                      {&WaterBeam::incidence, 25.1},
+                                      {&WaterBeam::incidence, std::nan("")},
+                                      {&WaterBeam::optical_depth, -0.1},
+                                      {&WaterBeam::optical_depth, 4.01},
+                                      {&WaterBeam::optical_depth, std::nan("")},
+                                      {&WaterBeam::field_of_view, 0.06},
+                                      {&WaterBeam::field_of_view, std::nan("")},
+                                      {&WaterBeam::pulse_length, 0.0},
+                                      {&WaterBeam::pulse_length, 0.007},
+                                      {&WaterBeam::pulse_length, std::nan("")}}) {
     WaterBeam beam = inside;
-    beam.incidence = x;
-    EXPECT_FALSE(water.At(beam).has_value());
-  }
-  for (const double x : {-0.1, 4.01, std::nan("")}) {
-    WaterBeam beam = inside;
-    beam.optical_depth = x;
-    EXPECT_FALSE(water.At(beam).has_value());
-  }
-  for (const double x : {0.06, std::nan("")}) {
-    WaterBeam beam = inside;
-    beam.field_of_view = x;
-    EXPECT_FALSE(water.At(beam).has_value());
-  }
-  for (const double x : {0.0, 0.007, std::nan("")}) {
-    WaterBeam beam = inside;
-    beam.pulse_length = x;
-    EXPECT_FALSE(water.At(beam).has_value());
+    beam.*coordinate = x;
+    EXPECT_FALSE(water.At(beam).has_value()) << x;
   }
 }
 
 TEST(WaterColumnTable, NeedsAllQuantitiesAndLight) {
-  Table::Variables variables = Values();
-  variables[1].reset();
-  EXPECT_THAT(WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
-              HasSubstr("bias_vertical_half"));
-  variables = Values();
-  variables[8]->values[3] = 0;
-  EXPECT_THAT(WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message(),
-              HasSubstr("energy"));
+  const auto problem = [](const Table::Variables& variables) {
+    return std::string(
+        WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message());
+  };
+  Table::Variables incomplete = Values(), dark = Values();
+  incomplete[1].reset();
+  dark[8]->values[3] = 0;
+  EXPECT_THAT(problem(incomplete), HasSubstr("bias_vertical_half"));
+  EXPECT_THAT(problem(dark), HasSubstr("energy"));
 }
 
 }  // namespace

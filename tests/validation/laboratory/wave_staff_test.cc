@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "generator/math/statistics.h"
+#include "sea/spectra/wave_spectrum.h"
 
 namespace albtpu {
 namespace {
@@ -16,7 +17,10 @@ constexpr int kRecords = 200;
 constexpr int kSamples = 1200;
 constexpr double kRate = 30;  // Hz
 
-SeaState Sea() { return SeaState(5.25, 8.5); }
+const SeaState& Sea() {
+  static const SeaState sea(5.25, 8.5);
+  return sea;
+}
 
 // The autocovariance of the elevation at a point, the integral of S(k) cos(omega lag) dk.
 double Autocovariance(double lag) {
@@ -31,12 +35,13 @@ double Autocovariance(double lag) {
 // Sampling changes no moment: with the aliased waves the record has all the variance of the sea.
 TEST(WaveStaff, HasTheAutocovarianceOfItsSpectrum) {
   const WaveStaff staff(Sea(), kSamples, kRate);
+  std::vector<std::vector<double>> records;
+  for (int r = 0; r < kRecords; ++r) records.push_back(staff.Draw(NormalStream(3, 0, static_cast<std::uint32_t>(r))));
   for (const int lag : {0, 1, 3, 7}) {
     Eigen::ArrayXd products(kRecords);
     for (int r = 0; r < kRecords; ++r) {
-      const std::vector<double> record = staff.Draw(NormalStream(3, 0, static_cast<std::uint32_t>(r)));
       double sum = 0;
-      for (int n = 0; n + lag < kSamples; ++n) sum += record[n] * record[n + lag];
+      for (int n = 0; n + lag < kSamples; ++n) sum += records[r][n] * records[r][n + lag];
       products[r] = sum / (kSamples - lag);
     }
     const Estimate found = Mean(products);
@@ -98,6 +103,62 @@ TEST(HighestThird, IsTheMeanOfTheHighestThirdOfTheWaves) {
   record.push_back(0);
   // The first crossing is not detected; a third of the five waves that follow is one wave.
   EXPECT_EQ(HighestThird(record), 5);
+}
+
+constexpr double kTensionOverDensity = kSurfaceTension / kWaterDensity;
+
+TEST(Dispersion, IsDominatedByGravityForLongWaves) {
+  const double k = 2 * std::numbers::pi / 10;  // tension adds T k^2 / (2 rho g) = 1.5e-6
+  EXPECT_NEAR(AngularFrequency(k) / std::sqrt(kGravity * k), 1, 2e-6);
+}
+
+TEST(Dispersion, IsDominatedBySurfaceTensionForRipples) {
+  const double k = 1e5;  // gravity adds rho g / (2 T k^2) = 7e-6
+  EXPECT_NEAR(AngularFrequency(k) / std::sqrt(kTensionOverDensity * k * k * k), 1, 1e-5);
+}
+
+// Lamb (1932), section 267: 23.2 cm/s at a wavelength of 1.73 cm, for a tension of 74 mN/m.
+TEST(Dispersion, HasItsLeastPhaseSpeedAtSeventeenMillimetres) {
+  double slowest = 1, wavelength = 0;
+  for (double length = 0.005; length < 0.1; length += 1e-5) {
+    const double k = 2 * std::numbers::pi / length;
+    const double speed = AngularFrequency(k) / k;
+    if (speed < slowest) {
+      slowest = speed;
+      wavelength = length;
+    }
+  }
+  EXPECT_NEAR(slowest, std::sqrt(2 * std::sqrt(kGravity * kTensionOverDensity)), 1e-6);
+  EXPECT_NEAR(slowest, 0.231, 0.0005);
+  EXPECT_NEAR(wavelength, 0.0171, 0.00005);
+  const double k = 2 * std::numbers::pi / wavelength;
+  EXPECT_NEAR(GroupSpeed(k) / slowest, 1, 1e-3) << "at the least phase speed, group and phase speed are equal";
+}
+
+TEST(Dispersion, InvertsFromFrequencyToWavenumber) {
+  for (double k = 0.01; k < 2e4; k *= 1.7) EXPECT_NEAR(Wavenumber(AngularFrequency(k)) / k, 1, 1e-9) << k;
+  EXPECT_EQ(Wavenumber(0), 0);
+}
+
+TEST(Dispersion, HasTheDerivativeOfTheFrequencyAsGroupSpeed) {
+  for (double k = 0.01; k < 2e4; k *= 3) {
+    const double step = 1e-4 * k;
+    const double difference = (AngularFrequency(k + step) - AngularFrequency(k - step)) / (2 * step);
+    EXPECT_NEAR(GroupSpeed(k) / difference, 1, 1e-7) << k;
+  }
+}
+
+TEST(FrequencySpectrum, HasTheVarianceOfTheSea) {
+  double sum = 0;
+  constexpr double kStep = 0.01;  // Hz
+  for (double f = 0.5 * kStep; f < 1500; f += kStep) sum += FrequencySpectrum(Sea(), f) * kStep;
+  EXPECT_NEAR(sum / ElevationVariance(Sea()), 1, 1e-3);  // 1e-4 for each of the ranges and of the sums
+}
+
+TEST(FrequencySpectrum, HasItsMaximumAtThePeakFrequency) {
+  const double peak = PeakFrequency(Sea());
+  for (const double aside : {0.9, 0.99, 1.01, 1.1})
+    EXPECT_LT(FrequencySpectrum(Sea(), aside * peak), FrequencySpectrum(Sea(), peak)) << aside;
 }
 
 }  // namespace
