@@ -52,10 +52,6 @@ struct Reader {
   Value operator()(const YesOrNo&) { return ValueOf(keys.Flag(key)); }
 };
 
-std::string RangeOf(double least, double greatest, std::string_view unit) {
-  return absl::StrCat(least, " to ", greatest, unit == "1" ? "" : " ", unit == "1" ? "" : std::string(unit));
-}
-
 // Reads the text of one flag.
 struct Parser {
   std::string_view text;
@@ -79,7 +75,7 @@ struct Parser {
     }
     if (good) return triple;
     return Wrong(
-        absl::StrCat("3 numbers from ", range.least, " to ", range.greatest, " ", std::string(range.unit)),
+        absl::StrCat("3 numbers from ", RangeOf(range.least, range.greatest, range.unit)),
         absl::StrCat("give ", std::string(range.parts.substr(1, range.parts.size() - 2)), " with commas between them"));
   }
   absl::StatusOr<Value> operator()(const Word& word) const {

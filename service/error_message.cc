@@ -20,37 +20,35 @@ const FieldDescriptor* FieldOf(std::size_t i) {
   return fields[i];
 }
 
+// Calls `each` with each number of `errors`, the message that has it, and its field there.
+void ForEachNumber(auto& errors, Message& message, auto each) {
+  for (std::size_t k = 0; k < kErrorSourceCount; ++k) {
+    const FieldDescriptor* const field = FieldOf(k);
+    const auto numbers = kErrorSources[k].In(errors);
+    if (numbers.size() == 1) {
+      each(numbers[0], message, field);
+      continue;
+    }
+    Message& parts = *message.GetReflection()->MutableMessage(&message, field);
+    for (int i = 0; i < static_cast<int>(numbers.size()); ++i) each(numbers[i], parts, field->message_type()->field(i));
+  }
+}
+
 }  // namespace
 
 v1::AirErrors ToMessage(const AirErrors& errors) {
   v1::AirErrors message;
-  for (std::size_t k = 0; k < kErrorSourceCount; ++k) {
-    const FieldDescriptor* const field = FieldOf(k);
-    const std::span<const double> numbers = kErrorSources[k].In(errors);
-    if (numbers.size() == 1) {
-      message.GetReflection()->SetDouble(&message, field, numbers[0]);
-      continue;
-    }
-    Message& parts = *message.GetReflection()->MutableMessage(&message, field);
-    for (int i = 0; i < static_cast<int>(numbers.size()); ++i)
-      parts.GetReflection()->SetDouble(&parts, field->message_type()->field(i), numbers[i]);
-  }
+  ForEachNumber(errors, message, [](double number, Message& of, const FieldDescriptor* field) {
+    of.GetReflection()->SetDouble(&of, field, number);
+  });
   return message;
 }
 
-AirErrors FromMessage(const v1::AirErrors& message) {
+AirErrors FromMessage(v1::AirErrors message) {
   AirErrors errors;
-  for (std::size_t k = 0; k < kErrorSourceCount; ++k) {
-    const FieldDescriptor* const field = FieldOf(k);
-    const std::span<double> numbers = kErrorSources[k].In(errors);
-    if (numbers.size() == 1) {
-      numbers[0] = message.GetReflection()->GetDouble(message, field);
-      continue;
-    }
-    const Message& parts = message.GetReflection()->GetMessage(message, field);
-    for (int i = 0; i < static_cast<int>(numbers.size()); ++i)
-      numbers[i] = parts.GetReflection()->GetDouble(parts, field->message_type()->field(i));
-  }
+  ForEachNumber(errors, message, [](double& number, const Message& of, const FieldDescriptor* field) {
+    number = of.GetReflection()->GetDouble(of, field);
+  });
   return errors;
 }
 

@@ -7,6 +7,6 @@
 namespace albtpu {
 
 v1::AirErrors ToMessage(const AirErrors& errors);
-AirErrors FromMessage(const v1::AirErrors& message);
+AirErrors FromMessage(v1::AirErrors message);
 
 }  // namespace albtpu

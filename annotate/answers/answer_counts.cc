@@ -95,19 +95,9 @@ std::string_view OutcomeCounts::Name(std::size_t number) {
 }
 
 std::string_view OutcomeName(NoPulse why) {
-  switch (why) {
-    case NoPulse::kNoTrajectory:
-      return "NO_TRAJECTORY";
-    case NoPulse::kUncertainTrajectory:
-      return "UNCERTAIN_TRAJECTORY";
-    case NoPulse::kNoSurface:
-      return "NO_SURFACE";
-    case NoPulse::kNoSea:
-      return "NO_SEA";
-    case NoPulse::kAboveWater:
-      break;
-  }
-  return "ABOVE_WATER";
+  constexpr std::array<std::string_view, kNoPulseCount> kNames = {"NO_TRAJECTORY", "UNCERTAIN_TRAJECTORY", "NO_SURFACE",
+                                                                  "NO_SEA", "ABOVE_WATER"};
+  return kNames[static_cast<std::size_t>(why)];
 }
 
 std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i) {

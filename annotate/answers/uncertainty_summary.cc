@@ -58,6 +58,25 @@ float CoordinateSpread::middle() const {
   return std::clamp(FromOrderedBits(center), least_, greatest_);
 }
 
+std::size_t BandOf(float depth) {
+  std::size_t band = 0;  // Counting the ends below the depth needs no branches.
+  for (const float end : kBandEnds) band += depth >= end;
+  return band;
+}
+
+double BandBegin(std::size_t band) { return band == 0 ? 0 : kBandEnds[band - 1]; }
+
+std::string BandText(std::size_t band) {
+  const std::string end = band < kBandEnds.size() ? absl::StrFormat("%g", kBandEnds[band]) : "";
+  return absl::StrFormat("%g - %s", BandBegin(band), end);
+}
+
+nlohmann::ordered_json BandJson(std::size_t band) {
+  nlohmann::ordered_json json = {{"from", band == 0 ? 0 : kBandEnds[band - 1]}, {"to", nullptr}};
+  if (band < kBandEnds.size()) json["to"] = kBandEnds[band];
+  return json;
+}
+
 namespace {
 
 // Of an attribute: rms, 99th percentile, maximum, noise, number of pulses. nullopt if no pulse was compared, or if a
@@ -165,9 +184,7 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
     const float depth = depths[depths.size() == 1 ? 0 : i];
     min_depth_ = std::min(min_depth_, depth);
     max_depth_ = std::max(max_depth_, depth);
-    std::size_t index = 0;  // Counting the ends below the depth needs no branches.
-    for (const float end : kBandEnds) index += depth >= end;
-    Band& band = bands_[index];
+    Band& band = bands_[BandOf(depth)];
     ++band.count;
     ++band.best_orders[answers.best_s44_orders[i]];
     band.thu.Add(answers[Quantity::kThu][i], error(Quantity::kThu, i));
@@ -208,13 +225,12 @@ AnswerTally UncertaintySummary::Tally() const {
   return tally;
 }
 
-std::string UncertaintySummary::BandText(std::size_t index) const {
+std::string UncertaintySummary::TextOf(std::size_t index) const {
   const Band& band = bands_[index];
-  const double begin = index == 0 ? 0 : kBandEnds[index - 1];
-  const std::string end = index < kBandEnds.size() ? absl::StrFormat("%g", kBandEnds[index]) : "";
+  const double begin = BandBegin(index);
   std::string text =
-      absl::StrFormat("  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %7.1f %%", absl::StrFormat("%g - %s", begin, end),
-                      band.count, Mean(band.thu.sum, band.count), band.thu.greatest, Mean(band.tvu.sum, band.count),
+      absl::StrFormat("  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %7.1f %%", BandText(index), band.count,
+                      Mean(band.thu.sum, band.count), band.thu.greatest, Mean(band.tvu.sum, band.count),
                       band.tvu.greatest, ThuLimit(order(), begin), TvuLimit(order(), begin),
                       100 * Mean(static_cast<double>(band.Within(order())), band.count));
   if (style_.standard_errors) {
@@ -238,14 +254,14 @@ std::string UncertaintySummary::Text(std::string_view without_azimuth) const {
                                          "mean m", "max m", "THU m", "TVU m", "within",
                                          style_.standard_errors ? "  s.e. THU  s.e. TVU" : ""));
   for (std::size_t i = 0; i < bands_.size(); ++i)
-    if (bands_[i].count > 0) absl::StrAppend(&text, "\n", BandText(i));
+    if (bands_[i].count > 0) absl::StrAppend(&text, "\n", TextOf(i));
   return text;
 }
 
-ordered_json UncertaintySummary::BandJson(std::size_t index) const {
+ordered_json UncertaintySummary::JsonOf(std::size_t index) const {
   const Band& band = bands_[index];
-  ordered_json json = {{"from", index == 0 ? 0 : kBandEnds[index - 1]}, {"to", nullptr}, {"pulses", band.count}};
-  if (index < kBandEnds.size()) json["to"] = kBandEnds[index];
+  ordered_json json = BandJson(index);
+  json["pulses"] = band.count;
   json["thu"] = band.thu.Json(band.count, style_.standard_errors);
   json["tvu"] = band.tvu.Json(band.count, style_.standard_errors);
   for (const S44Order order : kS44Orders) json["s44_left_open"][std::string(Name(order))] = band.Within(order);
@@ -270,7 +286,7 @@ ordered_json UncertaintySummary::Json() const {
   ordered_json bands = ordered_json::array();
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     all.Merge(bands_[i]);
-    if (bands_[i].count > 0) bands.push_back(BandJson(i));
+    if (bands_[i].count > 0) bands.push_back(JsonOf(i));
   }
   ordered_json json;
   json["pulses"] = outcomes_.total();

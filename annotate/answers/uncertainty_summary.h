@@ -37,6 +37,15 @@ class CoordinateSpread {
   std::vector<std::uint64_t> bins_;  // Empty until the first number.
 };
 
+// The depth bands of summaries. Their upper ends, m; the last band has none.
+inline constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
+inline constexpr std::size_t kDepthBands = kBandEnds.size() + 1;
+
+std::size_t BandOf(float depth);
+double BandBegin(std::size_t band);
+std::string BandText(std::size_t band);             // "2 - 5", "50 - "
+nlohmann::ordered_json BandJson(std::size_t band);  // {"from": 2, "to": 5}; null without an end
+
 // The interpolation error of a table. It was measured when the table was made, at random pulses all over the table, and
 // is in its attributes `interpolation_error_*` (tables/FORMAT.md).
 
@@ -84,9 +93,6 @@ class UncertaintySummary {
   nlohmann::ordered_json Json() const;
 
  private:
-  // Upper ends of the depth bands, m; the last band has no end.
-  static constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
-
   struct Range {
     double sum = 0, standard_error_sum = 0;
     float least = std::numeric_limits<float>::infinity(), greatest = -least;
@@ -107,15 +113,15 @@ class UncertaintySummary {
   };
 
   S44Order order() const { return style_.s44_order.value_or(S44Order::k1b); }
-  std::string BandText(std::size_t band) const;
-  nlohmann::ordered_json BandJson(std::size_t band) const;
+  std::string TextOf(std::size_t band) const;
+  nlohmann::ordered_json JsonOf(std::size_t band) const;
   nlohmann::ordered_json OutsideJson() const;
 
   AnswerStyle style_;
   OutcomeCounts outcomes_;
   std::array<CoordinateSpread, OutcomeCounts::kAskedCount> outside_;  // By OutcomeCounts::Number.
   CoordinateSpread above_water_;                                      // Depths.
-  std::array<Band, kBandEnds.size() + 1> bands_ = {};
+  std::array<Band, kDepthBands> bands_ = {};
   float min_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
   float max_depth_ = -std::numeric_limits<float>::infinity();
 };

@@ -10,8 +10,11 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "budget/beams/return_pair.h"
+#include "formats/files/file_access.h"
 #include "formats/text/text.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -20,31 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr int kSamples = 200;  // Of each run of the timeline.
 
-absl::StatusOr<std::vector<fs::path>> ErrorFilesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code ignored;
-    const std::string name = absl::AsciiStrToLower(entry->path().filename().string());
-    const bool is_named = absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
-    if (is_named && entry->is_regular_file(ignored)) files.push_back(entry->path());
-  }
-  if (error) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(folder.string(), ": ", error.message(), "; give a folder that can be read"));
-  }
-  if (files.empty()) {
-    return absl::NotFoundError(absl::StrCat(
-        folder.string(), ": no error file in this folder (no name contains smrmsg or rms); name the files"));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+bool MayStateErrors(const fs::path& path) {
+  const std::string name = absl::AsciiStrToLower(path.filename().string());
+  return absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
 }
 
 }  // namespace
@@ -52,14 +33,14 @@ double MedianOf(std::vector<double> values) {
 absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths) {
   TrajectoryErrors errors;
   for (const std::string& path : paths) {
-    std::error_code ignored;
-    absl::StatusOr<std::vector<fs::path>> files = std::vector<fs::path>{path};
-    if (fs::is_directory(path, ignored)) files = ErrorFilesIn(path);
-    if (!files.ok()) return files.status();
-    for (const fs::path& file : *files) {
-      absl::StatusOr<formats::SmrmsgFile> smrmsg = formats::SmrmsgFile::Open(file);
-      if (!smrmsg.ok()) return smrmsg.status();
-      errors.push_back(std::make_shared<const formats::SmrmsgFile>(*std::move(smrmsg)));
+    ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path, MayStateErrors));
+    if (files.empty()) {
+      return absl::NotFoundError(
+          absl::StrCat(path, ": no error file in this folder (no name contains smrmsg or rms); name the files"));
+    }
+    for (const fs::path& file : files) {
+      ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(file));
+      errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
     }
   }
   return errors;
@@ -83,7 +64,7 @@ std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
     }
   }
   if (horizontal.empty()) return std::nullopt;
-  return TrajectoryPrecision{MedianOf(std::move(horizontal)), MedianOf(std::move(vertical))};
+  return TrajectoryPrecision{Median(std::move(horizontal)), Median(std::move(vertical))};
 }
 
 using nlohmann::ordered_json;
@@ -177,12 +158,9 @@ std::optional<formats::TrajectorySigma> TrajectoryMotions::SigmaAt(double time) 
       std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time - run.offset);
       if (sigma.has_value()) return sigma;
     }
-    std::size_t low = run.begin, high = run.end - 1;  // The last record at or before `time`.
-    while (low < high) {
-      const std::size_t middle = low + (high - low + 1) / 2;
-      (run.TimeAt(middle) <= time ? low : high) = run.TimeAt(middle) <= time ? middle : middle - 1;
-    }
-    return run.trajectory->SigmaAt(low);
+    const std::size_t next =
+        formats::FirstRecordFrom(run.begin, run.end, time, [&run](std::size_t i) { return run.TimeAt(i); });
+    return run.trajectory->SigmaAt(run.TimeAt(next) == time ? next : next - 1);
   }
   return std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include "budget/beams/track_check.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -141,19 +142,14 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
                         absl::StrCat(file.name, ": ", std::string(timeline.status().message())));
   }
   FileTrack found;
-  if (!plan.trajectory_errors.empty()) {
-    if (absl::Status known = StatePrecision(file, plan, *timeline, found); !known.ok()) return known;
-  }
-  absl::Status near = CheckNearPoints(file.name, *timeline, *file.map, file.extent);
-  if (!near.ok()) return near;
+  if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, plan, *timeline, found));
+  RETURN_IF_ERROR(CheckNearPoints(file.name, *timeline, *file.map, file.extent));
   found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
-  absl::StatusOr<std::unique_ptr<ProjectedTrack>> track =
-      ProjectedTrack::Create(*std::move(timeline), file.map,
-                             {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},
-                              .geoid_separation = source.geoid_separation.value_or(0)});
-  if (!track.ok()) return track.status();
-  found.track = *std::move(track);
-  if (absl::Status agrees = CheckAgainstReturns(file, plan, source.utc, found); !agrees.ok()) return agrees;
+  ASSIGN_OR_RETURN(found.track,
+                   ProjectedTrack::Create(*std::move(timeline), file.map,
+                                          {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},
+                                           .geoid_separation = source.geoid_separation.value_or(0)}));
+  RETURN_IF_ERROR(CheckAgainstReturns(file, plan, source.utc, found));
   return found;
 }
 

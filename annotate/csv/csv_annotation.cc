@@ -1,5 +1,6 @@
 #include "annotate/csv/csv_annotation.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "formats/csv/csv_reader.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -31,9 +33,12 @@ struct Chunk {
 
   std::vector<Row> rows;
   CsvPulseBatches pulses;
-  AnswerBatch with_azimuth, without_azimuth;
-  CsvAircraftBatch aircraft_with_azimuth, aircraft_without_azimuth;  // Of totals; so are the next two.
-  TotalBatch totals_with_azimuth, totals_without_azimuth;
+  struct Half {
+    AnswerBatch answers;
+    CsvAircraftBatch aircraft;  // Of totals; so is the next.
+    TotalBatch totals;
+  };
+  std::array<Half, 2> halves;  // Of the pulses without and with an azimuth.
   TotalSummary totals;
 };
 
@@ -57,22 +62,12 @@ class BlockWork {
   }
 
   absl::Status operator()(Chunk& chunk) const {
-    if (absl::Status status = Decode(chunk); !status.ok()) return status;
+    RETURN_IF_ERROR(Decode(chunk));
     chunk.summary = UncertaintySummary(style_);
-    absl::Status status =
-        QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.totals_with_azimuth.water, chunk.summary);
-    if (status.ok())
-      status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.totals_without_azimuth.water,
-                           chunk.summary);
-    if (status.ok() && total_ != nullptr) {
-      chunk.totals = {};
-      FindTotals(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.aircraft_with_azimuth, chunk.totals_with_azimuth,
-                 chunk.totals);
-      FindTotals(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.aircraft_without_azimuth,
-                 chunk.totals_without_azimuth, chunk.totals);
-    }
-    if (status.ok()) Encode(chunk);
-    return status;
+    chunk.totals = {};
+    for (const bool has_azimuth : {true, false}) RETURN_IF_ERROR(Answer(chunk, has_azimuth));
+    Encode(chunk);
+    return absl::OkStatus();
   }
 
  private:
@@ -80,25 +75,16 @@ class BlockWork {
     formats::CsvRecords records(name_, chunk.block);
     formats::CsvRecord record;
     columns_.Clear(chunk.pulses);
-    if (aircraft_ != nullptr) {
-      aircraft_->Clear(chunk.aircraft_with_azimuth);
-      aircraft_->Clear(chunk.aircraft_without_azimuth);
-    }
+    if (aircraft_ != nullptr)
+      for (Chunk::Half& half : chunk.halves) aircraft_->Clear(half.aircraft);
     chunk.rows.clear();
     while (true) {
-      const absl::StatusOr<bool> more = records.Next(record);
-      if (!more.ok()) return more.status();
-      if (!*more) break;
+      ASSIGN_OR_RETURN(const bool more, records.Next(record));
+      if (!more) break;
       bool has_azimuth = false;
       if (!record.blank()) {
-        const absl::StatusOr<bool> appended = columns_.Append(record, chunk.pulses);
-        if (!appended.ok()) return appended.status();
-        has_azimuth = *appended;
-        if (aircraft_ != nullptr) {
-          absl::Status status =
-              aircraft_->Append(record, has_azimuth ? chunk.aircraft_with_azimuth : chunk.aircraft_without_azimuth);
-          if (!status.ok()) return status;
-        }
+        ASSIGN_OR_RETURN(has_azimuth, columns_.Append(record, chunk.pulses));
+        if (aircraft_ != nullptr) RETURN_IF_ERROR(aircraft_->Append(record, chunk.halves[has_azimuth].aircraft));
       }
       chunk.rows.push_back({static_cast<std::uint32_t>(record.text.size()),
                             static_cast<std::uint32_t>(record.line_ending.size()), record.blank(), has_azimuth});
@@ -107,17 +93,14 @@ class BlockWork {
     return absl::OkStatus();
   }
 
-  absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water,
-                           UncertaintySummary& summary) const {
-    absl::Status status = AnswerPulses(source_, style_.query(), pulses, selection_, answers);
-    if (status.ok() && total_ != nullptr) AddWater(total_->plan.water, pulses, answers, water);
-    if (status.ok() && pulses.size > 0) summary.Add(pulses, answers);
-    return status;
-  }
-
-  void FindTotals(const PulseBatch& pulses, AnswerBatch& answers, CsvAircraftBatch& aircraft, TotalBatch& totals,
-                  TotalSummary& summary) const {
-    if (pulses.size == 0) return;
+  absl::Status Answer(Chunk& chunk, bool has_azimuth) const {
+    const PulseBatch& pulses = chunk.pulses[has_azimuth];
+    auto& [answers, aircraft, totals] = chunk.halves[has_azimuth];
+    RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), pulses, selection_, answers));
+    if (total_ != nullptr) AddWater(total_->plan.water, pulses, answers, totals.water);
+    if (pulses.size == 0) return absl::OkStatus();
+    chunk.summary.Add(pulses, answers);
+    if (total_ == nullptr) return absl::OkStatus();
     if (!total_->wind_spectrum.empty()) {
       answers.sea_axes = aircraft.sea_axes;
       if (total_->plan.waves_unseen()) WaveHeightsOfWinds(pulses, total_->wind_spectrum, answers.wave_heights);
@@ -127,7 +110,8 @@ class BlockWork {
       if (!aircraft.undirected[i]) continue;
       for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry][i] = NAN;
     }
-    summary.Add(pulses, answers, totals);
+    chunk.totals.Add(pulses, answers, totals);
+    return absl::OkStatus();
   }
 
   void AppendTotal(const AnswerBatch& answers, const TotalBatch& totals, std::size_t i, std::string& to) const {
@@ -163,13 +147,13 @@ class BlockWork {
     for (const Chunk::Row& row : chunk.rows) {
       to.append(rest.substr(0, row.text_size));
       if (!row.blank) {
-        const AnswerBatch& answers = row.has_azimuth ? chunk.with_azimuth : chunk.without_azimuth;
+        const Chunk::Half& half = chunk.halves[row.has_azimuth];
         const std::size_t i = row.has_azimuth ? with++ : without++;
         if (total_ != nullptr) {
-          AppendTotal(answers, row.has_azimuth ? chunk.totals_with_azimuth : chunk.totals_without_azimuth, i, to);
+          AppendTotal(half.answers, half.totals, i, to);
         } else {
           cells_.Visit(
-              answers, i,
+              half.answers, i,
               [&to](float number) {
                 to += ',';
                 formats::AppendFloat(number, to);
@@ -260,43 +244,38 @@ std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& st
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, const std::filesystem::path& output,
                                          Existing existing, const FixedInputs& fixed, AnswerStyle style,
                                          const AnswerSource& source, FileProgress& progress, const CsvTotal* total) {
-  if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
-  absl::StatusOr<formats::CsvReader> reader = formats::CsvReader::Open(input);
-  if (!reader.ok()) return reader.status();
-  const absl::StatusOr<formats::CsvBlock> header_block = reader->ReadHeader();
-  if (!header_block.ok()) return header_block.status();
+  RETURN_IF_ERROR(formats::CheckNotTheSameFile(input, output));
+  ASSIGN_OR_RETURN(formats::CsvReader reader, formats::CsvReader::Open(input));
+  ASSIGN_OR_RETURN(const formats::CsvBlock header_block, reader.ReadHeader());
   formats::CsvRecord header;
-  const absl::StatusOr<bool> has_header = formats::CsvRecords(reader->name(), *header_block).Next(header);
-  if (!has_header.ok()) return has_header.status();
-  if (!*has_header || header.blank()) {
+  ASSIGN_OR_RETURN(const bool has_header, formats::CsvRecords(reader.name(), header_block).Next(header));
+  if (!has_header || header.blank()) {
     return absl::InvalidArgumentError(
         absl::StrCat(input.string(), " line 1: is empty; begin the file with a header that names the columns"));
   }
   const std::vector<std::string> appended = total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
   bool took_divergence = false;
-  const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind(
-      input.string(), header, total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended);
-  if (!columns.ok()) return columns.status();
+  ASSIGN_OR_RETURN(
+      const CsvPulses columns,
+      CsvPulses::Bind(input.string(), header,
+                      total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended));
   std::optional<CsvAircraft> aircraft;
   if (total != nullptr) {
-    absl::StatusOr<CsvAircraft> bound = CsvAircraft::Bind(input.string(), header, fixed);
-    if (!bound.ok()) return bound.status();
-    aircraft = *std::move(bound);
+    ASSIGN_OR_RETURN(aircraft, CsvAircraft::Bind(input.string(), header, fixed));
   }
-  absl::StatusOr<OutputFile> file = OutputFile::Create(output, existing);
-  if (!file.ok()) return file.status();
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(output, existing));
 
-  AnnotatedCsv annotated{.input_bytes = reader->bytes_read(),
+  AnnotatedCsv annotated{.input_bytes = reader.bytes_read(),
                          .summary = UncertaintySummary(style),
                          .totals = {},
                          .took_divergence = took_divergence,
-                         .file = *std::move(file)};
+                         .file = std::move(file)};
   FileProgress::File file_progress(progress, input.filename().string());
   const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);
   absl::Status status = annotated.file.Write(AnnotatedHeader(header, ending, appended));
-  const BlockWork work(*reader, *columns, style, ending, source, total, aircraft.has_value() ? &*aircraft : nullptr);
-  if (status.ok()) status = AnnotateRecords(*reader, work, style, file_progress, annotated);
-  if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
+  const BlockWork work(reader, columns, style, ending, source, total, aircraft.has_value() ? &*aircraft : nullptr);
+  if (status.ok()) status = AnnotateRecords(reader, work, style, file_progress, annotated);
+  RETURN_IF_ERROR(reader.CheckUnchanged());
   if (!status.ok()) return status;
   return annotated;
 }

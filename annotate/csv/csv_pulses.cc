@@ -12,6 +12,7 @@
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -85,7 +86,7 @@ PulseBatch OnePulse(const FixedCoordinates& fixed) {
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats::CsvRecord& header,
                                           const FixedInputs& fixed, const std::vector<std::string>& appended) {
   const std::vector<std::string> names = ColumnNames(header);
-  if (absl::Status status = CheckUnique(name, names, appended); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckUnique(name, names, appended));
   CsvPulses pulses;
   pulses.name_ = name;
   pulses.column_count_ = names.size();
@@ -117,7 +118,7 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
     pulses.fixed_[Index(PulseInput::kWindFrom)] = kWindForNorth;
     pulses.azimuths_from_north_ = true;
   }
-  if (absl::Status status = CheckWays(origins, absl::StrCat(name, " line 1")); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckWays(origins, absl::StrCat(name, " line 1")));
   for (const AxisId axis : kAxes) {
     const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
     if (fixed.any_sea && IsOfSea(InputOf(axis))) continue;
@@ -189,15 +190,14 @@ absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPuls
   bool has_azimuth = may_have_azimuth_;
   PulseNumbers numbers = fixed_;
   for (const Column& column : columns_) {
-    const absl::StatusOr<std::optional<float>> number =
-        NumberOf(name_, record, column.index, Name(column.input), Units(column.input), MayBeEmpty(column.input));
-    if (!number.ok()) return number.status();
+    ASSIGN_OR_RETURN(const std::optional<float> number, NumberOf(name_, record, column.index, Name(column.input),
+                                                                 Units(column.input), MayBeEmpty(column.input)));
     // An absent fetch; of the other inputs that may be empty, each makes the azimuth absent.
-    numbers[Index(column.input)] = number->value_or(std::numeric_limits<float>::infinity());
-    if (!number->has_value() && column.input != PulseInput::kFetch) has_azimuth = false;
+    numbers[Index(column.input)] = number.value_or(std::numeric_limits<float>::infinity());
+    if (!number.has_value() && column.input != PulseInput::kFetch) has_azimuth = false;
   }
   for (const AxisId axis : from_other_way_) numbers[Index(axis)] = FromOtherWay(axis, numbers);
-  PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
+  PulseBatch& batch = batches[has_azimuth];
   ++batch.size;
   for (const AxisId axis : varying_)
     if (axis != AxisId::kAzimuth || has_azimuth) batch[axis].push_back(numbers[Index(axis)]);
@@ -261,19 +261,18 @@ absl::Status CsvAircraft::Append(const formats::CsvRecord& record, CsvAircraftBa
   bool undirected = false;
   for (const Column& column : columns_) {
     const bool may_be_empty = column.input == BudgetInput::kBeamAzimuth;
-    const absl::StatusOr<std::optional<float>> number =
-        NumberOf(name_, record, column.index, NameOf(column.input), UnitsOf(column.input), may_be_empty);
-    if (!number.ok()) return number.status();
-    undirected |= !number->has_value();
-    batch.columns[column.input].push_back(number->value_or(0));
+    ASSIGN_OR_RETURN(const std::optional<float> number,
+                     NumberOf(name_, record, column.index, NameOf(column.input), UnitsOf(column.input), may_be_empty));
+    undirected |= !number.has_value();
+    batch.columns[column.input].push_back(number.value_or(0));
   }
   batch.undirected.push_back(undirected);
   if (!wind_from_.has_value()) return absl::OkStatus();
-  const absl::StatusOr<std::optional<float>> wind_from =
-      NumberOf(name_, record, *wind_from_, Name(PulseInput::kWindFrom), Units(PulseInput::kWindFrom), true);
-  if (!wind_from.ok()) return wind_from.status();
-  const bool known = wind_from->has_value() && !undirected;
-  batch.sea_axes.push_back(known ? static_cast<float>(std::fmod(**wind_from + 540.0, 360.0)) : NAN);
+  ASSIGN_OR_RETURN(
+      const std::optional<float> wind_from,
+      NumberOf(name_, record, *wind_from_, Name(PulseInput::kWindFrom), Units(PulseInput::kWindFrom), true));
+  const bool known = wind_from.has_value() && !undirected;
+  batch.sea_axes.push_back(known ? static_cast<float>(std::fmod(*wind_from + 540.0, 360.0)) : NAN);
   return absl::OkStatus();
 }
 

@@ -20,6 +20,8 @@ namespace albtpu::annotate {
 // for all pulses or for none.
 struct CsvPulseBatches {
   PulseBatch with_azimuth, without_azimuth;
+
+  PulseBatch& operator[](bool has_azimuth) { return has_azimuth ? with_azimuth : without_azimuth; }
 };
 
 // The number in a cell of `record`; none if it is empty and may be. Messages name file, line and column.

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "annotate/answers/batch.h"
 #include "annotate/run/file_progress.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -101,8 +102,7 @@ bool IsGivenByOtherWay(AxisId axis, const InputOrigins& origins) {
 }
 
 absl::Status CheckWays(const InputOrigins& origins, const std::string& where) {
-  for (const OtherWay& way : kOtherWays)
-    if (absl::Status status = CheckWay(way, origins, where); !status.ok()) return status;
+  for (const OtherWay& way : kOtherWays) RETURN_IF_ERROR(CheckWay(way, origins, where));
   return absl::OkStatus();
 }
 
@@ -115,7 +115,7 @@ absl::StatusOr<FixedCoordinates> CoordinatesOf(FixedInputs fixed) {
     origins[i] = number.has_value() ? InputOrigin::kFlag : InputOrigin::kNone;
     numbers[i] = number.value_or(0);
   }
-  if (absl::Status status = CheckWays(origins, "pulse"); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckWays(origins, "pulse"));
   FixedCoordinates coordinates = fixed.coordinates;
   for (const AxisId axis : kAxes) {
     if (coordinates[Index(axis)].has_value()) continue;

@@ -15,6 +15,7 @@
 #include "formats/las/las_writer.h"
 #include "formats/laz/items/point_encoders.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -67,9 +68,8 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
       head.record.has_value() ? head.record->chunk_size
                               : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
   formats::LasWriter writer(reader, head, annotated.file);
-  absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach);
-  if (!runs.ok()) return runs.status();
-  if (absl::Status status = writer.Begin(); !status.ok()) return status;
+  ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach));
+  RETURN_IF_ERROR(writer.Begin());
   const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(), beams.has_surface_returns(),
                           source);
   std::uint64_t written_records = 0;
@@ -79,7 +79,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
                        .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
                        .compressed = {}};
       },
-      [&](Passing& passing) { return runs->Next(max_records, passing.chunk); },
+      [&](Passing& passing) { return runs.Next(max_records, passing.chunk); },
       [&](Passing& passing) {
         absl::Status worked = work(passing.chunk);
         if (worked.ok() && passing.encoder != nullptr)
@@ -99,7 +99,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
         progress.Reach(BytesOf(reader, written_records), written_records);
         return writer.Write(passing.output(), chunk.own);
       });
-  return status.ok() ? writer.End(runs->tail_begin(), runs->tail_end()) : status;
+  return status.ok() ? writer.End(runs.tail_begin(), runs.tail_end()) : status;
 }
 
 }  // namespace
@@ -107,45 +107,33 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
                                          Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<formats::LasKind> kind) {
-  if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
-  const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(input);
-  if (!reader.ok()) return reader.status();
-  const formats::LasKind output_kind = kind.value_or(reader->kind());
-  const absl::StatusOr<formats::LasHead> head =
-      formats::AnnotatedHead(*reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace);
-  if (!head.ok()) return head.status();
+  RETURN_IF_ERROR(formats::CheckNotTheSameFile(input, output));
+  ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(input));
+  const formats::LasKind output_kind = kind.value_or(reader.kind());
+  ASSIGN_OR_RETURN(
+      const formats::LasHead head,
+      formats::AnnotatedHead(reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace));
   FileProgress::File file_progress(progress, input.filename().string());
-  const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
+  const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(reader, annotation);
   if (!beams.ok()) {
     // Reading also fails when the input became shorter; the modification is the cause to report.
-    const absl::Status changed = reader->CheckUnchanged();
+    const absl::Status changed = reader.CheckUnchanged();
     return changed.ok() ? beams.status() : changed;
   }
-  absl::StatusOr<OutputFile> file = OutputFile::Create(output, existing);
-  if (!file.ok()) return file.status();
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(output, existing));
 
-  AnnotatedLas annotated{.point_format = reader->header().point_format,
-                         .input_bytes = reader->file_size(),
-                         .input_kind = reader->kind(),
+  AnnotatedLas annotated{.point_format = reader.header().point_format,
+                         .input_bytes = reader.file_size(),
+                         .input_kind = reader.kind(),
                          .output_kind = output_kind,
-                         .copc_index_left_out = formats::HasCopcIndex(*reader),
-                         .chosen_classes = annotation.ClassesOf(reader->header().point_format),
-                         .classes = {},
+                         .copc_index_left_out = formats::HasCopcIndex(reader),
+                         .chosen_classes = annotation.ClassesOf(reader.header().point_format),
                          .summary = UncertaintySummary(annotation.style_of_sea()),
-                         .totals = {},
-                         .totals_by_line = {},
-                         .sigmas_assumed = 0,
-                         .surface = {},
-                         .incidence = {},
-                         .geometry = {},
-                         .sea = {},
-                         .notes = {},
-                         .file = *std::move(file)};
-  const absl::Status status = AnnotatePoints(*reader, *head, annotation, **beams, source, file_progress, annotated);
-  if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
+                         .file = std::move(file)};
+  const absl::Status status = AnnotatePoints(reader, head, annotation, **beams, source, file_progress, annotated);
+  RETURN_IF_ERROR(reader.CheckUnchanged());
   if (!status.ok()) return status;
-  if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok())
-    return plausible;
+  RETURN_IF_ERROR(CheckIncidence(reader, annotation, annotated.incidence));
   annotated.geometry = JsonBox((*beams)->Json());
   annotated.notes = (*beams)->Notes();
   if (annotated.incidence.count() > 0) {

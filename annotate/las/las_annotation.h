@@ -25,18 +25,18 @@ struct AnnotatedLas {
   std::uint64_t input_bytes = 0;
   formats::LasKind input_kind = formats::LasKind::kLas, output_kind = formats::LasKind::kLas;
   bool copc_index_left_out = false;
-  std::set<int> chosen_classes;
-  formats::LasClassCounts classes;
+  std::set<int> chosen_classes = {};
+  formats::LasClassCounts classes = {};
   UncertaintySummary summary;
-  TotalSummary totals;  // Empty without a total; so are the next two.
-  std::map<int, TotalSummary> totals_by_line;
+  TotalSummary totals = {};  // Empty without a total; so are the next two.
+  std::map<int, TotalSummary> totals_by_line = {};
   std::uint64_t sigmas_assumed = 0;
-  SurfaceCounts surface;
-  CoordinateSpread incidence;      // degree
-  JsonBox geometry;                // The determination of the beams, for a summary.
-  JsonBox sea;                     // The same for the sea; null where a table of winds answers.
-  std::vector<std::string> notes;  // For the user, a line each.
-  OutputFile file;                 // Complete; Commit() gives it its name.
+  SurfaceCounts surface = {};
+  CoordinateSpread incidence = {};      // degree
+  JsonBox geometry = {};                // The determination of the beams, for a summary.
+  JsonBox sea = {};                     // The same for the sea; null where a table of winds answers.
+  std::vector<std::string> notes = {};  // For the user, a line each.
+  OutputFile file;                      // Complete; Commit() gives it its name.
 };
 
 // Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.

@@ -8,25 +8,25 @@
 #include "annotate/beams/water_heights.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_points.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/trajectories/trajectory_time.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
 
 // The coordinate system; null if it is not known.
 absl::StatusOr<std::shared_ptr<const formats::MapFrame>> MapOf(const formats::LasReader& reader, const BeamPlan& plan) {
-  absl::StatusOr<formats::CrsDescription> description = formats::DescribeCrs(reader);
-  if (!description.ok()) return description.status();
+  ASSIGN_OR_RETURN(formats::CrsDescription description, formats::DescribeCrs(reader));
   bool required = false;
   if (const auto* files = std::get_if<TrajectoryFromFiles>(&plan.source)) {
-    description->user = files->crs.value_or("");
+    description.user = files->crs.value_or("");
     required = true;
   } else if (const auto* returns = std::get_if<TrajectoryFromReturns>(&plan.source)) {
-    description->user = returns->crs.value_or("");
+    description.user = returns->crs.value_or("");
     required = returns->crs.has_value();
   }
-  if (description->empty() && !required) return nullptr;
-  absl::StatusOr<std::shared_ptr<const formats::MapFrame>> map = formats::MapFrame::Create(reader.name(), *description);
+  if (description.empty() && !required) return nullptr;
+  absl::StatusOr<std::shared_ptr<const formats::MapFrame>> map = formats::MapFrame::Create(reader.name(), description);
   if (!map.ok() && !required) return nullptr;
   return map;
 }
@@ -35,9 +35,8 @@ absl::StatusOr<double> MetresPerHeightUnit(const formats::LasReader& reader, con
                                            const formats::MapFrame* map) {
   if (plan.metres_per_unit.has_value()) return *plan.metres_per_unit;
   if (map != nullptr && map->metres_per_height_unit().has_value()) return *map->metres_per_height_unit();
-  const absl::StatusOr<std::optional<std::string>> feet = formats::FindFeet(reader);
-  if (!feet.ok()) return feet.status();
-  std::string what = feet->value_or("");
+  ASSIGN_OR_RETURN(const std::optional<std::string> feet, formats::FindFeet(reader));
+  std::string what = feet.value_or("");
   if (what.empty() && map != nullptr && !map->is_geographic() && map->unit() > 0.3 && map->unit() < 0.31)
     what = map->crs_name();
   if (what.empty()) return 1.0;
@@ -51,10 +50,9 @@ absl::StatusOr<double> MetresPerHeightUnit(const formats::LasReader& reader, con
 absl::StatusOr<formats::MapPosition> MiddleOf(const formats::LasReader& reader) {
   const formats::LasHeader& header = reader.header();
   if (header.point_count == 0) return formats::MapPosition();
-  const absl::StatusOr<std::string> record = formats::FirstRecord(reader);
-  if (!record.ok()) return record.status();
+  ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
   const formats::LasPointFields fields(header);
-  const formats::MapPosition first = {fields.X(*record), fields.Y(*record)};
+  const formats::MapPosition first = {fields.X(record), fields.Y(record)};
   const auto is_inside = [&](double value, std::size_t axis) {
     // The box may be rounded otherwise than the points.
     const double tolerance = 2 * std::abs(header.scale[axis]);
@@ -76,32 +74,28 @@ bool LooksGeographic(const formats::LasHeader& header, const formats::MapPositio
 
 absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPlan& plan) {
   LasPlace place;
-  absl::StatusOr<std::shared_ptr<const formats::MapFrame>> map = MapOf(reader, plan);
-  if (!map.ok()) return map.status();
-  place.map = *std::move(map);
-  const absl::StatusOr<double> metres_per_z = MetresPerHeightUnit(reader, plan, place.map.get());
-  if (!metres_per_z.ok()) return metres_per_z.status();
-  const absl::StatusOr<formats::MapPosition> middle = MiddleOf(reader);
-  if (!middle.ok()) return middle.status();
+  ASSIGN_OR_RETURN(place.map, MapOf(reader, plan));
+  ASSIGN_OR_RETURN(const double metres_per_z, MetresPerHeightUnit(reader, plan, place.map.get()));
+  ASSIGN_OR_RETURN(const formats::MapPosition middle, MiddleOf(reader));
   // Without a coordinate system, x and y are in the unit of heights.
-  place.frame = {.origin_x = middle->x,
-                 .origin_y = middle->y,
-                 .metres_per_x = *metres_per_z,
-                 .metres_per_y = *metres_per_z,
-                 .metres_per_z = *metres_per_z};
-  if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), *middle)) {
+  place.frame = {.origin_x = middle.x,
+                 .origin_y = middle.y,
+                 .metres_per_x = metres_per_z,
+                 .metres_per_y = metres_per_z,
+                 .metres_per_z = metres_per_z};
+  if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), middle)) {
     return absl::InvalidArgumentError(absl::StrCat(
-        reader.name(), ": its points seem to be in degrees (x ", middle->x, ", y ", middle->y,
+        reader.name(), ": its points seem to be in degrees (x ", middle.x, ", y ", middle.y,
         "), but it states no coordinate system that can be used; name it by --crs, such as --crs EPSG:4326"));
   }
   if (place.map == nullptr) return place;
   place.remark = place.map->remark();
-  const std::optional<formats::GeographicPosition> position = place.map->GeographicAt(*middle);
+  const std::optional<formats::GeographicPosition> position = place.map->GeographicAt(middle);
   if (!position.has_value()) {
     if (!plan.has_track()) return place;
     return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": its points lie where its coordinate system, ",
-                                                   place.map->crs_name(), ", is not defined (x ", middle->x, ", y ",
-                                                   middle->y, "); give the right one by --crs"));
+                                                   place.map->crs_name(), ", is not defined (x ", middle.x, ", y ",
+                                                   middle.y, "); give the right one by --crs"));
   }
   const formats::MapMetric metric = place.map->MetricAt(*position);
   place.frame.metres_per_x = metric.metres_per_x;
@@ -162,10 +156,6 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
 
 }  // namespace
 
-LasBeams::LasBeams() : json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::object())) {}
-
-LasBeams::~LasBeams() = default;
-
 absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
@@ -176,14 +166,13 @@ absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPla
                      ", so that no position of the sensor belongs to them; "
                      "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
   }
-  absl::StatusOr<FileTrack> track = std::holds_alternative<TrajectoryFromFiles>(plan.source)
+  ASSIGN_OR_RETURN(FileTrack track, std::holds_alternative<TrajectoryFromFiles>(plan.source)
                                         ? TrackFromFiles(file, plan)
-                                        : TrackFromReturns(file, plan.refractive_index);
-  if (!track.ok()) return track.status();
-  track_ = std::move(track->track);
-  motions_ = std::move(track->motions);
-  (*json_)["trajectory"] = std::move(*track->json);
-  notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
+                                        : TrackFromReturns(file, plan.refractive_index));
+  track_ = std::move(track.track);
+  motions_ = std::move(track.motions);
+  (*json_)["trajectory"] = std::move(*track.json);
+  notes_.insert(notes_.end(), track.notes.begin(), track.notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
     notes_.push_back(
         "most returns of one pulse do not lie side by side in the file, so that few points have the water "
@@ -198,10 +187,8 @@ absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimel
     return absl::OkStatus();
   }
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
-  const absl::StatusOr<double> utc =
-      formats::UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
-  if (!utc.ok()) return utc.status();
-  utc_ = *utc;
+  ASSIGN_OR_RETURN(utc_, formats::UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()},
+                                            *seas.settings().file));
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
   return absl::OkStatus();
 }
@@ -219,40 +206,31 @@ void LasBeams::NoteLevel() {
 absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReader& reader,
                                                          const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
-  if (absl::Status status = CheckTimes(reader, annotation); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTimes(reader, annotation));
   std::unique_ptr<LasBeams> beams(new LasBeams());
-  absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
-  if (!place.ok()) return place.status();
-  beams->place_ = *std::move(place);
+  ASSIGN_OR_RETURN(beams->place_, PlaceOf(reader, plan));
   if (plan.has_track() && !beams->place_.remark.empty()) beams->notes_.push_back(beams->place_.remark);
   if (plan.water_level_file.has_value()) {
-    absl::StatusOr<formats::WaterLevelSeries> levels = formats::ReadWaterLevels(
-        *plan.water_level_file, reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
-                                                                  : formats::PointTimeForm::kWeekSeconds);
-    if (!levels.ok()) return levels.status();
-    beams->levels_ = *std::move(levels);
+    ASSIGN_OR_RETURN(beams->levels_,
+                     formats::ReadWaterLevels(*plan.water_level_file, reader.header().adjusted_gps_time
+                                                                          ? formats::PointTimeForm::kAdjustedStandard
+                                                                          : formats::PointTimeForm::kWeekSeconds));
   }
   if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
-    absl::StatusOr<LasPrescan> prescan =
-        Prescan(reader, beams->place_.frame,
-                {.classes = annotation.ClassesOf(reader.header().point_format),
-                 .water_classes = plan.water_classes,
-                 .pairs = plan.has_track(),
-                 .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
-                 .level_classes = UsualSurfaceClasses(reader.header().point_format)});
-    if (!prescan.ok()) return prescan.status();
-    beams->prescan_ = *std::move(prescan);
+    ASSIGN_OR_RETURN(beams->prescan_,
+                     Prescan(reader, beams->place_.frame,
+                             {.classes = annotation.ClassesOf(reader.header().point_format),
+                              .water_classes = plan.water_classes,
+                              .pairs = plan.has_track(),
+                              .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
+                              .level_classes = UsualSurfaceClasses(reader.header().point_format)}));
     beams->NoteLevel();
   }
-  if (annotation.seas != nullptr) {
-    if (absl::Status status = beams->FindSeas(reader, *annotation.seas); !status.ok()) return status;
-  }
+  if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, *annotation.seas));
   const WaterHeights water = {.surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
                               .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
                               .level = plan.water_level};
-  if (plan.has_track()) {
-    if (absl::Status status = beams->FindTrack(reader, plan, water); !status.ok()) return status;
-  }
+  if (plan.has_track()) RETURN_IF_ERROR(beams->FindTrack(reader, plan, water));
   beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get(), beams->motions_.get());
   return beams;
 }

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "annotate/answers/json_box.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/beams/file_track.h"
 #include "annotate/beams/point_beams.h"
@@ -34,7 +34,6 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
 
 class LasBeams {
  public:
-  ~LasBeams();
   // Reads the file once where surface returns or a trajectory are wanted. `annotation` must outlive the result.
   static absl::StatusOr<std::unique_ptr<LasBeams>> Find(const formats::LasReader& reader,
                                                         const LasAnnotation& annotation);
@@ -50,7 +49,6 @@ class LasBeams {
   std::vector<std::string> Notes() const { return notes_; }
 
  private:
-  LasBeams();
   void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
   absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
   absl::Status FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
@@ -63,7 +61,7 @@ class LasBeams {
   std::optional<BeamGeometry> geometry_;
   double utc_ = 0;
   std::pair<std::size_t, std::size_t> records_;
-  std::unique_ptr<nlohmann::ordered_json> json_;
+  JsonBox json_ = JsonBox::Object();
   std::vector<std::string> notes_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "annotate/las/las_prescan.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 
@@ -56,8 +57,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
     chunk.pulses.times.clear();
     for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(chunk.points.times[row] + utc_);
   }
-  absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers));
   if (total_ != nullptr) {
     AddWater(total_->water, chunk.pulses, chunk.answers, chunk.total.water);
     FindTotals(chunk);
@@ -65,7 +65,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   Summarize(chunk);
   Encode(chunk);
   if (!replaced_.empty()) Replace(chunk);
-  return status;
+  return absl::OkStatus();
 }
 
 void LasChunkWork::Decode(Chunk& chunk) const {

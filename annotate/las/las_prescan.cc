@@ -9,6 +9,7 @@
 #include "annotate/beams/pulse_sample.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_points.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -197,19 +198,17 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
   PairSample pairs;
   PulseSample incomplete;
   const PrescanWork work(reader, frame, options);
-  absl::StatusOr<formats::LasPointRuns> runs =
-      formats::LasPointRuns::Open(reader, 0, kPulseReach, laz::WantedFields::kReturns);
-  if (!runs.ok()) return runs.status();
-  const absl::Status status = formats::RunOrderedPipeline(
-      [] { return Part(); }, [&](Part& part) { return runs->Next(max_records, part.run); }, work,
-      [&](Part& part) {
-        Merge(part, prescan);
-        surface.Merge(std::move(part.surface));
-        for (const ReturnPair& pair : part.pairs) pairs.Add(pair);
-        for (const PulseReturn& one : part.incomplete) incomplete.Add(one);
-        return absl::OkStatus();
-      });
-  if (!status.ok()) return status;
+  ASSIGN_OR_RETURN(formats::LasPointRuns runs,
+                   formats::LasPointRuns::Open(reader, 0, kPulseReach, laz::WantedFields::kReturns));
+  RETURN_IF_ERROR(formats::RunOrderedPipeline([] { return Part(); },
+                                              [&](Part& part) { return runs.Next(max_records, part.run); }, work,
+                                              [&](Part& part) {
+                                                Merge(part, prescan);
+                                                surface.Merge(std::move(part.surface));
+                                                for (const ReturnPair& pair : part.pairs) pairs.Add(pair);
+                                                for (const PulseReturn& one : part.incomplete) incomplete.Add(one);
+                                                return absl::OkStatus();
+                                              }));
   if (prescan.off_level > 0) prescan.off_level_height /= static_cast<double>(prescan.off_level);
   std::vector<ReturnPair> apart;
   for (const std::vector<PulseReturn>& pulse : incomplete.Take()) {

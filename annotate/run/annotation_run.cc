@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -21,15 +22,9 @@ bool ConcernsOneFile(const absl::Status& status) {
          !absl::IsResourceExhausted(status) && !absl::IsUnauthenticated(status);
 }
 
-std::uint64_t BytesOf(const fs::path& path) {
-  std::error_code unknown;
-  const std::uintmax_t size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
-  return unknown ? 0 : size;
-}
-
 std::uint64_t TotalSize(const std::vector<Job>& jobs) {
   std::uint64_t total = 0;
-  for (const Job& job : jobs) total += BytesOf(job.input);
+  for (const Job& job : jobs) total += SizeOf(job.input);
   return total;
 }
 
@@ -84,7 +79,7 @@ class Run {
     if (run_.resume) {
       const absl::Status complete = CheckComplete(settings_, job);
       if (complete.ok()) {
-        progress_.Skip(BytesOf(job.input));
+        progress_.Skip(SizeOf(job.input));
         Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
         Judge(job, AnswerTally::FromJson(ReadAnswers(job)));
         return complete;
@@ -94,19 +89,16 @@ class Run {
                             absl::StrCat(complete.message(), "; add --overwrite, or choose another name"));
       }
     }
-    absl::Status writable = formats::CheckNotTheSameFile(job.input, SummaryPath(job.output));
-    if (writable.ok()) writable = CheckSummaryCanBeWritten(job, run_.existing);
-    if (!writable.ok()) return writable;
+    RETURN_IF_ERROR(formats::CheckNotTheSameFile(job.input, SummaryPath(job.output)));
+    RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, run_.existing));
     std::error_code ignored;  // If this fails, creating the output reports why.
     if (job.in_subfolder) fs::create_directories(job.output.parent_path(), ignored);
-    absl::StatusOr<AnnotatedFile> annotated = run_.annotate(job, progress_);
-    if (!annotated.ok()) return annotated.status();
-    const std::string summary = SummaryText(settings_, job, annotated->findings, annotated->file.size());
-    absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
-    if (!status.ok()) return status;
-    Note(absl::StrCat(job.output.string(), ":"), annotated->text);
-    Judge(job, annotated->findings.tally);
-    return status;
+    ASSIGN_OR_RETURN(AnnotatedFile annotated, run_.annotate(job, progress_));
+    const std::string summary = SummaryText(settings_, job, annotated.findings, annotated.file.size());
+    RETURN_IF_ERROR(CommitWithSummary(std::move(annotated.file), job, summary, run_.existing));
+    Note(absl::StrCat(job.output.string(), ":"), annotated.text);
+    Judge(job, annotated.findings.tally);
+    return absl::OkStatus();
   }
 
   std::string DoneText() const {

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
+#include "status/status_macros.h"
 #include "tables/version.h"
 
 namespace albtpu::annotate {
@@ -106,20 +107,22 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
   };
   for (const std::string& file : files) {
     if (!IsFolder(file)) {
-      if (absl::Status status = add(file, fs::path(file).filename()); !status.ok()) return status;
+      RETURN_IF_ERROR(add(file, fs::path(file).filename()));
       continue;
     }
-    const absl::StatusOr<std::vector<fs::path>> inputs = FilesIn(file, extensions, options);
-    if (!inputs.ok()) return inputs.status();
-    for (const fs::path& input : *inputs)
-      if (absl::Status status = add(input, input.lexically_relative(file)); !status.ok()) return status;
+    ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, FilesIn(file, extensions, options));
+    for (const fs::path& input : inputs) RETURN_IF_ERROR(add(input, input.lexically_relative(file)));
   }
   return jobs;
 }
 
-namespace {
+std::uint64_t SizeOf(const fs::path& path) {
+  std::error_code unknown;
+  const std::uintmax_t size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
+  return unknown ? 0 : size;
+}
 
-namespace fs = std::filesystem;
+namespace {
 
 constexpr char kProgram[] = "albtpu-query";
 constexpr std::uint64_t kLargestSummary = 16 << 20;  // Bytes; ours have a few thousand for each line.
@@ -127,12 +130,6 @@ constexpr int kDeepestSummary = 8;                   // Levels; ours have 4.
 
 ordered_json TableJson(const client::TableSummary& table) {
   return {{"id", table.id}, {"version", table.version}, {"digest", table.digest}};
-}
-
-std::uint64_t SizeOf(const fs::path& path) {
-  std::error_code ignored;
-  const std::uintmax_t size = fs::file_size(path, ignored);
-  return ignored ? 0 : size;
 }
 
 // "parameters.water_level is 0 there, 1 here" for the first value in `here` that differs in `there`; empty if none
@@ -223,21 +220,19 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
 
 absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing) {
   const fs::path summary_path = SummaryPath(job.output);
-  if (absl::Status status = CheckSummaryCanBeWritten(job, existing); !status.ok()) return status;
-  absl::StatusOr<OutputFile> file = OutputFile::Create(summary_path, Existing::kReplace);
-  if (!file.ok()) return file.status();
-  absl::Status status = output.Sync();
-  if (status.ok()) status = file->Write(summary);
-  if (status.ok()) status = file->Sync();
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, existing));
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, Existing::kReplace));
+  RETURN_IF_ERROR(output.Sync());
+  RETURN_IF_ERROR(file.Write(summary));
+  RETURN_IF_ERROR(file.Sync());
   std::error_code error;
   if (fs::exists(job.output, error)) {
     // The old summary goes first: if the program is killed here, no summary describes the wrong output.
     fs::remove(summary_path, error);
-    status = output.Commit();
-    return status.ok() ? file->Commit() : status;
+    RETURN_IF_ERROR(output.Commit());
+    return file.Commit();
   }
-  status = file->Commit();
+  absl::Status status = file.Commit();
   if (status.ok()) status = output.Commit();
   if (!status.ok()) fs::remove(summary_path, error);
   return status;

@@ -40,6 +40,9 @@ bool HasExtension(const std::filesystem::path& path, const std::string& extensio
 absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::vector<std::string>& extensions,
                                           const FileOptions& options);
 
+// 0 where it is not known.
+std::uint64_t SizeOf(const std::filesystem::path& path);
+
 // The summary beside each output, OUT.json: what was read, the parameters of the run and a summary of the answers. A
 // later run reads it to decide whether the output is complete and the same as it would write itself.
 

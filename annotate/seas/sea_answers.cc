@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "status/status_macros.h"
 #include "tables/s44.h"
 
 namespace albtpu::annotate {
@@ -148,9 +149,7 @@ absl::StatusOr<std::unique_ptr<SeaAnswers>> SeaAnswers::Open(std::shared_ptr<con
                                                              std::unique_ptr<client::SeaSources> sources) {
   const std::size_t first = seas->by_time() ? 0 : seas->fixed().first;
   std::unique_ptr<SeaAnswers> answers(new SeaAnswers(std::move(seas), std::move(sources)));
-  absl::StatusOr<client::TableSummary> summary = answers->Summary(first);
-  if (!summary.ok()) return summary.status();
-  answers->first_ = *std::move(summary);
+  ASSIGN_OR_RETURN(answers->first_, answers->Summary(first));
   return answers;
 }
 
@@ -160,9 +159,8 @@ AnswerSource SeaAnswers::source() {
 }
 
 absl::StatusOr<client::TableSummary> SeaAnswers::Summary(std::size_t record) {
-  const absl::StatusOr<std::shared_ptr<client::UncertaintySource>> sea = open_.Get(record);
-  if (!sea.ok()) return sea.status();
-  return (*sea)->table();
+  ASSIGN_OR_RETURN(const std::shared_ptr<client::UncertaintySource> sea, open_.Get(record));
+  return sea->table();
 }
 
 absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
@@ -194,9 +192,7 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses, co
   answers.wave_heights.resize(answers.sea_axes.size());
   AnswerBatch part;
   for (const auto& [first, group] : groups) {
-    const absl::Status status =
-        AnswerBetween(query, Rows(pulses, group.rows), group.between, group.weights, selection, part);
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(AnswerBetween(query, Rows(pulses, group.rows), group.between, group.weights, selection, part));
     Scatter(part, group.rows, answers);
   }
   return absl::OkStatus();
@@ -205,15 +201,13 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses, co
 absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
                                        const std::vector<float>& weights, const AnswerSelection& selection,
                                        AnswerBatch& answers) {
-  const absl::StatusOr<std::shared_ptr<client::UncertaintySource>> first = open_.Get(between.first);
-  if (!first.ok()) return first.status();
-  if (between.second == between.first) return AnswerPulses(**first, query, pulses, selection, answers);
-  const absl::StatusOr<std::shared_ptr<client::UncertaintySource>> second = open_.Get(between.second);
-  if (!second.ok()) return second.status();
+  ASSIGN_OR_RETURN(const std::shared_ptr<client::UncertaintySource> first, open_.Get(between.first));
+  if (between.second == between.first) return AnswerPulses(*first, query, pulses, selection, answers);
+  ASSIGN_OR_RETURN(const std::shared_ptr<client::UncertaintySource> second, open_.Get(between.second));
   AnswerBatch others;
   const auto ask = [&](const Query& asked, const AnswerSelection& selected, AnswerBatch& blended) {
-    absl::Status status = AnswerPulses(**first, asked, pulses, selected, blended);
-    if (status.ok()) status = AnswerPulses(**second, asked, pulses, selected, others);
+    absl::Status status = AnswerPulses(*first, asked, pulses, selected, blended);
+    if (status.ok()) status = AnswerPulses(*second, asked, pulses, selected, others);
     if (status.ok()) Blend(others, weights, blended);
     return status;
   };

@@ -12,6 +12,7 @@
 #include "formats/text/text.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -120,11 +121,10 @@ absl::StatusOr<SeaTimeline> SeaTimeline::Open(const config::SeaSettings& setting
 }
 
 absl::Status SeaTimeline::TakePlace(std::vector<SeaRecord> records) {
-  const absl::StatusOr<std::size_t> place = ChoosePlace(settings_.place, series_.points);
-  if (!place.ok()) return place.status();
-  place_ = PlaceName(series_.points[*place]);
+  ASSIGN_OR_RETURN(const std::size_t place, ChoosePlace(settings_.place, series_.points));
+  place_ = PlaceName(series_.points[place]);
   for (SeaRecord& record : records)
-    if (record.point == *place) records_.push_back(std::move(record));
+    if (record.point == place) records_.push_back(std::move(record));
   if (records_.empty())
     return absl::InvalidArgumentError(
         absl::StrCat("has no record of the place '", place_, "'; name another one by --sea-place"));

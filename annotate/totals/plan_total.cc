@@ -14,6 +14,7 @@
 #include "config/sensors/sensor.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/spectrum_moments.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 StatedNumber AssumedDivergence(double milliradians) {
@@ -172,25 +173,23 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) 
 }
 
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
-  if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
-  const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*survey.sensor.name);
-  if (!sensor.ok()) return sensor.status();
-  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface, context);
-  if (!located.ok()) return located.status();
+  RETURN_IF_ERROR(CheckDecided(survey));
+  ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*survey.sensor.name));
+  ASSIGN_OR_RETURN(const SurfaceLocation located, LocationOf(survey.surface, context));
   TotalPlan plan;
   BudgetOptions& options = plan.options;
-  options.located = *located;
+  options.located = located;
   options.coverage = context.coverage;
   const auto state = [&](const char* name, const std::string& value, const std::string& source, bool assumed) {
     plan.numbers.push_back({name, value, source, assumed});
   };
-  state("sensor", sensor->title, sensor->name, false);
-  if (sensor->divergence.has_value()) plan.divergence = sensor->divergence->value;
+  state("sensor", sensor.title, sensor.name, false);
+  if (sensor.divergence.has_value()) plan.divergence = sensor.divergence->value;
 
   const config::WaterSettings& water = survey.water;
   const std::optional<double> of_water = IndexOf(water);
   const bool by_state = of_water.has_value() && !water.index.has_value();
-  if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok()) return status;
+  RETURN_IF_ERROR(ErrorPlan(survey, context, sensor, by_state, plan).Make());
   options.index = of_water.value_or(options.index);
   state("refractive_index", absl::StrCat(options.index),
         !of_water.has_value() ? "assumed: sea water at 532 nm"
@@ -203,10 +202,13 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
         !arm.has_value());
   options.datum = *survey.datum.sigma;
   state("datum", absl::StrCat(options.datum, " m"), "[datum]", false);
-  absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
-  if (!planned.ok()) return planned.status();
-  plan.water = *std::move(planned);
+  ASSIGN_OR_RETURN(plan.water, PlanWater(water, options.index, plan.numbers));
   return plan;
+}
+
+std::string SpectrumOf(const client::TableSummary& table) {
+  const auto found = table.attributes.find("spectrum");
+  return found != table.attributes.end() ? found->second : "";
 }
 
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum) {

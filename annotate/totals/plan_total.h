@@ -56,8 +56,11 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 // `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 
-// The wind sea by which a table of winds was made, for the height of waves that the location of the surface does not
-// see. `spectrum` is the attribute of the table.
+// The spectrum by which a table of winds was made, an attribute; empty if it does not state it.
+std::string SpectrumOf(const client::TableSummary& table);
+
+// The standard deviation of the elevation of the wind sea of this spectrum, m, for the waves that the location of the
+// surface does not see.
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum);
 
 }  // namespace albtpu::annotate

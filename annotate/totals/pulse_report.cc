@@ -11,6 +11,7 @@
 #include "budget/air/air_sources.h"
 #include "budget/total/error_ellipse.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -91,8 +92,7 @@ absl::StatusOr<ordered_json> TotalJson(const PulseTotal& total, const AnswerSour
   AnswerSelection selection;
   SelectForTotals(selection);
   AnswerBatch sea;
-  absl::Status status = AnswerPulses(source, {}, total.pulse, selection, sea);
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(AnswerPulses(source, {}, total.pulse, selection, sea));
   TotalBatch totals;
   totals.whole = true;
   const WaterBatch& water = totals.water;

@@ -60,9 +60,7 @@ void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const T
 void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals, std::size_t i) {
   if (!std::isfinite(totals.thu[i]) || !std::isfinite(totals.tvu[i])) return;
   const float depth = pulses.coordinate(AxisId::kDepth, i);
-  std::size_t index = 0;
-  for (const float end : kBandEnds) index += depth >= end;
-  Band& band = bands_[index];
+  Band& band = bands_[BandOf(depth)];
   band.thu.Add(totals.thu[i]);
   band.tvu.Add(totals.tvu[i]);
   band.air.Add(totals.air, i);
@@ -150,8 +148,7 @@ ordered_json TotalSummary::Json() const {
   ordered_json& bands = json["depth_bands"] = ordered_json::array();
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     if (bands_[i].thu.count() == 0) continue;
-    ordered_json band = {{"from", i == 0 ? 0 : kBandEnds[i - 1]}, {"to", nullptr}};
-    if (i < kBandEnds.size()) band["to"] = kBandEnds[i];
+    ordered_json band = BandJson(i);
     band.update(bands_[i].Json());
     bands.push_back(std::move(band));
   }
@@ -177,12 +174,8 @@ std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
                    100 * water, 100 * std::max(0.0, 1 - air - sea - water),
                    100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
   };
-  for (std::size_t i = 0; i < bands_.size(); ++i) {
-    if (bands_[i].thu.count() == 0) continue;
-    const double begin = i == 0 ? 0 : kBandEnds[i - 1];
-    const std::string end = i < kBandEnds.size() ? absl::StrFormat("%g", kBandEnds[i]) : "";
-    line(absl::StrFormat("%g - %s", begin, end), bands_[i]);
-  }
+  for (std::size_t i = 0; i < bands_.size(); ++i)
+    if (bands_[i].thu.count() > 0) line(BandText(i), bands_[i]);
   if (count() > 0) line("all", All());
   return text;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "annotate/answers/batch.h"
+#include "annotate/answers/uncertainty_summary.h"
 #include "annotate/totals/pulse_totals.h"
 
 namespace albtpu::annotate {
@@ -48,9 +48,6 @@ class TotalSummary {
   nlohmann::ordered_json Json() const;
 
  private:
-  // Upper ends of the depth bands, m; the last band has no end. As in UncertaintySummary.
-  static constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
-
   // Sums of variances, m^2.
   struct Sums {
     double horizontal = 0, vertical = 0;
@@ -79,7 +76,7 @@ class TotalSummary {
 
   Band All() const;
 
-  std::array<Band, kBandEnds.size() + 1> bands_;
+  std::array<Band, kDepthBands> bands_;
 };
 
 // `answers`, which are those of the sea alone (UncertaintySummary), with the total beside them. What the sea has by

@@ -1,6 +1,7 @@
 #include "annotate/totals/water_column.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_io.h"
 
@@ -54,10 +56,8 @@ absl::StatusOr<BiasTreatment> TreatmentOf(const config::WaterSettings& settings)
           std::string(kBiasHandlingNames[static_cast<std::size_t>(handling)]), "\""));
     return formats::UsageError(absl::StrCat("[water] bias = \"", *settings.bias, "\" needs ", key, "; give ", what));
   };
-  if (absl::Status status = needs(BiasHandling::kVendor, settings.residual_fraction.has_value(), "residual_fraction",
-                                  "the fraction of the bias that remains, 0 to 1");
-      !status.ok())
-    return status;
+  RETURN_IF_ERROR(needs(BiasHandling::kVendor, settings.residual_fraction.has_value(), "residual_fraction",
+                        "the fraction of the bias that remains, 0 to 1"));
   const char* const kCalibration = "calibration = {depth = 5, offset = -0.04, sigma = 0.01}, in m";
   if (absl::Status status =
           needs(BiasHandling::kCalibrated, settings.calibration.has_value(), "calibration", kCalibration);
@@ -121,20 +121,10 @@ void StateOptics(const config::WaterSettings& settings, const WaterOptics& optic
                      !settings.backscatter_fraction.has_value()});
 }
 
-// Points that the treatment leaves biased, or not.
-std::string HandlingText(BiasHandling handling) {
-  switch (handling) {
-    case BiasHandling::kNone:
-      return "in the points, and in bias_vertical and bias_along_beam";
-    case BiasHandling::kCorrect:
-      return "its mean was taken away";
-    case BiasHandling::kVendor:
-      return "taken away by the vendor, but for a fraction";
-    case BiasHandling::kCalibrated:
-      return "taken away as it was measured, scaled to other depths";
-  }
-  return "";
-}
+// Whether the treatment leaves the points biased; by BiasHandling.
+constexpr std::array<const char*, kBiasHandlingNames.size()> kHandlingTexts = {
+    "in the points, and in bias_vertical and bias_along_beam", "its mean was taken away",
+    "taken away by the vendor, but for a fraction", "taken away as it was measured, scaled to other depths"};
 
 }  // namespace
 
@@ -172,18 +162,16 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
     numbers.push_back({"water_column", "left out", "[water]", false});
     return plan;
   }
-  if (absl::Status status = CheckReceiver(settings); !status.ok()) return status;
-  const absl::StatusOr<BiasTreatment> treatment = TreatmentOf(settings);
-  if (!treatment.ok()) return treatment.status();
+  RETURN_IF_ERROR(CheckReceiver(settings));
+  ASSIGN_OR_RETURN(const BiasTreatment treatment, TreatmentOf(settings));
   const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(settings));
   if (!optics.ok()) return InWater(optics.status());
-  const absl::StatusOr<WaterColumnTable> table = ReadWaterTable();
-  if (!table.ok()) return table.status();
+  ASSIGN_OR_RETURN(const WaterColumnTable table, ReadWaterTable());
   const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
                                .field_of_view = *settings.field_of_view,
                                .pulse_length = *settings.pulse_length,
                                .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
-  absl::StatusOr<WaterShare> share = WaterShare::Create(*table, *optics, receiver, *treatment);
+  absl::StatusOr<WaterShare> share = WaterShare::Create(table, *optics, receiver, treatment);
   if (!share.ok()) return InWater(share.status());
   if (!settings.processed_with.has_value())
     numbers.push_back(
@@ -192,9 +180,9 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   numbers.push_back({"water_detector", *settings.detector, "[water]", false});
   numbers.push_back({"water_field_of_view", absl::StrCat(*settings.field_of_view, " m"), "[water]", false});
   numbers.push_back({"water_pulse_length", absl::StrCat(*settings.pulse_length, " ns"), "[water]", false});
-  numbers.push_back(
-      {"water_bias", *settings.bias, absl::StrCat("[water]: ", HandlingText(treatment->handling)), false});
-  numbers.push_back({"water_table", absl::StrCat(table->table().provenance().id, " ", table->table().digest()),
+  numbers.push_back({"water_bias", *settings.bias,
+                     absl::StrCat("[water]: ", kHandlingTexts[static_cast<std::size_t>(treatment.handling)]), false});
+  numbers.push_back({"water_table", absl::StrCat(table.table().provenance().id, " ", table.table().digest()),
                      WaterTablePath().string(), false});
   plan.share = std::make_shared<WaterShare>(*std::move(share));
   return plan;

@@ -90,6 +90,10 @@ std::string WordProblem(const std::string& text, const std::vector<std::string>&
   return near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them";
 }
 
+std::string RangeOf(double least, double greatest, std::string_view unit) {
+  return absl::StrCat(least, " to ", greatest, unit == "1" ? "" : " ", unit == "1" ? "" : std::string(unit));
+}
+
 void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
   if (!status_.ok()) return;
   status_ = absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", formats::OneLine(message)));
@@ -98,12 +102,12 @@ void TomlProblem::Remember(const toml::source_region& source, const std::string&
 std::optional<double> TomlKeys::Number(std::string_view key, double least, double greatest, std::string_view unit) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
-  const std::string units = unit == "1" ? "" : absl::StrCat(" ", std::string(unit));
   const std::optional<double> number = NumberOf(*node);
   if (number.has_value() && *number >= least && *number <= greatest) return number;
-  Wrong(*node, key, absl::StrCat(least, " to ", greatest, units),
-        number.has_value() ? absl::StrCat("give it", unit == "1" ? "" : absl::StrCat(" in", units))
-                           : absl::StrCat("give a number without quotes", unit == "1" ? "" : " and without its unit"));
+  Wrong(*node, key, RangeOf(least, greatest, unit),
+        !number.has_value() ? absl::StrCat("give a number without quotes", unit == "1" ? "" : " and without its unit")
+        : unit == "1"       ? "give a number in this range"
+                            : absl::StrCat("give it in ", std::string(unit)));
   return std::nullopt;
 }
 
@@ -146,7 +150,7 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
                                                       std::string_view unit, std::string_view parts) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
-  const std::string expected = absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
+  const std::string expected = absl::StrCat("3 numbers from ", RangeOf(least, greatest, unit));
   const toml::array* const array = node->as_array();
   if (array == nullptr || array->size() != 3) {
     Wrong(*node, key, expected, absl::StrCat("give ", std::string(parts)));

@@ -53,6 +53,9 @@ class TomlProblem {
 // Empty if `text` is one of `words`; otherwise what to do: "did you mean ...?", "give one of them".
 std::string WordProblem(const std::string& text, const std::vector<std::string>& words);
 
+// "0 to 30 m"; `unit` is "1" where there is none.
+std::string RangeOf(double least, double greatest, std::string_view unit);
+
 class TomlKeys {
  public:
   // `name` is the table's in messages, "sea.waves"; empty for the root. The arguments must outlive it.

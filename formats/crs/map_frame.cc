@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -41,9 +42,8 @@ struct Found {
 
 absl::StatusOr<Found> FromGeoKeys(ProjContext& context, const CrsDescription& description) {
   const int code = description.projected != 0 ? description.projected : description.geographic;
-  absl::StatusOr<ProjCrs> crs = ReadUsable(context, absl::StrCat("EPSG:", code));
-  if (!crs.ok()) return crs.status();
-  Found found = {*std::move(crs), "", std::nullopt};
+  ASSIGN_OR_RETURN(ProjCrs crs, ReadUsable(context, absl::StrCat("EPSG:", code)));
+  Found found = {std::move(crs), "", std::nullopt};
   if (found.crs.is_projected && description.linear_unit != 0)
     found.unit = MetresOfUnit(context, description.linear_unit);
   return found;
@@ -141,7 +141,7 @@ MapFrame::~MapFrame() = default;
 absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::string& name,
                                                                  const CrsDescription& description) {
   ProjContext context;
-  if (absl::Status status = context.CheckDatabase(); !status.ok()) return status;
+  RETURN_IF_ERROR(context.CheckDatabase());
   if (description.empty()) return Unusable(name, "it states none");
   absl::StatusOr<Found> found;
   if (!description.user.empty()) {

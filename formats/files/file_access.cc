@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -66,6 +67,21 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
   return absl::FailedPreconditionError(
       absl::StrCat(name, ": changed while it was read (", size_, " bytes, then ", now.size_,
                    "), so nothing was written; run again when no program writes to it"));
+}
+
+absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(
+    const std::filesystem::path& path, const std::function<bool(const std::filesystem::path&)>& wanted) {
+  std::error_code error, ignored;
+  if (!std::filesystem::is_directory(path, error)) return std::vector{path};
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_regular_file(ignored) && wanted(entry->path())) files.push_back(entry->path());
+  if (error) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": ", error.message(), "; give a folder that can be read"));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output) {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -65,6 +67,11 @@ class FileStamp {
   std::uint64_t size_ = 0;
   std::timespec modified_ = {};
 };
+
+// `path` itself; or, if it is a folder, the regular files in it that are `wanted`, by name, which may be none.
+// FailedPrecondition when the folder cannot be read.
+absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(
+    const std::filesystem::path& path, const std::function<bool(const std::filesystem::path&)>& wanted);
 
 // FailedPrecondition when `output` and `input` are the same file, under whatever names: the input would be replaced
 // while it is read.

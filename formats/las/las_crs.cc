@@ -10,6 +10,7 @@
 #include "formats/las/las_header.h"
 #include "formats/laz/coding/little_endian.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -129,16 +130,15 @@ absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader) {
       const bool wkt = entry.Is(kProjectionUser, kWktRecord) && description.wkt.empty();
       const bool keys = entry.Is(kProjectionUser, kGeoKeyDirectoryRecord) && !has_keys;
       if (!wkt && !keys) continue;
-      absl::StatusOr<std::string> data =
-          reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
-      if (!data.ok()) return data.status();
+      ASSIGN_OR_RETURN(std::string data,
+                       reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt)));
       if (keys) {
         std::string text = std::move(description.wkt);
-        description = DescribeGeoKeys(*data);
+        description = DescribeGeoKeys(data);
         description.wkt = std::move(text);
         has_keys = true;
       } else {
-        description.wkt = data->substr(0, data->find('\0'));
+        description.wkt = data.substr(0, data.find('\0'));
         absl::StripAsciiWhitespace(&description.wkt);
       }
     }
@@ -151,10 +151,9 @@ absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader) {
     for (const VlrEntry& entry : *entries) {
       const bool wkt = entry.Is(kProjectionUser, kWktRecord);
       if (!wkt && !entry.Is(kProjectionUser, kGeoKeyDirectoryRecord)) continue;
-      const absl::StatusOr<std::string> data =
-          reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
-      if (!data.ok()) return data.status();
-      std::optional<std::string> feet = wkt ? FindFeetInWkt(*data) : FindFeetInGeoKeys(*data);
+      ASSIGN_OR_RETURN(const std::string data,
+                       reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt)));
+      std::optional<std::string> feet = wkt ? FindFeetInWkt(data) : FindFeetInGeoKeys(data);
       if (feet.has_value()) return feet;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -161,13 +162,12 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
 absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
                                                      std::size_t extra_bytes,
                                                      const std::vector<AppendedFloat>& appended, bool replace) {
-  absl::StatusOr<Described> known = Read(name, described);
-  if (!known.ok()) return known.status();
+  ASSIGN_OR_RETURN(Described known, Read(name, described));
   AppendedDescription description{.record = std::string(described), .replaced = {}};
   std::string& record = description.record;
   for (std::size_t i = 0; i < appended.size(); ++i) {
     const std::string ours(appended[i].name);
-    if (known->names.count(ours) == 0) continue;
+    if (known.names.count(ours) == 0) continue;
     if (!replace) {
       return InvalidExtraBytes(name,
                                absl::StrCat("already has ", ours,
@@ -175,28 +175,28 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
                                             "--replace"));
     }
     const auto is_ours = [&](const Known& entry) { return entry.name == ours; };
-    if (std::count_if(known->entries.begin(), known->entries.end(), is_ours) > 1)
+    if (std::count_if(known.entries.begin(), known.entries.end(), is_ours) > 1)
       return InvalidExtraBytes(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
-    const auto entry = std::find_if(known->entries.begin(), known->entries.end(), is_ours);
+    const auto entry = std::find_if(known.entries.begin(), known.entries.end(), is_ours);
     if (entry->type != kFloat && entry->type != kDouble) {
       return InvalidExtraBytes(name,
                                absl::StrCat("has ", ours, " as type ", entry->type,
                                             " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
                                             "the file from which it was made"));
     }
-    const auto place = static_cast<std::size_t>(entry - known->entries.begin()) * kEntrySize;
+    const auto place = static_cast<std::size_t>(entry - known.entries.begin()) * kEntrySize;
     record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
     description.replaced.push_back({i, entry->offset, entry->type == kDouble});
   }
-  if (known->bytes > extra_bytes) return MoreThanExist(name, known->bytes, extra_bytes);
-  FreeNames free_names(known->names);
-  for (std::size_t left = extra_bytes - known->bytes; left > 0;) {
+  if (known.bytes > extra_bytes) return MoreThanExist(name, known.bytes, extra_bytes);
+  FreeNames free_names(known.names);
+  for (std::size_t left = extra_bytes - known.bytes; left > 0;) {
     const std::size_t bytes = std::min(left, kMaxUndocumented);
     record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }
   for (const AppendedFloat& ours : appended)
-    if (known->names.count(ours.name) == 0) record += FloatEntry(ours);
+    if (known.names.count(ours.name) == 0) record += FloatEntry(ours);
   if (record.size() > kLargestExtraBytesRecord) {
     return InvalidExtraBytes(
         name, absl::StrCat("describes so many extra bytes that ", appended.size(), " more descriptions exceed ",
@@ -208,11 +208,10 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
 absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
                                                                              std::string_view described,
                                                                              std::size_t extra_bytes) {
-  const absl::StatusOr<Described> known = Read(name, described);
-  if (!known.ok()) return known.status();
-  if (known->bytes > extra_bytes) return MoreThanExist(name, known->bytes, extra_bytes);
+  ASSIGN_OR_RETURN(const Described known, Read(name, described));
+  if (known.bytes > extra_bytes) return MoreThanExist(name, known.bytes, extra_bytes);
   std::map<std::string, std::size_t, std::less<>> offsets;
-  for (const Known& entry : known->entries)
+  for (const Known& entry : known.entries)
     if (entry.type == kFloat) offsets.emplace(entry.name, entry.offset);
   return offsets;
 }

@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
 #include "formats/laz/items/laszip_record.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -133,7 +134,7 @@ std::size_t MinimumRecordLength(int point_format) { return kRecordLengths[point_
 std::size_t LasHeader::extra_bytes() const { return record_length - MinimumRecordLength(point_format); }
 
 absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes, std::uint64_t file_size) {
-  if (absl::Status status = CheckVersion(name, bytes); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckVersion(name, bytes));
   LasHeader header;
   header.version_minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
   const std::size_t min_header = kHeaderSizes[header.version_minor];
@@ -157,9 +158,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   }
   header.compressed = (header.point_format & laz::kCompressedFlag) != 0;
   header.point_format &= ~laz::kCompressedFlag;
-  const absl::StatusOr<std::uint64_t> count = PointCount(name, bytes, header.version_minor);
-  if (!count.ok()) return count.status();
-  header.point_count = *count;
+  ASSIGN_OR_RETURN(header.point_count, PointCount(name, bytes, header.version_minor));
   // Before 1.2 these bytes are reserved, and times are seconds of the week.
   const std::uint16_t global_encoding =
       header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
@@ -175,9 +174,9 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
                                         "offset after the points"));
     }
   }
-  if (absl::Status status = CheckRecords(name, header); !status.ok()) return status;
-  if (absl::Status status = CheckOffsets(name, header, file_size); !status.ok()) return status;
-  if (absl::Status status = CheckAfterPoints(name, header, file_size); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckRecords(name, header));
+  RETURN_IF_ERROR(CheckOffsets(name, header, file_size));
+  RETURN_IF_ERROR(CheckAfterPoints(name, header, file_size));
   return header;
 }
 

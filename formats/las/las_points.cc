@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 void LasClassCounts::Merge(const LasClassCounts& other) {
@@ -56,10 +57,9 @@ absl::StatusOr<bool> LasPointRuns::Next(std::uint64_t most, LasRun& run) {
   const std::uint64_t end = next_ + run.own + std::min<std::uint64_t>(after_, left - run.own);
   run.records.resize((end - begin) * header.record_length);
   next_ += run.own;
-  const absl::Status status = laz_ != nullptr ? ReadLaz(begin, end, run)
-                                              : reader_.ReadAt(header.offset_to_points + begin * header.record_length,
-                                                               std::span<char>(run.records));
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(laz_ != nullptr ? ReadLaz(begin, end, run)
+                                  : reader_.ReadAt(header.offset_to_points + begin * header.record_length,
+                                                   std::span<char>(run.records)));
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 LasReader::LasReader(std::string name, std::FILE* file)
@@ -28,16 +29,16 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
     return absl::FailedPreconditionError(
         absl::StrCat(path.string(), ": is not a regular file; give a LAS or LAZ file"));
   }
-  if (absl::Status head = reader.ReadHead(); !head.ok()) return head;
-  if (absl::Status evlrs = reader.ReadEvlrs(); !evlrs.ok()) return evlrs;
-  if (absl::Status record = reader.ReadLaszipRecord(); !record.ok()) return record;
+  RETURN_IF_ERROR(reader.ReadHead());
+  RETURN_IF_ERROR(reader.ReadEvlrs());
+  RETURN_IF_ERROR(reader.ReadLaszipRecord());
   posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
   return reader;
 }
 
 absl::StatusOr<std::string> LasReader::ReadAt(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
-  if (absl::Status status = ReadAt(offset, std::span<char>(bytes)); !status.ok()) return status;
+  RETURN_IF_ERROR(ReadAt(offset, std::span<char>(bytes)));
   return bytes;
 }
 
@@ -67,17 +68,10 @@ absl::Status LasReader::File::ReadAt(std::uint64_t offset, std::span<char> bytes
 absl::Status LasReader::CheckUnchanged() const { return file_->stamp().CheckUnchanged(name_, file_->descriptor()); }
 
 absl::Status LasReader::ReadHead() {
-  const absl::StatusOr<std::string> beginning = ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader));
-  if (!beginning.ok()) return beginning.status();
-  const absl::StatusOr<LasHeader> header = ParseLasHeader(name_, *beginning, file_size());
-  if (!header.ok()) return header.status();
-  header_ = *header;
-  absl::StatusOr<std::string> head = ReadAt(0, header_.offset_to_points);
-  if (!head.ok()) return head.status();
-  head_ = *std::move(head);
-  absl::StatusOr<std::vector<VlrEntry>> vlrs = ListVlrs(name_, header_, head_);
-  if (!vlrs.ok()) return vlrs.status();
-  vlrs_ = *std::move(vlrs);
+  ASSIGN_OR_RETURN(const std::string beginning, ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader)));
+  ASSIGN_OR_RETURN(header_, ParseLasHeader(name_, beginning, file_size()));
+  ASSIGN_OR_RETURN(head_, ReadAt(0, header_.offset_to_points));
+  ASSIGN_OR_RETURN(vlrs_, ListVlrs(name_, header_, head_));
   return absl::OkStatus();
 }
 
@@ -117,12 +111,10 @@ absl::Status LasReader::ReadEvlrs() {
                                               header_.evlr_count, " begins at byte ", next, ", but the file has only ",
                                               file_size(), "; get a complete copy"));
     }
-    const absl::StatusOr<std::string> bytes = ReadAt(next, kEvlrHeaderSize);
-    if (!bytes.ok()) return bytes.status();
-    const absl::StatusOr<VlrEntry> evlr = ParseEvlr(name_, *bytes, next, file_size());
-    if (!evlr.ok()) return evlr.status();
-    evlrs_.push_back(*evlr);
-    next = evlr->end();
+    ASSIGN_OR_RETURN(const std::string bytes, ReadAt(next, kEvlrHeaderSize));
+    ASSIGN_OR_RETURN(const VlrEntry evlr, ParseEvlr(name_, bytes, next, file_size()));
+    evlrs_.push_back(evlr);
+    next = evlr.end();
   }
   return absl::OkStatus();
 }

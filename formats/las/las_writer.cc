@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -82,15 +83,13 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
                                       bool replace) {
   const LasHeader& header = reader.header();
   const std::string_view input = reader.head();
-  const absl::StatusOr<std::optional<VlrEntry>> existing = FindExtraBytesRecord(reader);
-  if (!existing.ok()) return existing.status();
+  ASSIGN_OR_RETURN(const std::optional<VlrEntry> existing, FindExtraBytesRecord(reader));
   const std::string_view described =
-      existing->has_value() ? input.substr((*existing)->data_offset, (*existing)->data_size) : "";
-  const absl::StatusOr<AppendedDescription> description =
-      DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace);
-  if (!description.ok()) return description.status();
-  const std::string& data = description->record;
-  const std::size_t appended_bytes = (appended.size() - description->replaced.size()) * sizeof(float);
+      existing.has_value() ? input.substr(existing->data_offset, existing->data_size) : "";
+  ASSIGN_OR_RETURN(const AppendedDescription description,
+                   DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace));
+  const std::string& data = description.record;
+  const std::size_t appended_bytes = (appended.size() - description.replaced.size()) * sizeof(float);
   const std::size_t record_length = header.record_length + appended_bytes;
   const auto no_room = [&] {
     return Invalid(reader, absl::StrCat("has no room for ", appended_bytes, " more bytes in records of ",
@@ -99,7 +98,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   if (record_length > std::numeric_limits<std::uint16_t>::max()) return no_room();
 
   LasHead head{
-      .bytes = std::string(input.substr(0, header.header_size)), .record = {}, .replaced = description->replaced};
+      .bytes = std::string(input.substr(0, header.header_size)), .record = {}, .replaced = description.replaced};
   std::uint64_t vlr_count = 0;
   const auto add = [&](std::string_view vlr) {
     head.bytes += vlr;
@@ -115,7 +114,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
       add(input.substr(vlr.offset, vlr.end() - vlr.offset));
     }
   }
-  if (!existing->has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
+  if (!existing.has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
   if (kind == LasKind::kLaz) {
     const std::size_t points = std::clamp<std::size_t>(kChunkBytes / record_length, 1, laz::kCommonChunkSize);
     head.record = laz::RecordFor(header.point_format, record_length, static_cast<std::uint32_t>(points));
@@ -171,20 +170,19 @@ absl::Status LasWriter::Write(std::string_view bytes, std::uint64_t points) {
 absl::Status LasWriter::EndPoints() {
   if (!head_.record.has_value()) return absl::OkStatus();
   const std::uint64_t table = output_.size();
-  absl::Status status = output_.Write(laz::ChunkTableBytes(*head_.record, chunks_));
-  if (status.ok()) status = output_.WriteAt(head_.bytes.size(), TableOffset(table));
-  return status;
+  RETURN_IF_ERROR(output_.Write(laz::ChunkTableBytes(*head_.record, chunks_)));
+  return output_.WriteAt(head_.bytes.size(), TableOffset(table));
 }
 
 absl::Status LasWriter::End(std::uint64_t tail_begin, std::uint64_t tail_end) {
-  if (absl::Status status = EndPoints(); !status.ok()) return status;
+  RETURN_IF_ERROR(EndPoints());
   std::string header = head_.bytes.substr(0, reader_.header().header_size);
   MoveTailStarts(reader_, tail_begin, output_.size(), header);
-  if (absl::Status status = output_.WriteAt(0, header); !status.ok()) return status;
+  RETURN_IF_ERROR(output_.WriteAt(0, header));
   std::uint64_t next = tail_begin;
   for (const VlrEntry& evlr : reader_.evlrs()) {  // In the order of the file.
     if (IsKept(reader_, evlr)) continue;
-    if (absl::Status status = Copy(next, evlr.offset); !status.ok()) return status;
+    RETURN_IF_ERROR(Copy(next, evlr.offset));
     next = evlr.end();
   }
   return Copy(next, tail_end);
@@ -193,9 +191,8 @@ absl::Status LasWriter::End(std::uint64_t tail_begin, std::uint64_t tail_end) {
 absl::Status LasWriter::Copy(std::uint64_t begin, std::uint64_t end) {
   for (std::uint64_t at = begin; at < end;) {
     const std::size_t size = std::min<std::uint64_t>(kCopySize, end - at);
-    const absl::StatusOr<std::string> bytes = reader_.ReadAt(at, size);
-    if (!bytes.ok()) return bytes.status();
-    if (absl::Status status = output_.Write(*bytes); !status.ok()) return status;
+    ASSIGN_OR_RETURN(const std::string bytes, reader_.ReadAt(at, size));
+    RETURN_IF_ERROR(output_.Write(bytes));
     at += size;
   }
   return absl::OkStatus();

@@ -13,6 +13,7 @@
 #include "formats/laz/coding/arithmetic_encoder.h"
 #include "formats/laz/coding/integer_coder.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::laz {
 namespace {
@@ -51,7 +52,7 @@ class SizesCoder {
 template <typename Number>
 absl::StatusOr<Number> ReadNumber(const ByteSource& file, std::uint64_t offset) {
   std::array<char, sizeof(Number)> bytes;
-  if (absl::Status status = file.ReadAt(offset, bytes); !status.ok()) return status;
+  RETURN_IF_ERROR(file.ReadAt(offset, bytes));
   return Load<Number>({bytes.data(), bytes.size()}, 0);
 }
 
@@ -63,21 +64,18 @@ absl::Status Broken(const Pieces&... problem) {
 // Finds the table without reading it. NotFound: there is none.
 absl::StatusOr<ChunkTable> FindTable(const ByteSource& file, std::uint64_t points_begin) {
   const std::uint64_t first = points_begin + kTableOffsetSize, size = file.size();
-  const absl::StatusOr<std::uint64_t> stated = ReadNumber<std::uint64_t>(file, points_begin);
-  if (!stated.ok()) return stated.status();
-  if (*stated == points_begin) return absl::NotFoundError("the writer did not reach the chunk table");
-  if (*stated != 0 && *stated != ~std::uint64_t{0}) {
-    if (*stated >= first && *stated <= size && size - *stated >= kHeadSize)
-      return ChunkTable{.chunks = {}, .begin = *stated};
-    return Broken("begins at byte ", *stated, " (expected ", first, " or more, and ", kHeadSize,
+  ASSIGN_OR_RETURN(const std::uint64_t stated, ReadNumber<std::uint64_t>(file, points_begin));
+  if (stated == points_begin) return absl::NotFoundError("the writer did not reach the chunk table");
+  if (stated != 0 && stated != ~std::uint64_t{0}) {
+    if (stated >= first && stated <= size && size - stated >= kHeadSize)
+      return ChunkTable{.chunks = {}, .begin = stated};
+    return Broken("begins at byte ", stated, " (expected ", first, " or more, and ", kHeadSize,
                   " bytes or more before the end of the file at byte ", size, ")");
   }
-  const absl::StatusOr<std::uint64_t> last = ReadNumber<std::uint64_t>(file, size - sizeof *last);
-  if (!last.ok()) return last.status();
-  if (*last >= first && *last <= size && size - *last >= kHeadSize + sizeof *last) {
-    const absl::StatusOr<std::uint32_t> version = ReadNumber<std::uint32_t>(file, *last);
-    if (!version.ok()) return version.status();
-    if (*version == 0) return ChunkTable{.chunks = {}, .begin = *last, .offset_at_end = true};
+  ASSIGN_OR_RETURN(const std::uint64_t last, ReadNumber<std::uint64_t>(file, size - sizeof(std::uint64_t)));
+  if (last >= first && last <= size && size - last >= kHeadSize + sizeof last) {
+    ASSIGN_OR_RETURN(const std::uint32_t version, ReadNumber<std::uint32_t>(file, last));
+    if (version == 0) return ChunkTable{.chunks = {}, .begin = last, .offset_at_end = true};
   }
   return absl::NotFoundError("the file was written to a pipe, without the offset of its chunk table");
 }
@@ -125,32 +123,26 @@ absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRe
     return Damaged("its points begin at byte ", points_begin, ", less than ", kTableOffsetSize,
                    " bytes before the end of the file at byte ", size);
   }
-  absl::StatusOr<ChunkTable> found = FindTable(file, points_begin);
-  if (!found.ok()) return found.status();
-  ChunkTable& table = *found;
-  const absl::StatusOr<std::uint32_t> version = ReadNumber<std::uint32_t>(file, table.begin);
-  if (!version.ok()) return version.status();
-  if (*version != 0) return Broken("states version ", *version, " (expected 0)");
-  const absl::StatusOr<std::uint32_t> count = ReadNumber<std::uint32_t>(file, table.begin + 4);
-  if (!count.ok()) return count.status();
+  ASSIGN_OR_RETURN(ChunkTable table, FindTable(file, points_begin));
+  ASSIGN_OR_RETURN(const std::uint32_t version, ReadNumber<std::uint32_t>(file, table.begin));
+  if (version != 0) return Broken("states version ", version, " (expected 0)");
+  ASSIGN_OR_RETURN(const std::uint32_t count, ReadNumber<std::uint32_t>(file, table.begin + 4));
   // Each chunk begins with an uncompressed record, so the size of the file bounds the memory, too. A file without
   // points may have a chunk without points.
   const std::uint64_t most = point_count == 0 ? 1 : (table.begin - first) / record.record_length();
-  if (*count > most)
-    return Broken("states ", *count, " chunks (expected at most ", most, " in ", table.begin - first, " bytes)");
-  if (*count == 0) {
+  if (count > most)
+    return Broken("states ", count, " chunks (expected at most ", most, " in ", table.begin - first, " bytes)");
+  if (count == 0) {
     if (point_count > 0) return Broken("states no chunks for ", point_count, " points");
     table.end = table.begin + kHeadSize;
-    return found;
+    return table;
   }
   ByteWindow window;
   ArithmeticDecoder decoder;
   decoder.Begin(window, file, table.begin + kHeadSize, size);
-  absl::StatusOr<std::vector<Chunk>> chunks = ReadChunks(decoder, record, *count, first, table.begin, point_count);
-  if (!chunks.ok()) return chunks.status();
-  table.chunks = *std::move(chunks);
+  ASSIGN_OR_RETURN(table.chunks, ReadChunks(decoder, record, count, first, table.begin, point_count));
   table.end = decoder.position();
-  return found;
+  return table;
 }
 
 std::string ChunkTableBytes(const LaszipRecord& record, const std::vector<Chunk>& chunks) {

@@ -13,6 +13,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::laz {
 namespace {
@@ -40,7 +41,7 @@ absl::Status CheckAllCounted(const ByteSource& file, const LazExtent& extent, st
   const std::uint64_t more = extent.points_end - end, chunk_size = extent.record.chunk_size;
   if (more < extent.record.record_length()) return absl::OkStatus();
   std::array<char, sizeof(std::uint64_t)> next;
-  if (absl::Status status = file.ReadAt(end, next); !status.ok()) return status;
+  RETURN_IF_ERROR(file.ReadAt(end, next));
   const std::uint64_t chunks = chunk_size > 0 ? (extent.point_count + chunk_size - 1) / chunk_size : 0;
   if (chunk_size > 0 && Load<std::uint64_t>({next.data(), next.size()}, 0) == chunks << 32) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -246,9 +247,7 @@ absl::StatusOr<std::unique_ptr<LazPoints>> LazPoints::Open(const ByteSource& fil
       table = *std::move(found);
     }
   }
-  if (!table.has_value() && extent.point_count == 0) {
-    if (absl::Status status = CheckAllCounted(file, extent, begin); !status.ok()) return status;
-  }
+  if (!table.has_value() && extent.point_count == 0) RETURN_IF_ERROR(CheckAllCounted(file, extent, begin));
   const std::size_t count = ThreadCount(threads, table, extent);
   auto impl = std::make_unique<Impl>(file, extent, std::move(table), begin, tail_end, count, wanted);
   if (count > 0 && !impl->has_threads())

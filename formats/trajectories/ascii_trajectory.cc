@@ -13,6 +13,7 @@
 #include "formats/trajectories/ascii_columns.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -94,11 +95,11 @@ class AsciiReader {
     if (rest_.empty()) return Error("is empty; give an ASCII trajectory");
     if (!AsciiTrajectory::Recognizes(rest_))
       return Error("is not text; give an SBET, or an ASCII trajectory of 15 or 20 columns");
-    if (absl::Status status = ReadHeader(); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadHeader());
     std::unique_ptr<AsciiTrajectory> trajectory(new AsciiTrajectory(name_, columns_.size()));
     Reserve(*trajectory);
     do {
-      if (absl::Status status = ReadLine(*trajectory); !status.ok()) return status;
+      RETURN_IF_ERROR(ReadLine(*trajectory));
     } while (NextLine());
     if (trajectory->size() < 2) return Error("has a single record; give a trajectory of at least two");
     return trajectory;
@@ -189,7 +190,7 @@ class AsciiReader {
                                                      " columns; give the whole file"))
                             : ColumnError(column, absl::StrCat("'", Word(rest), "' is not a finite number"));
       }
-      if (absl::Status status = CheckValue(column, value); !status.ok()) return status;
+      RETURN_IF_ERROR(CheckValue(column, value));
       const bool more = NextCell(rest);
       if (more && column + 1 == columns_.size()) {
         return LineError(absl::StrCat("has ", CountCells(line_), " columns, not ", columns_.size(),
@@ -215,13 +216,13 @@ class AsciiReader {
 
   absl::Status ReadLine(AsciiTrajectory& trajectory) {
     std::array<double, kAsciiFields> values;
-    if (absl::Status status = ReadNumbers(values); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadNumbers(values));
     const auto value = [&values](AsciiField field) -> double& { return values[static_cast<std::size_t>(field)]; };
     const auto angle = [&value](AsciiField field) { return RadiansOfDegrees(value(field)); };
     const auto sigma = [&](AsciiField field) { return static_cast<float>(value(field)); };
     const auto angle_sigma = [&](AsciiField field) { return static_cast<float>(angle(field)); };
     using enum AsciiField;
-    if (absl::Status status = ContinueTime(trajectory, value(kTime)); !status.ok()) return status;
+    RETURN_IF_ERROR(ContinueTime(trajectory, value(kTime)));
     trajectory.lines_.push_back({.time = value(kTime),
                                  .longitude = std::remainder(angle(kLongitude), 2 * std::numbers::pi),
                                  .latitude = angle(kLatitude),
@@ -254,16 +255,15 @@ class AsciiReader {
 };
 
 absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Open(const std::filesystem::path& path) {
-  const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "an ASCII trajectory");
-  if (!file.ok()) return file.status();
-  return Parse(path.string(), file->bytes());
+  ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "an ASCII trajectory"));
+  return Parse(path.string(), file.bytes());
 }
 
 absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::string name, std::string_view text) {
   absl::StatusOr<std::unique_ptr<AsciiTrajectory>> trajectory = AsciiReader(std::move(name), text).Read();
   if (!trajectory.ok()) return trajectory;
   const auto grid_position = [&trajectory](std::size_t i) { return (*trajectory)->GridPositionAt(i); };
-  if (absl::Status status = CheckMotion(**trajectory, grid_position); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckMotion(**trajectory, grid_position));
   return trajectory;
 }
 

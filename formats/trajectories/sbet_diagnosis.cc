@@ -33,6 +33,10 @@ SbetRecord Exchanged(SbetRecord record) {
   std::swap(record.latitude, record.longitude);
   return record;
 }
+SbetRecord WithWander(SbetRecord record, double angle) {
+  record.wander_angle = angle;
+  return record;
+}
 SbetRecord WithVelocities(SbetRecord record, double x, double y, double z) {
   record.velocity_x = x;
   record.velocity_y = y;
@@ -46,42 +50,30 @@ SbetRecord WithVelocitiesTimes(const SbetRecord& record, double factor) {
 constexpr std::array kSbetMistakes = {
     SbetMistake{"its latitude and longitude are in degrees, not in radians", InRadians},
     SbetMistake{"its angles are in degrees, not in radians",
-                [](SbetRecord record) {
-                  record.wander_angle = RadiansOfDegrees(record.wander_angle);
-                  return InRadians(record);
-                }},
+                [](SbetRecord record) { return WithWander(InRadians(record), RadiansOfDegrees(record.wander_angle)); }},
     SbetMistake{"its latitude and longitude are exchanged", Exchanged},
     SbetMistake{"its latitude and longitude are exchanged and in degrees",
                 [](SbetRecord record) { return InRadians(Exchanged(record)); }},
     SbetMistake{"its velocities are along north and west already, and its wander angle does not belong to them",
-                [](SbetRecord record) {
-                  record.wander_angle = 0;
-                  return record;
-                }},
+                [](SbetRecord record) { return WithWander(record, 0); }},
     SbetMistake{"its wander angle has the wrong sign",
-                [](SbetRecord record) {
-                  record.wander_angle = -record.wander_angle;
-                  return record;
-                }},
+                [](SbetRecord record) { return WithWander(record, -record.wander_angle); }},
     SbetMistake{"its wander angle is in degrees, not in radians",
-                [](SbetRecord record) {
-                  record.wander_angle = RadiansOfDegrees(record.wander_angle);
-                  return record;
-                }},
+                [](SbetRecord record) { return WithWander(record, RadiansOfDegrees(record.wander_angle)); }},
     SbetMistake{"its velocities are in the order north, east, down",
                 [](SbetRecord record) {
-                  record.wander_angle = 0;
-                  return WithVelocities(record, record.velocity_x, -record.velocity_y, -record.velocity_z);
+                  return WithVelocities(WithWander(record, 0), record.velocity_x, -record.velocity_y,
+                                        -record.velocity_z);
                 }},
     SbetMistake{"its velocities are in the order north, east, up",
                 [](SbetRecord record) {
-                  record.wander_angle = 0;
-                  return WithVelocities(record, record.velocity_x, -record.velocity_y, record.velocity_z);
+                  return WithVelocities(WithWander(record, 0), record.velocity_x, -record.velocity_y,
+                                        record.velocity_z);
                 }},
     SbetMistake{"its velocities are in the order east, north, up",
                 [](SbetRecord record) {
-                  record.wander_angle = 0;
-                  return WithVelocities(record, record.velocity_y, -record.velocity_x, record.velocity_z);
+                  return WithVelocities(WithWander(record, 0), record.velocity_y, -record.velocity_x,
+                                        record.velocity_z);
                 }},
     SbetMistake{"its velocities are in feet per second",
                 [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},

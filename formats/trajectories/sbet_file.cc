@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/trajectories/ascii_motion.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -89,9 +90,8 @@ TrajectoryRecord SbetFile::Record(std::size_t record) const {
 }
 
 absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Open(const std::filesystem::path& path) {
-  absl::StatusOr<MappedFile> mapped = MappedFile::Open(path, "an SBET");
-  if (!mapped.ok()) return mapped.status();
-  return Parse(path.string(), *std::move(mapped));
+  ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::Open(path, "an SBET"));
+  return Parse(path.string(), std::move(mapped));
 }
 
 absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Parse(const std::string& name, MappedFile mapped) {
@@ -109,7 +109,7 @@ absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Parse(const std::string& nam
                                       ", but a trajectory needs 2 or more; get a complete copy of the SBET"));
   }
   std::unique_ptr<SbetFile> file(new SbetFile(name, std::move(mapped)));
-  if (absl::Status status = file->CheckRecords(); !status.ok()) return status;
+  RETURN_IF_ERROR(file->CheckRecords());
   return file;
 }
 
@@ -151,8 +151,6 @@ absl::Status SbetFile::CheckRecords() {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are read as they lie in memory");
-
 constexpr double kArcMinute = std::numbers::pi / (180 * 60);  // rad; exact definition
 
 struct Field {
@@ -180,22 +178,18 @@ double Load(std::string_view bytes, std::size_t record, std::size_t field) {
 
 bool IsPlausible(double value, const Field& field) { return value >= 0 && value <= field.largest; }
 
-double Blend(double a, double b, double weight) { return a + weight * (b - a); }
-
 }  // namespace
 
 absl::StatusOr<SmrmsgFile> SmrmsgFile::Open(const std::filesystem::path& path) {
-  absl::StatusOr<MappedFile> mapped = MappedFile::Open(path, "an SMRMSG");
-  if (!mapped.ok()) return mapped.status();
-  absl::StatusOr<SmrmsgFile> file = Parse(path.string(), mapped->bytes());
-  if (file.ok()) file->file_ = *std::move(mapped);  // The bytes stay where they are.
+  ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::Open(path, "an SMRMSG"));
+  absl::StatusOr<SmrmsgFile> file = Parse(path.string(), mapped.bytes());
+  if (file.ok()) file->file_ = std::move(mapped);  // The bytes stay where they are.
   return file;
 }
 
 absl::StatusOr<SmrmsgFile> SmrmsgFile::Parse(std::string name, std::string_view bytes) {
   SmrmsgFile file(std::move(name), bytes);
-  const absl::Status status = file.Check();
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(file.Check());
   return file;
 }
 
@@ -256,44 +250,27 @@ double SmrmsgFile::TimeAt(std::size_t record) const {
 }
 
 TrajectorySigma SmrmsgFile::SigmaOf(std::size_t record) const {
-  return {.north = Number(record, 1),
-          .east = Number(record, 2),
-          .down = Number(record, 3),
-          .velocity_north = Number(record, 4),
-          .velocity_east = Number(record, 5),
-          .velocity_down = Number(record, 6),
-          .roll = Number(record, 7) * kArcMinute,
-          .pitch = Number(record, 8) * kArcMinute,
-          .heading = Number(record, 9) * kArcMinute};
+  TrajectorySigma sigma;
+  for (std::size_t i = 0; i < kSigmaFields.size(); ++i) {
+    const bool is_angle = i >= 6;
+    sigma.*kSigmaFields[i] = Number(record, i + 1) * (is_angle ? kArcMinute : 1);
+  }
+  return sigma;
 }
 
 std::optional<TrajectorySigma> SmrmsgFile::SigmaAt(double time) const {
-  // The first record at or after `time`.
-  std::size_t begin = 0, end = size();
-  while (begin < end) {
-    const std::size_t middle = begin + (end - begin) / 2;
-    if (TimeAt(middle) < time)
-      begin = middle + 1;
-    else
-      end = middle;
-  }
-  if (begin == size()) return std::nullopt;
-  const double after = TimeAt(begin);
-  if (after == time) return SigmaOf(begin);
-  if (begin == 0) return std::nullopt;
-  const double before = TimeAt(begin - 1);
+  const std::size_t next = FirstRecordFrom(0, size(), time, [this](std::size_t i) { return TimeAt(i); });
+  if (next == size()) return std::nullopt;
+  const double after = TimeAt(next);
+  if (after == time) return SigmaOf(next);
+  if (next == 0) return std::nullopt;
+  const double before = TimeAt(next - 1);
   if (!(after - before <= kLongestGap)) return std::nullopt;
   const double weight = (time - before) / (after - before);
-  const TrajectorySigma a = SigmaOf(begin - 1), b = SigmaOf(begin);
-  return TrajectorySigma{.north = Blend(a.north, b.north, weight),
-                         .east = Blend(a.east, b.east, weight),
-                         .down = Blend(a.down, b.down, weight),
-                         .velocity_north = Blend(a.velocity_north, b.velocity_north, weight),
-                         .velocity_east = Blend(a.velocity_east, b.velocity_east, weight),
-                         .velocity_down = Blend(a.velocity_down, b.velocity_down, weight),
-                         .roll = Blend(a.roll, b.roll, weight),
-                         .pitch = Blend(a.pitch, b.pitch, weight),
-                         .heading = Blend(a.heading, b.heading, weight)};
+  TrajectorySigma sigma = SigmaOf(next - 1);
+  const TrajectorySigma second = SigmaOf(next);
+  for (double TrajectorySigma::*const field : kSigmaFields) sigma.*field += weight * (second.*field - sigma.*field);
+  return sigma;
 }
 
 }  // namespace albtpu::formats

@@ -1,6 +1,7 @@
 // A trajectory of any format: position, velocity and attitude at increasing times.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -33,6 +34,24 @@ struct TrajectorySigma {
   double velocity_north = kNotStated, velocity_east = kNotStated, velocity_down = kNotStated;  // m/s
   double roll = kNotStated, pitch = kNotStated, heading = kNotStated;                          // rad
 };
+// In the order of an SMRMSG.
+inline constexpr std::array kSigmaFields = {
+    &TrajectorySigma::north,          &TrajectorySigma::east,          &TrajectorySigma::down,
+    &TrajectorySigma::velocity_north, &TrajectorySigma::velocity_east, &TrajectorySigma::velocity_down,
+    &TrajectorySigma::roll,           &TrajectorySigma::pitch,         &TrajectorySigma::heading};
+
+// The first of the records `begin` to `end` - 1 at or after `time`, or `end`. `time_at(record)` increases.
+template <typename TimeAt>
+std::size_t FirstRecordFrom(std::size_t begin, std::size_t end, double time, const TimeAt& time_at) {
+  while (begin < end) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    if (time_at(middle) < time)
+      begin = middle + 1;
+    else
+      end = middle;
+  }
+  return begin;
+}
 
 // An opened and checked file: at least two records, finite positions, times that increase. Immutable: any number of
 // threads may read it at a time.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <system_error>
 #include <utility>
 
 #include "absl/strings/ascii.h"
@@ -16,6 +15,7 @@
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -35,36 +35,13 @@ bool MayBeTrajectory(const fs::path& path) {
                       [&](const char* word) { return absl::StrContains(stem, word); });
 }
 
-absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code ignored;
-    if (entry->is_regular_file(ignored) && MayBeTrajectory(entry->path())) files.push_back(entry->path());
-  }
-  if (error) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(folder.string(), ": ", error.message(), "; give a folder that can be read"));
-  }
-  if (files.empty()) {
-    return absl::NotFoundError(absl::StrCat(folder.string(),
-                                            ": no trajectory in this folder (no file with the extension "
-                                            ".sbet, .sbt, .out, .trj, .txt or .csv other than "
-                                            "error files and reports; subfolders were not searched); give a "
-                                            "folder that has some, or name the files"));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path) {
   bool is_text = false;
   {
-    const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "a trajectory");
-    if (!file.ok()) return file.status();
-    is_text = AsciiTrajectory::Recognizes(file->bytes().substr(0, kBeginning));
+    ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "a trajectory"));
+    is_text = AsciiTrajectory::Recognizes(file.bytes().substr(0, kBeginning));
   }
   if (is_text) return AsciiTrajectory::Open(path);
   return SbetFile::Open(path);
@@ -73,14 +50,17 @@ absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem
 absl::StatusOr<TrajectoryFiles> LoadTrajectories(std::span<const std::string> paths) {
   TrajectoryFiles trajectories;
   for (const std::string& path : paths) {
-    std::error_code ignored;
-    absl::StatusOr<std::vector<fs::path>> files = std::vector<fs::path>{path};
-    if (fs::is_directory(path, ignored)) files = FilesIn(path);
-    if (!files.ok()) return files.status();
-    for (const fs::path& file : *files) {
-      absl::StatusOr<std::unique_ptr<Trajectory>> trajectory = OpenTrajectory(file);
-      if (!trajectory.ok()) return trajectory.status();
-      trajectories.push_back(*std::move(trajectory));
+    ASSIGN_OR_RETURN(const std::vector<fs::path> files, FilesAt(path, MayBeTrajectory));
+    if (files.empty()) {
+      return absl::NotFoundError(
+          absl::StrCat(path,
+                       ": no trajectory in this folder (no file with the extension .sbet, .sbt, .out, .trj, .txt or "
+                       ".csv other than error files and reports; subfolders were not searched); give a folder that has "
+                       "some, or name the files"));
+    }
+    for (const fs::path& file : files) {
+      ASSIGN_OR_RETURN(std::unique_ptr<Trajectory> trajectory, OpenTrajectory(file));
+      trajectories.push_back(std::move(trajectory));
     }
   }
   return trajectories;
@@ -92,20 +72,12 @@ namespace {
 constexpr int kComparisons = 200;
 
 // The first record at or after `time`; the end of the run if there is none.
-std::size_t FirstRecordFrom(const TimelineRun& run, double time) {
-  std::size_t low = run.begin, high = run.end;
-  while (low < high) {
-    const std::size_t middle = low + (high - low) / 2;
-    if (run.TimeAt(middle) < time)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+std::size_t FirstOfRun(const TimelineRun& run, double time) {
+  return FirstRecordFrom(run.begin, run.end, time, [&run](std::size_t i) { return run.TimeAt(i); });
 }
 
 std::optional<TrajectoryRecord> RecordOfRun(const TimelineRun& run, double time) {
-  const std::size_t next = FirstRecordFrom(run, time);
+  const std::size_t next = FirstOfRun(run, time);
   if (next == run.end) return std::nullopt;
   TrajectoryRecord second = run.trajectory->Record(next);
   second.time = run.TimeAt(next);
@@ -154,8 +126,8 @@ TimelineRun AtTimesOf(const PointTimes& points, TimelineRun run) {
   // Seconds of the week that start again from 0 belong to two weeks.
   const bool starts_again = points.form == PointTimeForm::kWeekSeconds && run.span().last >= kSecondsPerWeek;
   if (starts_again) return run;
-  const std::size_t first = FirstRecordFrom(run, points.span.first - kLongestClockError);
-  const std::size_t last = FirstRecordFrom(run, points.span.last + kLongestClockError);
+  const std::size_t first = FirstOfRun(run, points.span.first - kLongestClockError);
+  const std::size_t last = FirstOfRun(run, points.span.last + kLongestClockError);
   run.begin = std::max(first, run.begin + 1) - 1;
   run.end = std::min(last + 2, run.end);
   return run;
@@ -176,7 +148,7 @@ absl::Status CheckOverlaps(const std::vector<TimelineRun>& sorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const double end = sorted[i].span().last;
     for (std::size_t j = i + 1; j < sorted.size() && sorted[j].span().first < end; ++j)
-      if (absl::Status status = CheckOverlap(sorted[i], sorted[j]); !status.ok()) return status;
+      RETURN_IF_ERROR(CheckOverlap(sorted[i], sorted[j]));
   }
   return absl::OkStatus();
 }
@@ -189,7 +161,7 @@ std::vector<TimelineRun> WithoutRepetition(const std::vector<TimelineRun>& sorte
       const double end = runs.back().span().last;
       if (run.span().last <= end) continue;
       // From the record at or before the end of the run before it, so that no time between the two is lost.
-      const std::size_t after = FirstRecordFrom(run, end);
+      const std::size_t after = FirstOfRun(run, end);
       run.begin = std::max(after, run.begin + 1) - 1;
     }
     runs.push_back(std::move(run));
@@ -255,25 +227,22 @@ absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFi
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const TimelineRun& a, const TimelineRun& b) { return a.span().first < b.span().first; });
-  if (absl::Status status = CheckOverlaps(parts); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckOverlaps(parts));
   TrajectoryTimeline timeline(points);
   timeline.runs_ = WithoutRepetition(parts);
   return timeline;
 }
 
 std::optional<TrajectoryRecord> TrajectoryTimeline::RecordAt(double time) const {
-  for (const TimelineRun& run : runs_) {
-    std::optional<TrajectoryRecord> record = RecordOfRun(run, time);
-    if (record.has_value()) return record;
-  }
-  if (points_.form == PointTimeForm::kWeekSeconds && time >= 0 && time < kSecondsPerWeek &&
-      runs_.back().span().last >= kSecondsPerWeek) {
-    for (const TimelineRun& run : runs_) {
-      std::optional<TrajectoryRecord> record = RecordOfRun(run, time + kSecondsPerWeek);
-      if (record.has_value()) return record;
-    }
-  }
-  return std::nullopt;
+  const auto record_at = [this](double at) -> std::optional<TrajectoryRecord> {
+    for (const TimelineRun& run : runs_)
+      if (std::optional<TrajectoryRecord> record = RecordOfRun(run, at)) return record;
+    return std::nullopt;
+  };
+  if (std::optional<TrajectoryRecord> record = record_at(time)) return record;
+  const bool starts_again = points_.form == PointTimeForm::kWeekSeconds && time >= 0 && time < kSecondsPerWeek &&
+                            runs_.back().span().last >= kSecondsPerWeek;
+  return starts_again ? record_at(time + kSecondsPerWeek) : std::nullopt;
 }
 
 }  // namespace albtpu::formats

@@ -11,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -35,21 +36,17 @@ class WaterLevelReader {
     CsvRecords records(name_, block_);
     CsvRecord record;
     while (true) {
-      const absl::StatusOr<bool> more = records.Next(record);
-      if (!more.ok()) return more.status();
-      if (!*more) break;
+      ASSIGN_OR_RETURN(const bool more, records.Next(record));
+      if (!more) break;
       if (record.blank()) continue;
-      absl::Status status = has_header_ ? ReadLevel(record) : ReadHeader(record);
-      if (!status.ok()) return status;
+      RETURN_IF_ERROR(has_header_ ? ReadLevel(record) : ReadHeader(record));
     }
     if (!has_header_) return Error("is empty; give a CSV file with the columns time and water_level");
     if (series_.size() < 2)
       return Error(
           "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
           "number in place of the file");
-    if (utc_ && form_ == PointTimeForm::kWeekSeconds) {
-      if (absl::Status status = TakeSecondsOfWeek(); !status.ok()) return status;
-    }
+    if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
     return std::move(series_);
   }
 
@@ -100,7 +97,7 @@ class WaterLevelReader {
                                     "unit of the heights of the points"));
     }
     double time = 0;
-    if (absl::Status status = ReadTime(record, time); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadTime(record, time));
     if (series_.size() > 0 && !(time > series_.times_.back())) {
       return CellError(
           record, kTime,
@@ -202,16 +199,13 @@ void WaterLevelSeries::LevelsAt(std::span<const double> times, std::span<double>
 }
 
 absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path, PointTimeForm form) {
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(path);
-  if (!reader.ok()) return reader.status();
-  absl::StatusOr<CsvBlock> block = reader->ReadHeader();
-  if (!block.ok()) return block.status();
-  std::string text = std::move(block->text);
+  ASSIGN_OR_RETURN(CsvReader reader, CsvReader::Open(path));
+  ASSIGN_OR_RETURN(CsvBlock block, reader.ReadHeader());
+  std::string text = std::move(block.text);
   while (true) {
-    const absl::StatusOr<bool> more = reader->Read(*block);
-    if (!more.ok()) return more.status();
-    if (!*more) break;
-    text += block->text;
+    ASSIGN_OR_RETURN(const bool more, reader.Read(block));
+    if (!more) break;
+    text += block.text;
     if (text.size() > kLargestFile) {
       return absl::InvalidArgumentError(absl::StrFormat("%s: is larger than %d MB; give a CSV file of water levels",
                                                         path.string(), kLargestFile >> 20));

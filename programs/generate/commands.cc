@@ -18,6 +18,7 @@
 #include "generator/campaign/water_cases.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/output_folder.h"
 #include "tables/uncertainty_table.h"
@@ -58,10 +59,8 @@ constexpr NamedStudy kStudies[] = {
 
 // Checks the published tables before the studies start, which read them one by one.
 absl::Status CheckPublished(const std::filesystem::path& folder) {
-  for (const char* table : {"table2_wave_staff", "table3_simulated", "table4_empirical", "table5_thu_tvu"}) {
-    const auto read = PublishedTable::Read(folder / (std::string(table) + ".csv"));
-    if (!read.ok()) return read.status();
-  }
+  for (const char* table : {"table2_wave_staff", "table3_simulated", "table4_empirical", "table5_thu_tvu"})
+    RETURN_IF_ERROR(PublishedTable::Read(folder / (std::string(table) + ".csv")).status());
   return absl::OkStatus();
 }
 
@@ -90,15 +89,13 @@ absl::Status RunValidate(const ValidateOptions& options) {
   for (const NamedStudy& study : kStudies) {
     std::cerr << "albtpu-generate: study " << studies.size() + 1 << " of " << std::size(kStudies) << ": " << study.name
               << '\n';
-    absl::StatusOr<Study> found = study.run({data / "paper", options.quick, options.seed});
-    if (!found.ok()) return found.status();
-    studies.push_back(*std::move(found));
+    ASSIGN_OR_RETURN(Study found, study.run({data / "paper", options.quick, options.seed}));
+    studies.push_back(std::move(found));
   }
-  const absl::StatusOr<std::string> why_figures_are_missing = WriteReport(studies, report);
-  if (!why_figures_are_missing.ok()) return why_figures_are_missing.status();
-  if (!why_figures_are_missing->empty()) {
-    std::cerr << "albtpu-generate: figures are missing (" << *why_figures_are_missing << ")"
-              << Remedy(*why_figures_are_missing) << '\n';
+  ASSIGN_OR_RETURN(const std::string why_figures_are_missing, WriteReport(studies, report));
+  if (!why_figures_are_missing.empty()) {
+    std::cerr << "albtpu-generate: figures are missing (" << why_figures_are_missing << ")"
+              << Remedy(why_figures_are_missing) << '\n';
   }
 
   for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported})
@@ -257,27 +254,26 @@ absl::Status RunWaterPoint(const WaterPointOptions& options) {
 
 // Counts cells and bytes. Measures time on one thread and divides it by the number of cores.
 absl::Status RunPlan(const PlanOptions& options) {
-  const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
-  if (!campaign.ok()) return campaign.status();
+  ASSIGN_OR_RETURN(const Campaign campaign, ReadCampaign(options.campaign));
 
-  PrintLine("campaign", campaign->id + ", version " + campaign->version);
-  if (campaign->water) {
-    PlanWater(*campaign, options.cores);
+  PrintLine("campaign", campaign.id + ", version " + campaign.version);
+  if (campaign.water) {
+    PlanWater(campaign, options.cores);
     return absl::OkStatus();
   }
   std::size_t values = 0;
-  for (const Quantity quantity : kQuantities) values += ValueCount(campaign->axes, quantity);
-  const Effort& effort = campaign->effort;
-  const Cost cost = Measure(*campaign);
-  const double checks = static_cast<double>(campaign->checked_pulses) *
-                        SecondsOf([&] { ComputeDirectly(*campaign, CheckedPulse(*campaign, 0)); });
+  for (const Quantity quantity : kQuantities) values += ValueCount(campaign.axes, quantity);
+  const Effort& effort = campaign.effort;
+  const Cost cost = Measure(campaign);
+  const double checks = static_cast<double>(campaign.checked_pulses) *
+                        SecondsOf([&] { ComputeDirectly(campaign, CheckedPulse(campaign, 0)); });
   const double least = cost.Of(effort.realizations) + checks;
   const double most = cost.Of(effort.most_realizations) + checks;
 
-  PrintLine("seas and footprints", std::to_string(SeaCaseCount(*campaign)));
-  PrintLine("beams of each", std::to_string(SeaCaseOf(*campaign, 0).beams.size()));
-  PrintLine("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
-  PrintLine("checked pulses", std::to_string(campaign->checked_pulses));
+  PrintLine("seas and footprints", std::to_string(SeaCaseCount(campaign)));
+  PrintLine("beams of each", std::to_string(SeaCaseOf(campaign, 0).beams.size()));
+  PrintLine("cells", std::to_string(ValueCount(campaign.axes, Quantity::kThu)));
+  PrintLine("checked pulses", std::to_string(campaign.checked_pulses));
   PrintLine("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
   PrintLine("realizations",
             effort.most_realizations > effort.realizations

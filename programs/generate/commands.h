@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "programs/generate/traced_sea.h"
 #include "sea/sea_state.h"
+#include "sea/spectra/spectral_tail.h"
 
 namespace albtpu::programs {
 
@@ -42,6 +42,16 @@ struct PlanOptions {
 absl::Status RunPlan(const PlanOptions& options);
 
 absl::Status RunKeys();
+
+// The sea of a file for tracing. Directions are of the compass, in degrees. Absent members are taken from the file or
+// assumed (described_sea.h).
+struct SeaOfFile {
+  std::filesystem::path file;       // of any kind that ReadSeaFile takes
+  std::optional<std::string> time;  // UTC, as 2020-06-08T03:50Z; not needed if the file has one state
+  std::optional<double> water_depth, wind_speed, wind_from;  // m; m/s at 10 m; degree
+  TailRule tail = TailRule::kRelax;
+  std::optional<double> tail_from;  // Hz
+};
 
 struct PointOptions {
   std::optional<SeaOfFile> sea;  // in place of wind, fetch and spectrum; it holds a given wind

@@ -55,14 +55,29 @@ constexpr double kMinFootprints = 2.5;
 // depths above the bottom to five below it.
 constexpr double kShortestPulse = 5e-4, kLongestPulse = 1.5;
 
-CLI::Validator FieldOfView() {
+// Metres above 0, or inf, which means `infinite`.
+CLI::Validator Length(const std::string& what, const std::string& infinite) {
   return CLI::Validator(
-      [](std::string& text) -> std::string {
+      [=](std::string& text) -> std::string {
         double x = 0;
         if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
-        return "'" + text + "' is not a field of view; give metres above 0, or inf for all of the surface";
+        return "'" + text + "' is not a " + what + "; give metres above 0, or inf for " + infinite;
       },
-      "", "field of view");
+      "", what);
+}
+
+// The incidence of the beam.
+void AddIncidence(CLI::App& point, double& incidence) {
+  point.add_option("--incidence", incidence, "Angle of the beam from the vertical, in air [degree]")
+      ->required()
+      ->check(NumberIn(0, 60));
+}
+
+// How the simulation is run, and its numbers printed.
+void AddRun(CLI::App& point, std::uint64_t& seed, bool& json, int& threads) {
+  point.add_option("--seed", seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
+  point.add_flag("--json", json, "Print one JSON object");
+  AddThreads(point, threads);
 }
 
 }  // namespace
@@ -87,14 +102,12 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
   point.add_option("--depth", options.depth, "Depth of the bottom below the surface [m]")
       ->required()
       ->check(NumberIn(0.01, 1000));
-  point.add_option("--incidence", options.incidence, "Angle of the beam from the vertical, in air [degree]")
-      ->required()
-      ->check(NumberIn(0, 60));
+  AddIncidence(point, options.incidence);
   point
       .add_option("--field-of-view", options.field_of_view,
                   "Diameter of the disc on the surface that the receiver sees, across the beam [m], or inf")
       ->required()
-      ->check(FieldOfView());
+      ->check(Length("field of view", "all of the surface"));
   point.add_option("--pulse-length", options.pulse_length, "Width of the Gaussian pulse at half its maximum [ns]")
       ->required()
       ->check(NumberIn(0.05, 100));
@@ -110,9 +123,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
       ->check(NumberIn(1.01, 2));
   point.add_option("--photons", options.photons, "Photons of the simulation (default: 1600000)")
       ->check(NumberIn(8000, 1e8));
-  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
-  point.add_flag("--json", options.json, "Print one JSON object");
-  AddThreads(point, threads);
+  AddRun(point, options.seed, options.json, threads);
   point.callback([&options, absorption, scattering, kd, omega0] {
     const bool direct = *absorption && *scattering && !*kd && !*omega0;
     if (!direct && (!*kd || !*omega0 || *absorption || *scattering))
@@ -148,16 +159,6 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
 }
 
 namespace {
-
-CLI::Validator Fetch() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        double x = 0;
-        if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
-        return "'" + text + "' is not a fetch; give metres above 0, or inf for a fully developed sea";
-      },
-      "", "fetch");
-}
 
 // The sea of a file, and its options. Returns the option that names the file.
 CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
@@ -212,7 +213,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
           ->check(NumberIn(0, 50));
   CLI::Option* fetch =
       point.add_option("--fetch", options.fetch, "Fetch [m], or inf for a fully developed sea (default)")
-          ->check(Fetch());
+          ->check(Length("fetch", "a fully developed sea"));
   const std::vector<std::string> spectra(kSpectrumKeys.begin(), kSpectrumKeys.end());
   std::string described;  // "apel (default) or elfouhaily"
   for (const std::string& key : spectra)
@@ -223,9 +224,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
       .add_option("--corrected-above", options.corrected_above,
                   "Leave out waves longer than this [m]: the local slope corrects for them")
       ->check(NumberIn(0.1, 1e6));
-  point.add_option("--incidence", options.incidence, "Angle of the beam from the vertical, in air [degree]")
-      ->required()
-      ->check(NumberIn(0, 60));
+  AddIncidence(point, options.incidence);
   CLI::Option* azimuth =
       point
           .add_option("--azimuth", options.azimuth,
@@ -249,9 +248,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
       ->check(NumberIn(1e-4, 0.5));
   point.add_option("--estimator", options.estimator, "control_variate (default), or plain for ray tracing alone")
       ->check(OneOf({"control_variate", "plain"}));
-  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
-  point.add_flag("--json", options.json, "Print one JSON object");
-  AddThreads(point, threads);
+  AddRun(point, options.seed, options.json, threads);
   CLI::Option* sea = AddSea(point, options);
   for (CLI::Option* of_wind_sea : {fetch, spectrum}) of_wind_sea->excludes(sea);
   point

@@ -9,6 +9,7 @@
 #include "annotate/totals/water_column.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -127,17 +128,14 @@ absl::Status SetFootprint(const BeamOptions& options, bool details, annotate::Be
   return absl::OkStatus();
 }
 
-// Over any sea the direction of a beam is known from the wind, or from north; or not at all.
-absl::Status CheckDirectionOnce(const annotate::BeamPlan& plan) {
-  if (!plan.azimuth.has_value() || !plan.has_direction()) return absl::OkStatus();
-  return formats::UsageError(
-      "las: the direction of the beam is given twice; give --azimuth (from downwind), or its true direction");
-}
-
 absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& sea, bool details,
                         annotate::BeamPlan& plan) {
   plan.azimuth = options.fixed[annotate::PulseInput::kAzimuth];
-  if (plan.any_sea) return CheckDirectionOnce(plan);
+  if (plan.any_sea) {  // The direction of a beam is known from the wind, or from north; or not at all.
+    if (!plan.azimuth.has_value() || !plan.has_direction()) return absl::OkStatus();
+    return formats::UsageError(
+        "las: the direction of the beam is given twice; give --azimuth (from downwind), or its true direction");
+  }
   plan.wind_from = sea.wind_from;
   if (plan.azimuth.has_value() && plan.wind_from.has_value()) {
     return formats::UsageError(
@@ -232,11 +230,9 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags)
 absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,
                                             const SurveySettings& settings, bool details) {
   const config::SeaSettings& sea = settings.sea;
-  const absl::StatusOr<WayFlag> way = ChosenWay(options, settings.trajectory);
-  if (!way.ok()) return way.status();
-  if (absl::Status status = CheckFlagsOf(*way, options, flags); !status.ok()) return status;
-  const absl::StatusOr<annotate::BeamSource> source = Source(*way, options, settings);
-  if (!source.ok()) return source.status();
+  ASSIGN_OR_RETURN(const WayFlag way, ChosenWay(options, settings.trajectory));
+  RETURN_IF_ERROR(CheckFlagsOf(way, options, flags));
+  ASSIGN_OR_RETURN(const annotate::BeamSource source, Source(way, options, settings));
   if (!sea.wind_speed.has_value() && !sea.has_waves()) {
     return formats::UsageError(
         "las: --wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
@@ -245,15 +241,15 @@ absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const Su
   annotate::FixedInputs wind;
   TakeWind(sea, wind);
   annotate::BeamPlan plan;
-  plan.source = *source;
+  plan.source = source;
   plan.any_sea = wind.any_sea;
   plan.wind_speed = wind[annotate::PulseInput::kWindSpeed].value_or(0);
   plan.fetch = wind[annotate::PulseInput::kFetch];
   plan.metres_per_unit = options.metres_per_unit;
   if (plan.has_track()) plan.refractive_index = annotate::IndexOf(settings.water).value_or(kSeaWaterIndex);
-  if (absl::Status status = SetWater(settings.surface, plan); !status.ok()) return status;
-  if (absl::Status status = SetFootprint(options, details, plan); !status.ok()) return status;
-  if (absl::Status status = SetAzimuth(options, sea, details, plan); !status.ok()) return status;
+  RETURN_IF_ERROR(SetWater(settings.surface, plan));
+  RETURN_IF_ERROR(SetFootprint(options, details, plan));
+  RETURN_IF_ERROR(SetAzimuth(options, sea, details, plan));
   return plan;
 }
 

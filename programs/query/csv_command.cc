@@ -18,6 +18,7 @@
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "programs/query/survey_flags.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -58,82 +59,71 @@ std::optional<bool> IsFootprintFromBeam(const annotate::FixedInputs& fixed) {
 absl::StatusOr<std::optional<annotate::CsvTotal>> TotalOf(const CsvOptions& options,
                                                           const config::SurveySettings& settings,
                                                           const annotate::FixedInputs& fixed) {
-  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTotalFlags(options.flags, settings));
   if (!settings.wants_total()) {
     if (options.flags.settings.output.details.has_value())
       return formats::UsageError("csv: --details has no effect without --sensor; leave it out");
     return std::nullopt;
   }
-  absl::StatusOr<annotate::TotalPlan> plan =
-      annotate::PlanTotal(settings, annotate::ContextOf(settings, options.style.coverage));
-  if (!plan.ok()) return plan.status();
+  ASSIGN_OR_RETURN(annotate::TotalPlan plan,
+                   annotate::PlanTotal(settings, annotate::ContextOf(settings, options.style.coverage)));
   if (const std::optional<float>& wind_from = fixed[annotate::PulseInput::kWindFrom]; wind_from.has_value())
-    plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
+    plan.sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
   return annotate::CsvTotal{
-      .plan = *std::move(plan), .details = settings.output.details.value_or(false), .wind_spectrum = {}};
+      .plan = std::move(plan), .details = settings.output.details.value_or(false), .wind_spectrum = {}};
 }
 
 absl::Status RunCsv(const CsvOptions& given) {
-  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(given.flags);
-  if (!settings.ok()) return settings.status();
-  const config::SeaSettings& sea = settings->sea;
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(given.flags));
+  const config::SeaSettings& sea = settings.sea;
   CsvOptions options = given;
-  TakeStyle(settings->output, options.style);
+  TakeStyle(settings.output, options.style);
   annotate::FixedInputs fixed = options.fixed;
   TakeWind(sea, fixed);
-  absl::StatusOr<std::optional<annotate::CsvTotal>> total = TotalOf(options, *settings, fixed);
-  if (!total.ok()) return total.status();
+  ASSIGN_OR_RETURN(std::optional<annotate::CsvTotal> total, TotalOf(options, settings, fixed));
   annotate::AnswerStyle style = options.style;
-  if (total->has_value())
+  if (total.has_value())
     style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
-  const absl::StatusOr<std::vector<annotate::Job>> jobs = annotate::FindJobs("csv", {".csv"}, options.files);
-  if (!jobs.ok()) return jobs.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
-  if (!answerer.ok()) return answerer.status();
-  if (absl::Status status = answerer->CheckOneTime("csv"); !status.ok()) return status;
-  const annotate::AnswerSource source = answerer->source();
-  if (total->has_value() && !sea.has_waves()) {
-    const auto spectrum = source.table().attributes.find("spectrum");
-    (*total)->wind_spectrum = spectrum != source.table().attributes.end() ? spectrum->second : "not stated";
+  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("csv", {".csv"}, options.files));
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
+  RETURN_IF_ERROR(answerer.CheckOneTime("csv"));
+  const annotate::AnswerSource source = answerer.source();
+  if (total.has_value() && !sea.has_waves()) {
+    total->wind_spectrum = annotate::SpectrumOf(source.table());
+    if (total->wind_spectrum.empty()) total->wind_spectrum = "not stated";
   }
-  if (options.style.standard_errors) annotate::Note(answerer->ErrorNote());
-  const std::string notes = answerer->SeaText();
+  if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
+  const std::string notes = answerer.SeaText();
   std::vector<std::filesystem::path> files;
   if (sea.file.has_value()) files.emplace_back(*sea.file);
   const auto annotate = [&](const annotate::Job& job,
                             annotate::FileProgress& progress) -> absl::StatusOr<annotate::AnnotatedFile> {
-    absl::StatusOr<annotate::AnnotatedCsv> csv =
-        annotate::AnnotateCsv(job.input, job.output, options.existing, fixed, style, source, progress,
-                              total->has_value() ? &**total : nullptr);
-    if (!csv.ok()) return csv.status();
-    const std::string outcomes = csv->summary.outcomes().Text(annotate::WithoutAzimuth(source.table()));
-    if (!total->has_value())
-      return annotate::AnnotatedFile{std::move(csv->file),
-                                     annotate::Findings{.input_bytes = csv->input_bytes,
-                                                        .input = annotate::JsonBox(answerer->SeaJson()),
-                                                        .answers = annotate::JsonBox(csv->summary.Json()),
-                                                        .tally = csv->summary.Tally()},
-                                     absl::StrCat(" ", outcomes, notes)};
-    annotate::TotalPlan plan = (*total)->plan;
-    if (csv->took_divergence) plan.numbers.push_back(annotate::AssumedDivergence(*plan.divergence));
-    std::string text = absl::StrCat(
-        " ", outcomes, csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));
-    for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
-    return annotate::AnnotatedFile{
-        std::move(csv->file),
-        annotate::Findings{.input_bytes = csv->input_bytes,
-                           .input = annotate::JsonBox(answerer->SeaJson()),
-                           .answers = annotate::JsonBox(annotate::WithTotal(csv->summary.Json(), plan, csv->totals)),
-                           .tally = csv->summary.Tally()},
-        text + notes};
+    ASSIGN_OR_RETURN(annotate::AnnotatedCsv csv,
+                     annotate::AnnotateCsv(job.input, job.output, options.existing, fixed, style, source, progress,
+                                           total.has_value() ? &*total : nullptr));
+    std::string text = absl::StrCat(" ", csv.summary.outcomes().Text(annotate::WithoutAzimuth(source.table())));
+    nlohmann::ordered_json answers = csv.summary.Json();
+    if (total.has_value()) {
+      annotate::TotalPlan plan = total->plan;
+      if (csv.took_divergence) plan.numbers.push_back(annotate::AssumedDivergence(*plan.divergence));
+      text += csv.totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b));
+      for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
+      answers = annotate::WithTotal(std::move(answers), plan, csv.totals);
+    }
+    return annotate::AnnotatedFile{std::move(csv.file),
+                                   annotate::Findings{.input_bytes = csv.input_bytes,
+                                                      .input = annotate::JsonBox(answerer.SeaJson()),
+                                                      .answers = annotate::JsonBox(std::move(answers)),
+                                                      .tally = csv.summary.Tally()},
+                                   text + notes};
   };
   nlohmann::ordered_json parameters = CsvParameters(options, sea);
-  if (total->has_value()) {
-    parameters["details"] = (*total)->details;
-    parameters["total"] = Parameters((*total)->plan);
+  if (total.has_value()) {
+    parameters["details"] = total->details;
+    parameters["total"] = Parameters(total->plan);
   }
   return annotate::AnnotateFiles(
-      *jobs,
+      jobs,
       {.command = "csv",
        .records = "pulses",
        .record = "pulse",

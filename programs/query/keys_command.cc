@@ -16,6 +16,7 @@
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "service/printable_text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -75,8 +76,6 @@ absl::Status RunKeys(bool json) {
   std::cout << (json ? Json(keys).dump(2) + "\n" : Markdown(keys));
   return FlushStandardOutput();
 }
-
-using nlohmann::ordered_json;
 
 struct SensorsCommandOptions {
   std::string name;
@@ -149,23 +148,21 @@ ordered_json Json(const config::Sensor& sensor) {
 
 absl::Status RunSensors(const SensorsCommandOptions& options) {
   if (!options.name.empty()) {
-    const absl::StatusOr<config::Sensor> sensor = config::FindSensor(options.name);
-    if (!sensor.ok()) return sensor.status();
-    std::cout << (options.json ? Json(*sensor).dump(2) + "\n" : Text(*sensor));
+    ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(options.name));
+    std::cout << (options.json ? Json(sensor).dump(2) + "\n" : Text(sensor));
     return FlushStandardOutput();
   }
-  const absl::StatusOr<std::vector<config::Sensor>> sensors = config::ListSensors();
-  if (!sensors.ok()) return sensors.status();
-  if (sensors->empty()) {
+  ASSIGN_OR_RETURN(const std::vector<config::Sensor> sensors, config::ListSensors());
+  if (sensors.empty()) {
     annotate::Note(absl::StrCat("there are no sensors in ", config::SensorsDirectory().string(),
                                 "; name their folder by the environment variable ALBTPU_SENSORS"));
   }
   if (options.json) {
     ordered_json json = {{"sensors", ordered_json::array()}};
-    for (const config::Sensor& sensor : *sensors) json["sensors"].push_back(Json(sensor));
+    for (const config::Sensor& sensor : sensors) json["sensors"].push_back(Json(sensor));
     std::cout << json.dump(2) << "\n";
-  } else if (!sensors->empty()) {
-    std::cout << Rows(*sensors);
+  } else if (!sensors.empty()) {
+    std::cout << Rows(sensors);
   }
   return FlushStandardOutput();
 }

@@ -13,6 +13,7 @@
 #include "annotate/totals/plan_total.h"
 #include "programs/query/commands.h"
 #include "programs/query/las_options.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -63,30 +64,29 @@ class LasFiles {
       : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
 
   absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job, annotate::FileProgress& progress) {
-    absl::StatusOr<annotate::AnnotatedLas> annotated =
-        annotate::AnnotateLas(job.input, job.output, options_.existing, annotation_, source_, progress, kind_);
-    if (!annotated.ok()) return annotated.status();
-    const std::uint64_t points = annotated->classes.points();
-    const std::uint64_t bathymetric = annotated->summary.outcomes().total();
+    ASSIGN_OR_RETURN(annotate::AnnotatedLas annotated, annotate::AnnotateLas(job.input, job.output, options_.existing,
+                                                                             annotation_, source_, progress, kind_));
+    const std::uint64_t points = annotated.classes.points();
+    const std::uint64_t bathymetric = annotated.summary.outcomes().total();
     const bool none = points > 0 && bathymetric == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
     if (none && options_.files.output_folder.empty())
-      return absl::FailedPreconditionError(ClassHint(job, *annotated) + "; nothing was written");
-    if (none) annotate::Note(ClassHint(job, *annotated) + "; all its points get no-data");
+      return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
+    if (none) annotate::Note(ClassHint(job, annotated) + "; all its points get no-data");
     if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
-      NoteResolution(annotated->point_format);
+      NoteResolution(annotated.point_format);
     points_ += points;
     bathymetric_ += bathymetric;
     return annotate::AnnotatedFile{
-        std::move(annotated->file),
+        std::move(annotated.file),
         annotate::Findings{
-            .input_bytes = annotated->input_bytes,
-            .input = annotate::JsonBox(InputJson(*annotated)),
-            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", std::string(Name(annotated->output_kind))}}),
-            .answers = annotate::JsonBox(AnswersJson(annotation_, *annotated)),
-            .tally = annotated->summary.Tally()},
-        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
-                     absl::StrJoin(annotated->notes, "",
+            .input_bytes = annotated.input_bytes,
+            .input = annotate::JsonBox(InputJson(annotated)),
+            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", std::string(Name(annotated.output_kind))}}),
+            .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
+            .tally = annotated.summary.Tally()},
+        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, annotated, source_.table()),
+                     absl::StrJoin(annotated.notes, "",
                                    [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
   }
 
@@ -112,12 +112,9 @@ class LasFiles {
 // Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
 absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
   if (const auto* files = std::get_if<annotate::TrajectoryFromFiles>(&plan.source)) {
-    absl::StatusOr<formats::TrajectoryFiles> trajectories = formats::LoadTrajectories(files->paths);
-    if (!trajectories.ok()) return trajectories.status();
-    plan.trajectories = std::make_shared<const formats::TrajectoryFiles>(*std::move(trajectories));
-    absl::StatusOr<annotate::TrajectoryErrors> errors = annotate::LoadTrajectoryErrors(files->errors);
-    if (!errors.ok()) return errors.status();
-    plan.trajectory_errors = *std::move(errors);
+    ASSIGN_OR_RETURN(formats::TrajectoryFiles trajectories, formats::LoadTrajectories(files->paths));
+    plan.trajectories = std::make_shared<const formats::TrajectoryFiles>(std::move(trajectories));
+    ASSIGN_OR_RETURN(plan.trajectory_errors, annotate::LoadTrajectoryErrors(files->errors));
   }
   if (!plan.water_level_file.has_value()) return absl::OkStatus();
   return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard).status();
@@ -136,46 +133,40 @@ annotate::CauseContext ContextOf(const annotate::BeamPlan& plan, const client::T
 }
 
 absl::Status RunLas(const LasOptions& options) {
-  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options);
-  if (!settings.ok()) return settings.status();
-  const config::SeaSettings& sea = settings->sea;
-  absl::StatusOr<annotate::LasAnnotation> annotation = Annotation(options, *settings);
-  if (!annotation.ok()) return annotation.status();
-  const absl::StatusOr<std::optional<formats::LasKind>> kind = OutputKind(options);
-  if (!kind.ok()) return kind.status();
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
+  const config::SeaSettings& sea = settings.sea;
+  ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
+  ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   annotate::FileOptions file_options = options.files;
   if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
-  const absl::StatusOr<std::vector<annotate::Job>> jobs = annotate::FindJobs(
-      "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)}, file_options);
-  if (!jobs.ok()) return jobs.status();
-  if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
-  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
-  if (!answerer.ok()) return answerer.status();
-  annotation->seas = answerer->timeline();
-  const annotate::AnswerSource source = answerer->source();
-  if (annotation->total.has_value() && !sea.has_waves()) {
-    const auto& attributes = source.table().attributes;
-    const auto spectrum = attributes.find("spectrum");
-    annotation->total->wave_height =
-        annotate::WaveHeightOfWind(annotation->plan.wind_speed, annotation->plan.fetch,
-                                   spectrum != attributes.end() ? spectrum->second : std::string());
+  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs,
+                   annotate::FindJobs(
+                       "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)},
+                       file_options));
+  RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
+  annotation.seas = answerer.timeline();
+  const annotate::AnswerSource source = answerer.source();
+  if (annotation.total.has_value() && !sea.has_waves()) {
+    annotation.total->wave_height = annotate::WaveHeightOfWind(annotation.plan.wind_speed, annotation.plan.fetch,
+                                                               annotate::SpectrumOf(source.table()));
   }
-  if (options.style.standard_errors) annotate::Note(answerer->ErrorNote());
-  LasFiles files(options, *annotation, *kind, source);
-  std::vector<std::string> read = annotate::FilesOf(annotation->plan);
+  if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
+  LasFiles files(options, annotation, kind, source);
+  std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
   const absl::Status status = annotate::AnnotateFiles(
-      *jobs,
+      jobs,
       {.command = "las",
        .records = "points",
        .record = "chosen point",
-       .parameters = annotate::JsonBox(Parameters(*annotation, sea, options.format)),
+       .parameters = annotate::JsonBox(Parameters(annotation, sea, options.format)),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
        .annotate = [&](const annotate::Job& job,
                        annotate::FileProgress& progress) { return files.Annotate(job, progress); },
-       .cause = ContextOf(annotation->plan, source.table())},
+       .cause = ContextOf(annotation.plan, source.table())},
       source.table());
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_no_bathymetry())

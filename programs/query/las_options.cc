@@ -14,6 +14,7 @@
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -27,11 +28,10 @@ absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settin
                                  .has_surface_returns = !plan.water_classes.empty(),
                                  .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
                                  .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"};
-  absl::StatusOr<annotate::TotalPlan> total = annotate::PlanTotal(settings, context);
-  if (!total.ok()) return total.status();
+  ASSIGN_OR_RETURN(annotate::TotalPlan total, annotate::PlanTotal(settings, context));
   if (const auto* beam = std::get_if<annotate::DivergingBeam>(&plan.footprint); beam != nullptr && !is_divergence_given)
-    total->numbers.push_back(annotate::AssumedDivergence(beam->divergence));
-  if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
+    total.numbers.push_back(annotate::AssumedDivergence(beam->divergence));
+  if (plan.wind_from.has_value()) total.sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
 }
 
@@ -84,7 +84,7 @@ absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
 }
 
 absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings) {
-  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTotalFlags(options.flags, settings));
   annotate::LasAnnotation annotation;
   annotation.replace = options.replace;
   annotation.style = options.style;
@@ -95,29 +95,25 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   BeamOptions beams = options.beams;
   const bool total = settings.wants_total();
   if (total && !beams.divergence.has_value() && !beams.fixed[annotate::PulseInput::kFootprint].has_value()) {
-    const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*settings.sensor.name);
-    if (!sensor.ok()) return sensor.status();
-    if (sensor->divergence.has_value()) beams.divergence = sensor->divergence->value;
+    ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*settings.sensor.name));
+    if (sensor.divergence.has_value()) beams.divergence = sensor.divergence->value;
   }
-  absl::StatusOr<annotate::BeamPlan> plan =
-      MakePlan(beams, options.flags.settings, settings, annotation.details || total);
-  if (!plan.ok()) return plan.status();
-  plan->any_aircraft = total;
+  ASSIGN_OR_RETURN(annotate::BeamPlan plan,
+                   MakePlan(beams, options.flags.settings, settings, annotation.details || total));
+  plan.any_aircraft = total;
   if (total) {
-    absl::StatusOr<annotate::TotalPlan> made =
-        TotalOf(settings, beams, *plan, options.beams.divergence.has_value(), annotation.style.coverage);
-    if (!made.ok()) return made.status();
-    annotation.total = *std::move(made);
+    ASSIGN_OR_RETURN(annotation.total,
+                     TotalOf(settings, beams, plan, options.beams.divergence.has_value(), annotation.style.coverage));
   }
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
   for (const int point_class :
        annotation.classes.value_or(std::set<int>{formats::DefaultClass(formats::kFirstModernFormat)})) {
-    if (!plan->water_classes.contains(point_class)) continue;
+    if (!plan.water_classes.contains(point_class)) continue;
     return formats::UsageError(absl::StrCat("las: class ", point_class,
                                             " is both a class of the water surface and of the bottom; name different "
                                             "classes by --water-classes and --classes"));
   }
-  annotation.plan = *std::move(plan);
+  annotation.plan = std::move(plan);
   return annotation;
 }
 

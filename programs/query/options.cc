@@ -47,14 +47,16 @@ constexpr const char* kInputHelp[annotate::kPulseInputCount] = {
     "Altitude above the water [m]; with --divergence instead of --footprint",
     "Full divergence of the beam [mrad]; with --altitude instead of --footprint"};
 
+// A text that is not empty: the name of a `what`.
+CLI::Option* AddName(CLI::App& command, const char* flag, std::string& name, const char* type, const char* what,
+                     const char* heading, const char* description) {
+  return command.add_option(flag, name, description)->type_name(type)->check(NotEmpty(what))->group(heading);
+}
+
 // Each of them means TLS.
 void AddCredentialOptions(CLI::App& command, CLI::Option* server, client::Credentials& credentials) {
   const auto add = [&](const char* flag, std::string& path, const char* description) {
-    return command.add_option(flag, path, description)
-        ->type_name("FILE")
-        ->check(NotEmpty("file"))
-        ->needs(server)
-        ->group(group::kAccess);
+    return AddName(command, flag, path, "FILE", "file", group::kAccess, description)->needs(server);
   };
   add("--tls-ca", credentials.ca, "Use TLS and trust these certificate authorities (PEM)");
   CLI::Option* certificate = add("--tls-cert", credentials.certificate, "Use TLS and present this certificate (PEM)");
@@ -80,17 +82,11 @@ CLI::Option* AddServerOptions(CLI::App& command, SourceOptions& options) {
 
 void AddSourceOptions(CLI::App& command, SourceOptions& options) {
   CLI::Option* server = AddServerOptions(command, options);
-  command.add_option("--table", options.file, "Answer from this table file, without a server")
-      ->type_name("FILE.h5")
-      ->check(NotEmpty("file"))
-      ->excludes(server)
-      ->group(group::kSource);
-  command
-      .add_option("--table-name", options.name,
-                  "The table to use, by NAME or NAME/VERSION (default: the default table)")
-      ->type_name("NAME")
-      ->check(NotEmpty("table"))
-      ->group(group::kSource);
+  AddName(command, "--table", options.file, "FILE.h5", "file", group::kSource,
+          "Answer from this table file, without a server")
+      ->excludes(server);
+  AddName(command, "--table-name", options.name, "NAME", "table", group::kSource,
+          "The table to use, by NAME or NAME/VERSION (default: the default table)");
 }
 
 void AddFileOptions(CLI::App& command, const std::string& extension, annotate::FileOptions& options,

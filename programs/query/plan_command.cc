@@ -18,6 +18,7 @@
 #include "programs/query/survey_flags.h"
 #include "quality/planning/survey_plan.h"
 #include "quality/report/report_folder.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -70,7 +71,7 @@ class Planner {
                                     options_.kds.size() + (waves ? options_.heights : options_.winds).size());
     progress.NextFile();
     annotate::FileProgress::File shown(progress, "plan");
-    if (absl::Status status = Prepare(shown); !status.ok()) return status;
+    RETURN_IF_ERROR(Prepare(shown));
     for (std::size_t i = 0; i < plan_.seas.size(); ++i) {
       absl::Status status = waves ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
       if (!status.ok() && i > 0) {  // Waves that are too steep for their period.
@@ -106,9 +107,7 @@ class Planner {
       return formats::UsageError(
           "plan: --kds has no effect without the contribution of the water column; describe the water in "
           "--survey");
-    absl::StatusOr<annotate::TotalPlan> total = PlanOf(settings_);
-    if (!total.ok()) return total.status();
-    planned_ = *std::move(total);
+    ASSIGN_OR_RETURN(planned_, PlanOf(settings_));
     if (options_.divergence.has_value()) {
       divergence_ = *options_.divergence;
     } else if (planned_.divergence.has_value()) {
@@ -128,9 +127,9 @@ class Planner {
     plan_.numbers = planned_.numbers;
     std::vector<double> incidences = Rising(options_.incidences);
     if (!waves) {
-      if (absl::Status status = Open(sea_); !status.ok()) return status;
-      if (absl::Status status = KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas); !status.ok()) return status;
-      if (absl::Status status = KeepWithin(AxisId::kIncidence, "--incidences", incidences); !status.ok()) return status;
+      RETURN_IF_ERROR(Open(sea_));
+      RETURN_IF_ERROR(KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas));
+      RETURN_IF_ERROR(KeepWithin(AxisId::kIncidence, "--incidences", incidences));
     }
     plan_.axes = {{"altitude", "m", Rising(options_.altitudes), {}}, {"incidence", "degree", incidences, {}}};
     return PrepareWaters(shown);
@@ -148,9 +147,8 @@ class Planner {
           water.kd_kind = "diffuse532";
         water.kd_sigma = water.secchi = water.absorption = water.scattering = std::nullopt;
         water.jerlov = std::nullopt;
-        absl::StatusOr<annotate::TotalPlan> total = PlanOf(settings);
-        if (!total.ok()) return total.status();
-        of_waters_.push_back(*std::move(total));
+        ASSIGN_OR_RETURN(annotate::TotalPlan total, PlanOf(settings));
+        of_waters_.push_back(std::move(total));
         ++done_;
         shown.Reach(done_, done_);
       }
@@ -160,15 +158,14 @@ class Planner {
   }
 
   absl::Status Open(const config::SeaSettings& sea) {
-    absl::StatusOr<Answerer> opened = Answerer::Open(sea, options_.source);
-    if (!opened.ok()) return opened.status();
-    answerer_ = std::make_unique<Answerer>(*std::move(opened));
+    ASSIGN_OR_RETURN(Answerer opened, Answerer::Open(sea, options_.source));
+    answerer_ = std::make_unique<Answerer>(std::move(opened));
     return absl::OkStatus();
   }
 
   // Keeps the values that the table covers; others would look like conditions under which no depth can be reached.
   absl::Status KeepWithin(AxisId axis, const std::string& flag, std::vector<double>& values) const {
-    const client::AxisRange& range = source_table().axes[Index(axis)];
+    const client::AxisRange& range = answerer_->source().table().axes[Index(axis)];
     const auto is_outside = [&](double value) { return value < range.first || value > range.last; };
     std::string left_out;
     for (const double value : values)
@@ -182,17 +179,15 @@ class Planner {
   }
 
   absl::Status AddSea(double sea) {
-    absl::StatusOr<quality::Reaches> reaches = At(sea, planned_, options_.altitude, options_.incidence);
-    if (!reaches.ok()) return reaches.status();
-    plan_.planned.push_back(*reaches);
+    ASSIGN_OR_RETURN(const quality::Reaches planned, At(sea, planned_, options_.altitude, options_.incidence));
+    plan_.planned.push_back(planned);
     for (quality::PlannedAxis& axis : plan_.axes)
       for (std::size_t i = 0; i < axis.values.size(); ++i) {
         const double value = axis.values[i];
-        reaches =
-            At(sea, axis.name == "kd" ? of_waters_[i] : planned_, axis.name == "altitude" ? value : options_.altitude,
-               axis.name == "incidence" ? value : options_.incidence);
-        if (!reaches.ok()) return reaches.status();
-        axis.reaches[i].push_back(*reaches);
+        ASSIGN_OR_RETURN(const quality::Reaches reaches, At(sea, axis.name == "kd" ? of_waters_[i] : planned_,
+                                                            axis.name == "altitude" ? value : options_.altitude,
+                                                            axis.name == "incidence" ? value : options_.incidence));
+        axis.reaches[i].push_back(reaches);
       }
     return absl::OkStatus();
   }
@@ -201,18 +196,16 @@ class Planner {
     const annotate::AnswerSource source = answerer_->source();
     quality::PlannedBeam beam{.altitude = altitude,
                               .incidence = incidence,
-                              .footprint = quality::FootprintAt(altitude, incidence, divergence_),
+                              .footprint = annotate::FootprintAtIncidence(altitude, divergence_, incidence),
                               .wind_speed = {},
                               .fetch = {}};
     if (!sea_.has_waves()) {
       annotate::FixedInputs wind;
       TakeWind(sea_, wind);
       const std::optional<float>& fetch = wind[annotate::PulseInput::kFetch];
-      const auto spectrum = source.table().attributes.find("spectrum");
       beam.wind_speed = sea;
       if (fetch.has_value()) beam.fetch = *fetch;
-      plan.wave_height = annotate::WaveHeightOfWind(
-          sea, fetch, spectrum != source.table().attributes.end() ? spectrum->second : std::string());
+      plan.wave_height = annotate::WaveHeightOfWind(sea, fetch, annotate::SpectrumOf(source.table()));
     }
     return quality::ReachOf(plan, source, beam);
   }
@@ -221,8 +214,6 @@ class Planner {
   bool wants_column() const {
     return IsAnyGiven(config::kWaterKeys, settings_.water) && !settings_.water.without_column();
   }
-
-  const client::TableSummary& source_table() const { return answerer_->source().table(); }
 
   const PlanOptions& options_;
   const config::SurveySettings& settings_;
@@ -236,23 +227,19 @@ class Planner {
 };
 
 absl::Status RunPlan(const PlanOptions& options) {
-  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
-  if (!settings.ok()) return settings.status();
-  if (!settings->wants_total())
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
+  if (!settings.wants_total())
     return formats::UsageError("plan: the sensor is missing; name it by --sensor or in --survey");
-  if (!options.output.empty() && !options.no_page)
-    if (absl::Status status = quality::CheckPageCanBeDrawn(); !status.ok()) return status;
+  if (!options.output.empty() && !options.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
   std::optional<quality::NewFolder> folder;
   if (!options.output.empty()) {
     folder.emplace(options.output);
-    if (absl::Status status = PrepareFolder(options.output, options.existing); !status.ok()) return status;
+    RETURN_IF_ERROR(PrepareFolder(options.output, options.existing));
   }
-  absl::StatusOr<quality::SurveyPlan> plan = Planner(options, *settings).Make();
-  if (!plan.ok()) return plan.status();
-  const nlohmann::ordered_json json = quality::PlanJson(*plan);
-  if (!options.output.empty())
-    if (absl::Status status = quality::WritePlan(json, !options.no_page, options.output); !status.ok()) return status;
-  std::cout << (options.json ? json.dump(2) + "\n" : quality::PlanText(*plan));
+  ASSIGN_OR_RETURN(quality::SurveyPlan plan, Planner(options, settings).Make());
+  const nlohmann::ordered_json json = quality::PlanJson(plan);
+  if (!options.output.empty()) RETURN_IF_ERROR(quality::WritePlan(json, !options.no_page, options.output));
+  std::cout << (options.json ? json.dump(2) + "\n" : quality::PlanText(plan));
   return FlushStandardOutput();
 }
 
@@ -280,9 +267,9 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   list("--kds", options->kds, "Diffuse attenuations at 532 nm to compare [1/m]", 0.001, 10, "1/m");
   list("--winds", options->winds, "Wind speeds, where no waves are given [m/s]", 0, 100, "m/s");
   list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01, 30, "m");
-  std::vector<std::string> orders;
-  for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
-  command->add_option("--order", options->order, "Required order of S-44")->check(OneOf(orders))->capture_default_str();
+  command->add_option("--order", options->order, "Required order of S-44")
+      ->check(OneOf({kS44OrderNames.begin(), kS44OrderNames.end()}))
+      ->capture_default_str();
   command->add_option("--output", options->output, "Folder for plan.html and plan.json")->check(NotEmpty("folder"));
   command->add_flag("--no-page", options->no_page, "Only plan.json, which needs no Python");
   command->add_flag("--json", options->json, "Print JSON");

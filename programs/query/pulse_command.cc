@@ -20,6 +20,7 @@
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "programs/query/survey_flags.h"
+#include "status/status_macros.h"
 #include "tables/s44.h"
 
 namespace albtpu::programs {
@@ -55,61 +56,50 @@ absl::Status TakeForTotal(annotate::FixedInputs& inputs, annotate::PulseTotal& t
   return absl::OkStatus();
 }
 
-absl::Status RunTotal(const PulseOptions& options, const annotate::AnswerStyle& style,
-                      const config::SurveySettings& settings, annotate::FixedInputs inputs) {
-  annotate::PulseTotal total;
+absl::Status PrintTotal(const PulseOptions& options, annotate::PulseTotal& total,
+                        const annotate::FixedCoordinates& coordinates, const annotate::FixedInputs& inputs,
+                        bool from_north, Answerer& answerer) {
+  const annotate::AnswerSource source = answerer.source();
   total.motion = options.motion;
-  absl::StatusOr<annotate::TotalPlan> plan =
-      annotate::PlanTotal(settings, annotate::ContextOf(settings, style.coverage));
-  if (!plan.ok()) return plan.status();
-  total.plan = *std::move(plan);
-  if (absl::Status status = TakeForTotal(inputs, total); !status.ok()) return status;
-  const absl::StatusOr<annotate::FixedCoordinates> coordinates = annotate::CoordinatesOf(inputs);
-  if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(settings.sea, options.source);
-  if (!answerer.ok()) return answerer.status();
-  if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
-  const annotate::AnswerSource source = answerer->source();
-  total.pulse = annotate::OnePulse(*coordinates);
-  total.pulse.azimuths_from_north = inputs.any_sea && inputs[annotate::PulseInput::kBeamAzimuth].has_value();
+  total.pulse = annotate::OnePulse(coordinates);
+  total.pulse.azimuths_from_north = from_north;
   if (!inputs.any_sea) {
-    const auto spectrum = source.table().attributes.find("spectrum");
-    total.plan.wave_height = annotate::WaveHeightOfWind(
-        inputs[annotate::PulseInput::kWindSpeed].value_or(0), inputs[annotate::PulseInput::kFetch],
-        spectrum != source.table().attributes.end() ? spectrum->second : "");
+    total.plan.wave_height =
+        annotate::WaveHeightOfWind(inputs[annotate::PulseInput::kWindSpeed].value_or(0),
+                                   inputs[annotate::PulseInput::kFetch], annotate::SpectrumOf(source.table()));
   }
-  absl::StatusOr<nlohmann::ordered_json> json = annotate::TotalJson(total, source);
-  if (!json.ok()) return json.status();
-  json->update(answerer->SeaJson());
-  std::cout << (options.json ? json->dump(2) + "\n" : annotate::TotalText(*json) + answerer->SeaText());
+  ASSIGN_OR_RETURN(nlohmann::ordered_json json, annotate::TotalJson(total, source));
+  json.update(answerer.SeaJson());
+  std::cout << (options.json ? json.dump(2) + "\n" : annotate::TotalText(json) + answerer.SeaText());
   return FlushStandardOutput();
 }
 
 absl::Status RunPulse(const PulseOptions& options) {
-  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
-  if (!settings.ok()) return settings.status();
-  if (absl::Status status = CheckTotalFlags(options.flags, *settings); !status.ok()) return status;
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
+  RETURN_IF_ERROR(CheckTotalFlags(options.flags, settings));
   annotate::AnswerStyle style = options.style;
-  TakeStyle(settings->output, style);
+  TakeStyle(settings.output, style);
   annotate::FixedInputs inputs = options.inputs;
-  TakeWind(settings->sea, inputs);
-  if (settings->wants_total()) return RunTotal(options, style, *settings, inputs);
-  if (options.motion.attitude || options.motion.velocity || options.motion.rates)
+  TakeWind(settings.sea, inputs);
+  annotate::PulseTotal total;
+  if (settings.wants_total()) {
+    ASSIGN_OR_RETURN(total.plan, annotate::PlanTotal(settings, annotate::ContextOf(settings, style.coverage)));
+    RETURN_IF_ERROR(TakeForTotal(inputs, total));
+  } else if (options.motion.attitude || options.motion.velocity || options.motion.rates) {
     return formats::UsageError(
         "pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
-  const absl::StatusOr<annotate::FixedCoordinates> coordinates = annotate::CoordinatesOf(inputs);
-  if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(settings->sea, options.source);
-  if (!answerer.ok()) return answerer.status();
-  if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
+  }
+  ASSIGN_OR_RETURN(const annotate::FixedCoordinates coordinates, annotate::CoordinatesOf(inputs));
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(settings.sea, options.source));
+  RETURN_IF_ERROR(answerer.CheckOneTime("pulse"));
   const bool from_north = inputs.any_sea && inputs[annotate::PulseInput::kBeamAzimuth].has_value();
-  const annotate::AnswerSource source = answerer->source();
-  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, style, source, from_north);
-  if (!answer.ok()) return answer.status();
+  if (settings.wants_total()) return PrintTotal(options, total, coordinates, inputs, from_north, answerer);
+  const annotate::AnswerSource source = answerer.source();
+  ASSIGN_OR_RETURN(const PulseAnswer answer, AskPulse(coordinates, style, source, from_north));
   if (options.json)
-    std::cout << PulseJson(*answer, source.table(), answerer->SeaJson());
+    std::cout << PulseJson(answer, source.table(), answerer.SeaJson());
   else
-    std::cout << PulseText(*answer, source.table(), answerer->SeaText());
+    std::cout << PulseText(answer, source.table(), answerer.SeaText());
   return FlushStandardOutput();
 }
 
@@ -232,11 +222,10 @@ absl::StatusOr<PulseAnswer> AskPulse(const annotate::FixedCoordinates& pulse, an
   batch.azimuths_from_north = azimuth_from_north;
   annotate::AnswerSelection surface;
   annotate::UncertaintySummary::Select(surface);
-  absl::Status status =
-      annotate::AnswerPulses(source, style.query(), batch, annotate::AnswerCells(style).selection(), answer.stated);
-  if (status.ok())
-    status = annotate::AnswerPulses(source, {.coverage = Coverage::kP95, .s44_order = {}}, batch, surface, answer.p95);
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(
+      annotate::AnswerPulses(source, style.query(), batch, annotate::AnswerCells(style).selection(), answer.stated));
+  RETURN_IF_ERROR(
+      annotate::AnswerPulses(source, {.coverage = Coverage::kP95, .s44_order = {}}, batch, surface, answer.p95));
   return answer;
 }
 

@@ -15,6 +15,7 @@
 #include "programs/query/commands.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/report_folder.h"
+#include "status/status_macros.h"
 #include "tables/s44.h"
 
 namespace albtpu::programs {
@@ -27,11 +28,9 @@ struct CrossCheckOptions {
 };
 
 absl::Status RunCrossCheck(const CrossCheckOptions& options) {
-  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files = quality::OpenAnnotated(options.annotated);
-  if (!files.ok()) return files.status();
-  const absl::StatusOr<quality::CrossCheck> check = quality::CrossCheckOf(*files, options.patch);
-  if (!check.ok()) return check.status();
-  std::cout << (options.json ? quality::CrossCheckJson(*check).dump(2) + "\n" : quality::CrossCheckText(*check));
+  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
+  ASSIGN_OR_RETURN(const quality::CrossCheck check, quality::CrossCheckOf(files, options.patch));
+  std::cout << (options.json ? quality::CrossCheckJson(check).dump(2) + "\n" : quality::CrossCheckText(check));
   return FlushStandardOutput();
 }
 
@@ -50,61 +49,48 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                  .wanted_class = flags.s44_order.empty() ? "1b" : flags.s44_order,
                                  .pass_share = flags.pass_share,
                                  .patch = flags.patch};
-  absl::StatusOr<std::vector<quality::Specification>> installed = quality::ListSpecifications();
-  if (!installed.ok()) return installed.status();
-  options.specifications = *std::move(installed);
+  ASSIGN_OR_RETURN(options.specifications, quality::ListSpecifications());
   if (!flags.specification.empty()) {
-    absl::StatusOr<quality::Specification> wanted = quality::FindSpecification(flags.specification);
-    if (!wanted.ok()) return wanted.status();
-    options.specification = wanted->name;
+    ASSIGN_OR_RETURN(quality::Specification wanted, quality::FindSpecification(flags.specification));
+    options.specification = wanted.name;
     const bool own = flags.specification.ends_with(".toml") || flags.specification.find('/') != std::string::npos;
     if (own && std::ranges::any_of(options.specifications,
-                                   [&](const quality::Specification& each) { return each.name == wanted->name; })) {
-      return absl::InvalidArgumentError(absl::StrCat(flags.specification, ": ", wanted->name,
+                                   [&](const quality::Specification& each) { return each.name == wanted.name; })) {
+      return absl::InvalidArgumentError(absl::StrCat(flags.specification, ": ", wanted.name,
                                                      " is the name of an installed specification; give the "
                                                      "file another name"));
     }
-    if (wanted->name != "s44") options.wanted_class = wanted->classes.front().name;
-    std::erase_if(options.specifications,
-                  [&](const quality::Specification& each) { return each.name == wanted->name; });
+    if (wanted.name != "s44") options.wanted_class = wanted.classes.front().name;
+    std::erase_if(options.specifications, [&](const quality::Specification& each) { return each.name == wanted.name; });
     // S-44 stays first, because maps show its orders.
-    options.specifications.insert(options.specifications.begin() + (wanted->name == "s44" ? 0 : 1), *std::move(wanted));
+    options.specifications.insert(options.specifications.begin() + (wanted.name == "s44" ? 0 : 1), std::move(wanted));
   }
   if (!flags.wanted_class.empty()) options.wanted_class = flags.wanted_class;
-  std::size_t classes = 0;
-  for (const quality::Specification& each : options.specifications) classes += each.classes.size();
+  const std::size_t classes = quality::ClassCount(options.specifications);
   if (classes > quality::ClassJudge::kMaxClasses) {
     return absl::InvalidArgumentError(absl::StrCat("the specifications have ", classes, " classes; at most ",
                                                    quality::ClassJudge::kMaxClasses, " can be stated"));
   }
-  if (auto wanted = quality::FindClass(options.specifications, options.specification, options.wanted_class);
-      !wanted.ok())
-    return wanted.status();
+  RETURN_IF_ERROR(quality::FindClass(options.specifications, options.specification, options.wanted_class).status());
   return options;
 }
 
 absl::Status RunReport(const ReportCommandOptions& flags) {
   if (!flags.s44_order.empty() && !(flags.specification.empty() && flags.wanted_class.empty()))
     return formats::UsageError("report: --s44-order names a class of S-44; give it alone, or --spec and --class");
-  const absl::StatusOr<quality::ReportOptions> options = Options(flags);
-  if (!options.ok()) return options.status();
-  if (!flags.no_page) {
-    if (absl::Status status = quality::CheckPageCanBeDrawn(); !status.ok()) return status;
-  }
-  const absl::StatusOr<std::vector<quality::AnnotatedLasFile>> files = quality::OpenAnnotated(flags.annotated);
-  if (!files.ok()) return files.status();
-  if (flags.resume && quality::HasReport(flags.output, *files, *options, !flags.no_page)) {
+  ASSIGN_OR_RETURN(const quality::ReportOptions options, Options(flags));
+  if (!flags.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
+  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(flags.annotated));
+  if (flags.resume && quality::HasReport(flags.output, files, options, !flags.no_page)) {
     annotate::Note(absl::StrCat(flags.output, ": has the report of these files already"));
     return absl::OkStatus();
   }
   const Existing existing = flags.resume ? Existing::kReplace : flags.existing;
   const quality::NewFolder folder(flags.output);
-  if (absl::Status status = PrepareFolder(flags.output, existing); !status.ok()) return status;
-  absl::StatusOr<quality::SurveyReport> report = quality::MakeReport(*files, *options);
-  if (!report.ok()) return report.status();
-  const std::string verdict = quality::ReportText(*report->json);
-  if (absl::Status status = quality::WriteReport(*std::move(report), !flags.no_page, flags.output); !status.ok())
-    return status;
+  RETURN_IF_ERROR(PrepareFolder(flags.output, existing));
+  ASSIGN_OR_RETURN(quality::SurveyReport report, quality::MakeReport(files, options));
+  const std::string verdict = quality::ReportText(*report.json);
+  RETURN_IF_ERROR(quality::WriteReport(std::move(report), !flags.no_page, flags.output));
   std::cout << flags.output << "\n  " << verdict;
   return FlushStandardOutput();
 }
@@ -139,10 +125,8 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   command->add_option("--cell", options->cell, "Side of the cells of the grid [m]")
       ->check(NumberIn(0.01, 10000, "m"))
       ->capture_default_str();
-  std::vector<std::string> orders;
-  for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
   command->add_option("--s44-order", options->s44_order, "Order of S-44 that was asked for (default: 1b)")
-      ->check(OneOf(orders));
+      ->check(OneOf({kS44OrderNames.begin(), kS44OrderNames.end()}));
   command
       ->add_option("--spec", options->specification,
                    "Another specification: s44, catzoc, noaa, usgs, asprs or the path of a TOML file")

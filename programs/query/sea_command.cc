@@ -17,6 +17,7 @@
 #include "programs/query/survey_flags.h"
 #include "sea/sea_time.h"
 #include "sea/table/sea_table.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -75,28 +76,23 @@ absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions
                      "--sea-time, such as ",
                      SeaTimeText(*seas.record(records.back()).time)));
   }
-  const absl::StatusOr<UncertaintyTable> table = CompileSea(SeaCompiler(), seas.sea(records.front()));
-  if (!table.ok()) return table.status();
-  return WriteTable(*table, options.output, options.existing);
+  ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(SeaCompiler(), seas.sea(records.front())));
+  return WriteTable(table, options.output, options.existing);
 }
 
 absl::Status RunSea(const SeaCommandOptions& options) {
-  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
-  if (!settings.ok()) return settings.status();
-  if (!settings->sea.has_waves())
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
+  if (!settings.sea.has_waves())
     return formats::UsageError("sea: no waves are given; give a FILE, --survey, or --hs and --tp");
-  const absl::StatusOr<annotate::SeaTimeline> seas = annotate::SeaTimeline::Open(settings->sea);
-  if (!seas.ok()) return seas.status();
-  if (!options.output.empty()) {
-    if (absl::Status status = WriteSea(*seas, options); !status.ok()) return status;
-  }
+  ASSIGN_OR_RETURN(const annotate::SeaTimeline seas, annotate::SeaTimeline::Open(settings.sea));
+  if (!options.output.empty()) RETURN_IF_ERROR(WriteSea(seas, options));
   const annotate::SlopeSurvey slopes_of;
-  ordered_json json = annotate::SeasHeadJson(*seas);
+  ordered_json json = annotate::SeasHeadJson(seas);
   json["records"] = ordered_json::array();
   if (!options.json) std::cout << kHeading;
-  for (const std::size_t record : RecordsOf(*seas)) {
-    const annotate::SeaFacts facts = annotate::FactsOf(*seas, record);
-    const annotate::SlopeFacts slopes = slopes_of(*seas, record);
+  for (const std::size_t record : RecordsOf(seas)) {
+    const annotate::SeaFacts facts = annotate::FactsOf(seas, record);
+    const annotate::SlopeFacts slopes = slopes_of(seas, record);
     if (!options.json) {
       std::cout << Row(facts, slopes);
       continue;
@@ -106,8 +102,8 @@ absl::Status RunSea(const SeaCommandOptions& options) {
   }
   if (options.json)
     std::cout << json.dump(2) << "\n";
-  else if (!seas->series().assumed.empty())
-    std::cout << "assumed: " << absl::StrJoin(seas->series().assumed, "; ") << "\n";
+  else if (!seas.series().assumed.empty())
+    std::cout << "assumed: " << absl::StrJoin(seas.series().assumed, "; ") << "\n";
   return FlushStandardOutput();
 }
 

@@ -10,6 +10,7 @@
 #include "sea/sea_time.h"
 #include "service/client/local_source.h"
 #include "service/client/server_source.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_folder.h"
 #include "tables/file/table_io.h"
@@ -24,9 +25,8 @@ absl::Status CheckName(const SourceOptions& options) {
 
 absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string name,
                                                                     const std::filesystem::path& path) {
-  absl::StatusOr<UncertaintyTable> table = ReadTable(path);
-  if (!table.ok()) return table.status();
-  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), *table));
+  ASSIGN_OR_RETURN(UncertaintyTable table, ReadTable(path));
+  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), table));
 }
 
 // Adds the other ways to choose a table, for when no installed table answers.
@@ -55,14 +55,12 @@ absl::StatusOr<std::size_t> ChooseTable(std::vector<TableFile> tables, const std
 }
 
 absl::StatusOr<std::vector<client::TableSummary>> ListInstalledTables() {
-  const absl::StatusOr<std::vector<TableFile>> files = InstalledTables();
-  if (!files.ok()) return files.status();
-  const absl::StatusOr<std::size_t> standard = ChooseTable(*files, "");
+  ASSIGN_OR_RETURN(const std::vector<TableFile> files, InstalledTables());
+  const absl::StatusOr<std::size_t> standard = ChooseTable(files, "");
   std::vector<client::TableSummary> tables;
-  for (std::size_t i = 0; i < files->size(); ++i) {
-    const absl::StatusOr<UncertaintyTable> table = ReadTable((*files)[i].path);
-    if (!table.ok()) return table.status();
-    tables.push_back(client::Summarize((*files)[i].FullName(), *table));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ASSIGN_OR_RETURN(const UncertaintyTable table, ReadTable(files[i].path));
+    tables.push_back(client::Summarize(files[i].FullName(), table));
     tables.back().is_default = standard.ok() && *standard == i;
   }
   return tables;
@@ -75,14 +73,13 @@ bool HasName(const client::TableSummary& table, const std::string& name) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options) {
-  if (absl::Status status = CheckName(options); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckName(options));
   if (!options.file.empty()) return OpenFile("", options.file);
   if (!options.server.empty()) return client::OpenServer(options.server, options.name, {}, options.credentials);
-  const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
-  if (!tables.ok()) return tables.status();
-  const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);
+  ASSIGN_OR_RETURN(const std::vector<TableFile> tables, InstalledTables());
+  const absl::StatusOr<std::size_t> chosen = ChooseTable(tables, options.name);
   if (!chosen.ok()) return Advised(chosen.status());
-  return OpenFile((*tables)[*chosen].FullName(), (*tables)[*chosen].path);
+  return OpenFile(tables[*chosen].FullName(), tables[*chosen].path);
 }
 
 absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options) {
@@ -97,21 +94,15 @@ absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceO
 }
 
 absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions& options) {
-  if (absl::Status status = CheckName(options); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckName(options));
   std::vector<client::TableSummary> tables;
   if (!options.server.empty()) {
-    absl::StatusOr<std::vector<client::TableSummary>> listed =
-        client::ListServerTables(options.server, options.credentials);
-    if (!listed.ok()) return listed.status();
-    tables = *std::move(listed);
+    ASSIGN_OR_RETURN(tables, client::ListServerTables(options.server, options.credentials));
   } else if (!options.file.empty()) {
-    const absl::StatusOr<std::unique_ptr<client::UncertaintySource>> source = OpenSource(options);
-    if (!source.ok()) return source.status();
-    tables.push_back((*source)->table());
+    ASSIGN_OR_RETURN(const std::unique_ptr<client::UncertaintySource> source, OpenSource(options));
+    tables.push_back(source->table());
   } else {
-    absl::StatusOr<std::vector<client::TableSummary>> installed = ListInstalledTables();
-    if (!installed.ok()) return installed.status();
-    tables = *std::move(installed);
+    ASSIGN_OR_RETURN(tables, ListInstalledTables());
   }
   if (options.name.empty()) return tables;
   std::erase_if(tables, [&](const client::TableSummary& table) { return !HasName(table, options.name); });
@@ -123,20 +114,13 @@ absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions
 absl::StatusOr<Answerer> Answerer::Open(const config::SeaSettings& sea, const SourceOptions& options) {
   Answerer answerer;
   if (!sea.has_waves()) {
-    absl::StatusOr<std::unique_ptr<client::UncertaintySource>> table = OpenSource(options);
-    if (!table.ok()) return table.status();
-    answerer.table_ = *std::move(table);
+    ASSIGN_OR_RETURN(answerer.table_, OpenSource(options));
     return answerer;
   }
-  absl::StatusOr<std::unique_ptr<client::SeaSources>> sources = OpenSeaSources(options);
-  if (!sources.ok()) return sources.status();
-  absl::StatusOr<annotate::SeaTimeline> timeline = annotate::SeaTimeline::Open(sea);
-  if (!timeline.ok()) return timeline.status();
-  answerer.timeline_ = std::make_shared<const annotate::SeaTimeline>(*std::move(timeline));
-  absl::StatusOr<std::unique_ptr<annotate::SeaAnswers>> seas =
-      annotate::SeaAnswers::Open(answerer.timeline_, *std::move(sources));
-  if (!seas.ok()) return seas.status();
-  answerer.seas_ = *std::move(seas);
+  ASSIGN_OR_RETURN(std::unique_ptr<client::SeaSources> sources, OpenSeaSources(options));
+  ASSIGN_OR_RETURN(annotate::SeaTimeline timeline, annotate::SeaTimeline::Open(sea));
+  answerer.timeline_ = std::make_shared<const annotate::SeaTimeline>(std::move(timeline));
+  ASSIGN_OR_RETURN(answerer.seas_, annotate::SeaAnswers::Open(answerer.timeline_, std::move(sources)));
   return answerer;
 }
 

@@ -10,6 +10,7 @@
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -115,12 +116,12 @@ void AddStyleFlags(CLI::App& command, SurveyFlags& flags, annotate::AnswerStyle&
 
 absl::StatusOr<SurveySettings> SettingsOf(const SurveyFlags& flags) {
   SurveySettings given = flags.settings;
-  if (absl::Status status = CompleteWaves(given.sea); !status.ok()) return status;
+  RETURN_IF_ERROR(CompleteWaves(given.sea));
   absl::StatusOr<SurveySettings> file = SurveySettings();
   if (flags.survey.has_value()) file = config::ReadSurvey(*flags.survey);
   if (!file.ok()) return file;
   SurveySettings settings = Merge(given, *std::move(file));
-  if (absl::Status status = CheckSea(settings.sea); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckSea(settings.sea));
   return settings;
 }
 

@@ -12,6 +12,7 @@
 #include "programs/query/options.h"
 #include "service/client/channel.h"
 #include "service/printable_text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -37,17 +38,14 @@ std::string Text(const client::TableSummary& table) {
 }
 
 absl::Status RunTables(const SourceOptions& options) {
-  const absl::StatusOr<std::vector<client::TableSummary>> tables = ListTables(options);
-  if (!tables.ok()) return tables.status();
-  for (std::size_t i = 0; i < tables->size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text((*tables)[i]);
-  if (tables->empty())
-    annotate::Note("there are no tables; make one with albtpu-generate, or name a file with --table");
+  ASSIGN_OR_RETURN(const std::vector<client::TableSummary> tables, ListTables(options));
+  for (std::size_t i = 0; i < tables.size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text(tables[i]);
+  if (tables.empty()) annotate::Note("there are no tables; make one with albtpu-generate, or name a file with --table");
   return FlushStandardOutput();
 }
 
 absl::Status RunHealth(const SourceOptions& options) {
-  const absl::Status status = client::CheckHealth(options.server, options.credentials);
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(client::CheckHealth(options.server, options.credentials));
   std::cout << "SERVING\n";
   return FlushStandardOutput();
 }

@@ -18,7 +18,7 @@
 #include "absl/synchronization/mutex.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
-#include "programs/serve/credential_flags.h"
+#include "service/server/access/credentials.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listening_sockets.h"
 #include "service/server/observe/log.h"
@@ -26,6 +26,7 @@
 #include "service/server/observe/metrics.h"
 #include "service/server/server.h"
 #include "service/server/tables/table_catalog.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/version.h"
 
@@ -39,8 +40,30 @@ struct Options {
   std::optional<std::string> metrics;
   long long max_stream_idle = server::kMaxStreamIdle.count();
   bool log_json = false;
-  CredentialFlags credentials;
+  server::CredentialFiles credentials = {};
+  bool insecure = false;
 };
+
+// --tls-cert, --tls-key, --tls-client-ca, --token-file and --insecure.
+void AddCredentialFlags(CLI::App& app, Options& options) {
+  server::CertificateFiles& certificates = options.credentials.certificates;
+  const auto add_file = [&app](const char* flag, std::filesystem::path& path, const char* description) {
+    return app.add_option(flag, path, description)->type_name("FILE")->check(NotEmpty("file"));
+  };
+  CLI::Option* certificate =
+      add_file("--tls-cert", certificates.certificate,
+               "Use TLS with this certificate and its intermediate certificates (PEM); read again when it changes");
+  CLI::Option* key = add_file("--tls-key", certificates.key, "Key of the certificate (PEM, no passphrase)");
+  certificate->needs(key);
+  key->needs(certificate);
+  add_file("--tls-client-ca", certificates.client_ca, "Refuse clients without a certificate of these authorities (PEM)")
+      ->needs(certificate);
+  add_file("--token-file", options.credentials.tokens, "Refuse calls without one of these tokens, one per line")
+      ->needs(certificate);
+  app.add_flag("--insecure", options.insecure,
+               "Allow plain text beyond this machine, for the service without TLS and for --metrics");
+  Group(app, "Access to the server", {"--tls-cert", "--tls-key", "--tls-client-ca", "--token-file", "--insecure"});
+}
 
 void AddFlags(CLI::App& app, Options& options) {
   SetUpProgram(app, Version(), Commit());
@@ -62,7 +85,7 @@ void AddFlags(CLI::App& app, Options& options) {
       ->check(WholeIn(1, 3600))
       ->capture_default_str();
   app.add_flag("--log-json", options.log_json, "Log one JSON object per line");
-  AddCredentialFlags(app, options.credentials);
+  AddCredentialFlags(app, options);
   Group(app, "Tables", {"--tables", "--default-table"});
   Group(app, "Addresses", {"--listen", "--metrics"});
   Group(app, "Limits", {"--max-stream-idle"});
@@ -120,17 +143,27 @@ struct Addresses {
   std::optional<server::ListenAddress> metrics;
 };
 
+// The address that a flag gives. InvalidArgument if other machines could reach it in `plain_text` and --insecure is not
+// given; `remedy` is another way out.
+absl::StatusOr<server::ListenAddress> ReadAddress(const char* flag, const std::string& text, bool plain_text,
+                                                  bool insecure, const char* remedy) {
+  absl::StatusOr<server::ListenAddress> address = server::ListenAddress::Parse(text);
+  if (!address.ok()) return WithFlag(flag, address.status());
+  if (!plain_text || address->IsLoopback() || insecure) return address;
+  return absl::InvalidArgumentError(absl::StrCat(flag, ": ", address->ToString(),
+                                                 " can be reached from other machines in plain text; ", remedy,
+                                                 "listen on 127.0.0.1, or give --insecure"));
+}
+
 absl::StatusOr<Addresses> ReadAddresses(const Options& options) {
-  const absl::StatusOr<server::ListenAddress> service = server::ListenAddress::Parse(options.listen);
-  if (!service.ok()) return WithFlag("--listen", service.status());
-  const absl::Status service_status = CheckServiceAddress(*service, options.credentials);
-  if (!service_status.ok()) return service_status;
-  if (!options.metrics.has_value()) return Addresses{*service, std::nullopt};
-  const absl::StatusOr<server::ListenAddress> metrics = server::ListenAddress::Parse(*options.metrics);
-  if (!metrics.ok()) return WithFlag("--metrics", metrics.status());
-  const absl::Status metrics_status = CheckMetricsAddress(*metrics, options.credentials);
-  if (!metrics_status.ok()) return metrics_status;
-  return Addresses{*service, *metrics};
+  ASSIGN_OR_RETURN(const server::ListenAddress service,
+                   ReadAddress("--listen", options.listen, !options.credentials.HasTls(), options.insecure,
+                               "give --tls-cert and --tls-key, "));
+  if (!options.metrics.has_value()) return Addresses{service, std::nullopt};
+  // Metrics are always in plain text.
+  ASSIGN_OR_RETURN(const server::ListenAddress metrics,
+                   ReadAddress("--metrics", *options.metrics, true, options.insecure, ""));
+  return Addresses{service, metrics};
 }
 
 server::Access MakeAccess(const server::CredentialFiles& files, std::shared_ptr<grpc::ServerCredentials> credentials) {
@@ -174,10 +207,9 @@ int Run(const Options& options) {
   server::ServerMetrics metrics;
   server::CallLog call_log;
   const server::Recorders recorders = {metrics.calls, metrics.access, metrics.seas, call_log};
-  const server::CredentialFiles& files = options.credentials.files;
   // After BlockSignals(): this starts threads of gRPC, which must not receive the signals.
   const absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials =
-      server::MakeCredentials(files, recorders);
+      server::MakeCredentials(options.credentials, recorders);
   if (!credentials.ok()) return Fail(formats::kExitFailure, credentials.status());
   const std::filesystem::path folder = options.tables.has_value() ? *options.tables : DefaultTablesDirectory();
   absl::StatusOr<server::TableCatalog> catalog = server::TableCatalog::Load(folder, options.default_table);
@@ -185,7 +217,7 @@ int Run(const Options& options) {
     return Fail(formats::kExitFailure,
                 WithFlag(options.tables.has_value() ? "--tables" : "no --tables given", catalog.status()));
   }
-  return Serve(*std::move(catalog), *addresses, MakeAccess(files, *credentials),
+  return Serve(*std::move(catalog), *addresses, MakeAccess(options.credentials, *credentials),
                std::chrono::seconds(options.max_stream_idle), metrics, recorders, signals);
 }
 

@@ -19,6 +19,7 @@
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::quality {
 namespace {
@@ -94,14 +95,12 @@ absl::Status Invalid(const fs::path& path, const std::string& problem) {
 }  // namespace
 
 absl::StatusOr<AnnotatedLasFile> AnnotatedLasFile::Open(const fs::path& path) {
-  absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(path);
-  if (!reader.ok()) return reader.status();
-  AnnotatedLasFile file(*std::move(reader));
+  ASSIGN_OR_RETURN(formats::LasReader reader, formats::LasReader::Open(path));
+  AnnotatedLasFile file(std::move(reader));
   file.path_ = path;
-  absl::Status status = file.FindFloats();
-  if (status.ok()) status = file.ReadSummary();
-  if (status.ok()) status = file.FindCrs();
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(file.FindFloats());
+  RETURN_IF_ERROR(file.ReadSummary());
+  RETURN_IF_ERROR(file.FindCrs());
   return file;
 }
 
@@ -150,11 +149,8 @@ absl::Status AnnotatedLasFile::FindFloats() {
   std::map<std::string, std::size_t, std::less<>> offsets;
   for (const formats::VlrEntry& vlr : reader_.vlrs()) {
     if (!vlr.Is(formats::kSpecUser, formats::kExtraBytesRecord)) continue;
-    const absl::StatusOr<std::string> record = reader_.ReadAt(vlr.data_offset, vlr.data_size);
-    if (!record.ok()) return record.status();
-    auto described = formats::FloatOffsets(reader_.name(), *record, reader_.header().extra_bytes());
-    if (!described.ok()) return described.status();
-    offsets = *std::move(described);
+    ASSIGN_OR_RETURN(const std::string record, reader_.ReadAt(vlr.data_offset, vlr.data_size));
+    ASSIGN_OR_RETURN(offsets, formats::FloatOffsets(reader_.name(), record, reader_.header().extra_bytes()));
   }
   const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
   for (const FloatOfPoint& each : kFloats) {
@@ -167,10 +163,9 @@ absl::Status AnnotatedLasFile::FindFloats() {
 }
 
 absl::Status AnnotatedLasFile::FindCrs() {
-  const absl::StatusOr<formats::CrsDescription> description = formats::DescribeCrs(reader_);
-  if (!description.ok()) return description.status();
+  ASSIGN_OR_RETURN(const formats::CrsDescription description, formats::DescribeCrs(reader_));
   const Json& parameters = (*summary_)["parameters"];
-  formats::CrsDescription crs = *description;
+  formats::CrsDescription crs = description;
   if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
   if (!crs.empty()) {
     const auto frame = formats::MapFrame::Create(path_.string(), crs);
@@ -261,9 +256,8 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
   }
   std::vector<AnnotatedLasFile> files;
   for (const fs::path& path : paths) {
-    absl::StatusOr<AnnotatedLasFile> file = AnnotatedLasFile::Open(path);
-    if (!file.ok()) return file.status();
-    files.push_back(*std::move(file));
+    ASSIGN_OR_RETURN(AnnotatedLasFile file, AnnotatedLasFile::Open(path));
+    files.push_back(std::move(file));
     const AnnotatedLasFile &first = files.front(), &last = files.back();
     const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
                             const std::string& remedy) {

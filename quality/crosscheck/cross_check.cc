@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "budget/beams/return_pair.h"
+#include "status/status_macros.h"
 
 namespace albtpu::quality {
 namespace {
@@ -225,8 +226,7 @@ absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, OverlapPatc
   annotate::FileProgress progress = ProgressOver(files);
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
-    absl::Status status = file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); });
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); }));
   }
   return absl::OkStatus();
 }
@@ -244,14 +244,13 @@ absl::StatusOr<CrossCheck> CrossCheckOf(const std::vector<AnnotatedLasFile>& fil
   std::uint64_t points = 0;
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
-    absl::Status status = file.ForEach(progress, [&](std::span<const AnnotatedPoint> some) {
+    RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> some) {
       points += some.size();
       patches.Find(some);
-    });
-    if (!status.ok()) return status;
+    }));
   }
   if (points == 0) return NoBathymetricPoint(files);
-  if (absl::Status status = FillPatches(files, patches); !status.ok()) return status;
+  RETURN_IF_ERROR(FillPatches(files, patches));
   std::optional<CrossCheck> check = CheckPatches(patches);
   if (check.has_value()) return *std::move(check);
   return absl::FailedPreconditionError(

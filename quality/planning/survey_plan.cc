@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
 #include "annotate/totals/pulse_totals.h"
 #include "annotate/totals/water_column.h"
+#include "status/status_macros.h"
 
 namespace albtpu::quality {
 namespace {
@@ -30,17 +30,13 @@ annotate::PulseBatch PulsesOf(const PlannedBeam& beam, double greatest_depth) {
 
 }  // namespace
 
-double FootprintAt(double altitude, double incidence, double divergence) {
-  return altitude / std::cos(incidence * std::numbers::pi / 180) * divergence / 1000;
-}
-
 absl::StatusOr<Reaches> ReachOf(const annotate::TotalPlan& plan, const annotate::AnswerSource& source,
                                 const PlannedBeam& beam) {
   const annotate::PulseBatch pulses = PulsesOf(beam, source.table().axes[Index(AxisId::kDepth)].last);
   annotate::AnswerSelection selection;
   annotate::SelectForTotals(selection);
   annotate::AnswerBatch sea;
-  if (absl::Status status = annotate::AnswerPulses(source, {}, pulses, selection, sea); !status.ok()) return status;
+  RETURN_IF_ERROR(annotate::AnswerPulses(source, {}, pulses, selection, sea));
   annotate::TotalBatch totals;
   annotate::AddWater(plan.water, pulses, sea, totals.water);
   AircraftColumns aircraft;

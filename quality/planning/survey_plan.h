@@ -27,9 +27,6 @@ struct PlannedBeam {
   std::optional<double> wind_speed, fetch;  // m/s, m
 };
 
-// m: footprint of a beam with this full angle of divergence in mrad.
-double FootprintAt(double altitude, double incidence, double divergence);
-
 // What limits the depth to which an order is met.
 enum class ReachLimit { kThu, kTvu, kTable, kWater };
 inline constexpr std::array<std::string_view, 4> kReachLimitNames = {"thu", "tvu", "table", "water"};

@@ -74,15 +74,11 @@ class Writing {
   void Put(int variable, const std::vector<double>& values) {
     if (ok()) Check(nc_put_var_double(file_, variable, values.data()));
   }
-  // Rows from `row` on.
-  void Put(int variable, std::size_t row, std::size_t columns, const std::vector<float>& values) {
-    PutRows(variable, row, columns, values, nc_put_vara_float);
-  }
-  void Put(int variable, std::size_t row, std::size_t columns, const std::vector<int>& values) {
-    PutRows(variable, row, columns, values, nc_put_vara_int);
-  }
-  void Put(int variable, std::size_t row, std::size_t columns, const std::vector<std::uint8_t>& values) {
-    PutRows(variable, row, columns, values, nc_put_vara_ubyte);
+  // Rows from `row` on. `Value` is the type of the variable.
+  template <typename Value>
+  void Put(int variable, std::size_t row, std::size_t columns, const std::vector<Value>& values) {
+    const std::array<std::size_t, 2> start = {row, 0}, count = {values.size() / columns, columns};
+    if (ok()) Check(nc_put_vara(file_, variable, start.data(), count.data(), values.data()));
   }
 
   bool ok() const { return status_.ok(); }
@@ -95,11 +91,6 @@ class Writing {
   }
 
  private:
-  template <typename Value, typename Function>
-  void PutRows(int variable, std::size_t row, std::size_t columns, const std::vector<Value>& values, Function put) {
-    const std::array<std::size_t, 2> start = {row, 0}, count = {values.size() / columns, columns};
-    if (ok()) Check(put(file_, variable, start.data(), count.data(), values.data()));
-  }
   bool Check(int result) {
     if (result != NC_NOERR)
       status_ = absl::DataLossError(absl::StrCat(path_.string(), ": cannot be written: ", nc_strerror(result)));

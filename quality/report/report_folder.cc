@@ -11,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "quality/report/grid_file.h"
+#include "status/status_macros.h"
 #include "tables/file/atomic_file.h"
 
 namespace albtpu::quality {
@@ -65,7 +66,7 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
   if (hidden.path().empty()) return NotWritable(folder);
   {
     const SurveyGrid grid = std::move(report.grid);
-    if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok()) return status;
+    RETURN_IF_ERROR(WriteGrid(grid, report.facts, hidden.path() / kGrid));
   }
   return Finish(hidden, *report.json, {kGrid, kJson}, with_page, kPage, folder);
 }

@@ -14,6 +14,7 @@
 #include "annotate/answers/batch.h"
 #include "config/toml/toml_keys.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 
 namespace albtpu::quality {
@@ -61,9 +62,8 @@ SpecificationClass ReadClass(TomlKeys& keys) {
 }
 
 absl::StatusOr<Specification> ReadSpecification(const fs::path& path) {
-  const absl::StatusOr<std::string> text = ReadTomlText(path, kSpecificationFile);
-  if (!text.ok()) return text.status();
-  absl::StatusOr<Specification> specification = ParseSpecification(*text);
+  ASSIGN_OR_RETURN(const std::string text, ReadTomlText(path, kSpecificationFile));
+  absl::StatusOr<Specification> specification = ParseSpecification(text);
   if (!specification.ok()) return InFile(path, specification.status());
   specification->name = path.stem().string();
   return specification;
@@ -107,10 +107,9 @@ nlohmann::ordered_json LimitsJson(const Specification& specification) {
 }
 
 absl::StatusOr<Specification> ParseSpecification(std::string_view text) {
-  const absl::StatusOr<toml::table> table = ParseToml(text, kSpecificationFile);
-  if (!table.ok()) return table.status();
+  ASSIGN_OR_RETURN(const toml::table table, ParseToml(text, kSpecificationFile));
   TomlProblem problem(kSpecificationFile);
-  TomlKeys root(*table, "", problem);
+  TomlKeys root(table, "", problem);
   Specification read;
   read.title = root.Text("title", "the name of the specification").value_or("");
   read.source = root.Text("source", "the document").value_or("");
@@ -134,9 +133,8 @@ fs::path SpecificationsDirectory() {
 absl::StatusOr<std::vector<Specification>> ListSpecifications() {
   std::vector<Specification> specifications;
   for (const std::string& name : InstalledNames()) {
-    absl::StatusOr<Specification> read = ReadSpecification(SpecificationsDirectory() / (name + ".toml"));
-    if (!read.ok()) return read.status();
-    specifications.push_back(*std::move(read));
+    ASSIGN_OR_RETURN(Specification read, ReadSpecification(SpecificationsDirectory() / (name + ".toml")));
+    specifications.push_back(std::move(read));
   }
   if (specifications.empty()) return NotInstalled();
   return specifications;
@@ -153,6 +151,12 @@ absl::StatusOr<Specification> FindSpecification(std::string_view name_or_path) {
   return absl::NotFoundError(
       absl::StrCat("'", formats::OneLine(std::string(name_or_path)), "' is no specification",
                    formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
+}
+
+std::size_t ClassCount(const std::vector<Specification>& specifications) {
+  std::size_t count = 0;
+  for (const Specification& each : specifications) count += each.classes.size();
+  return count;
 }
 
 absl::StatusOr<WantedClass> FindClass(const std::vector<Specification>& specifications, const std::string& name,

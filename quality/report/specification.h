@@ -61,6 +61,9 @@ absl::StatusOr<std::vector<Specification>> ListSpecifications();
 // "s44". NotFound with the names that there are.
 absl::StatusOr<Specification> FindSpecification(std::string_view name_or_path);
 
+// Classes of all of them.
+std::size_t ClassCount(const std::vector<Specification>& specifications);
+
 // A class in a list of specifications.
 struct WantedClass {
   std::size_t specification = 0, of_class = 0;  // In the list.

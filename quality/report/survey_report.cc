@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "annotate/answers/batch.h"
+#include "status/status_macros.h"
 #include "tables/s44.h"
 #include "tables/version.h"
 
@@ -47,12 +48,6 @@ struct Failing {
   std::array<std::uint64_t, kVerticalShareNames.size()> largest = {};
 };
 
-std::size_t ClassCount(const std::vector<Specification>& specifications) {
-  std::size_t count = 0;
-  for (const Specification& each : specifications) count += each.classes.size();
-  return count;
-}
-
 // The strictest order of S-44 that a point meets, as TotalBatch::best_orders has it.
 class S44Orders {
  public:
@@ -89,18 +84,16 @@ class Reporter {
         patches_(options.patch, first_.metres_per_unit(), first_.coverage()) {}
 
   absl::StatusOr<SurveyReport> Make() {
-    if (absl::Status status = CheckExtent(); !status.ok()) return status;
+    RETURN_IF_ERROR(CheckExtent());
     annotate::FileProgress progress = ProgressOver(files_);
     for (const AnnotatedLasFile& file : files_) {
       progress.NextFile();
       OfFile& of_file = of_files_.emplace_back();
-      absl::Status status =
-          file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); });
-      if (status.ok()) status = grid_.status();
-      if (!status.ok()) return status;
+      RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); }));
+      RETURN_IF_ERROR(grid_.status());
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
-    if (absl::Status status = FillPatches(files_, patches_); !status.ok()) return status;
+    RETURN_IF_ERROR(FillPatches(files_, patches_));
     const std::optional<CrossCheck> check = CheckPatches(patches_);
     return SurveyReport{.json = annotate::JsonBox(ToJson(check)),
                         .grid = std::move(grid_),
@@ -321,10 +314,9 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
 }
 
 absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options) {
-  const absl::StatusOr<WantedClass> wanted =
-      FindClass(options.specifications, options.specification, options.wanted_class);
-  if (!wanted.ok()) return wanted.status();
-  return Reporter(files, options, *wanted).Make();
+  ASSIGN_OR_RETURN(const WantedClass wanted,
+                   FindClass(options.specifications, options.specification, options.wanted_class));
+  return Reporter(files, options, wanted).Make();
 }
 
 }  // namespace albtpu::quality

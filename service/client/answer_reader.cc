@@ -13,6 +13,7 @@
 #include "absl/strings/str_cat.h"
 #include "service/client/wire.h"
 #include "service/wire_values.h"
+#include "status/status_macros.h"
 
 namespace albtpu::client {
 namespace {
@@ -73,7 +74,7 @@ class Reader {
     google::protobuf::io::StringOutputStream rest(&rest_);
     {
       google::protobuf::io::CodedOutputStream writer(&rest);
-      if (absl::Status status = ReadFields(kTop, writer); !status.ok()) return status;
+      RETURN_IF_ERROR(ReadFields(kTop, writer));
     }
     for (const Column& column : columns_)
       if (column.destination != nullptr && !column.found) return WrongLength(column, 0);
@@ -132,20 +133,6 @@ class Reader {
   std::string rest_;
 };
 
-absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first, int last) {
-  if (column == nullptr) return absl::OkStatus();
-  std::uint8_t least = 255, most = 0;  // The loop has no early exit, so that the compiler vectorizes it.
-  for (std::size_t i = 0; i < count; ++i) {
-    least = std::min(least, column[i]);
-    most = std::max(most, column[i]);
-  }
-  const auto known = [&](std::uint8_t number) { return number >= first && number <= last; };
-  if (count == 0 || (known(least) && known(most))) return absl::OkStatus();
-  const std::uint8_t* unknown = std::find_if_not(column, column + count, known);
-  return absl::InternalError(
-      absl::StrCat("answered ", *unknown, " among the ", name, ", a number that this program does not know"));
-}
-
 void FillWithNaN(float* column, std::size_t count) {
   if (column != nullptr) std::fill_n(column, count, std::numeric_limits<float>::quiet_NaN());
 }
@@ -170,6 +157,20 @@ absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, s
 }
 
 }  // namespace
+
+absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first, int last) {
+  if (column == nullptr) return absl::OkStatus();
+  std::uint8_t least = 255, most = 0;  // The loop has no early exit, so that the compiler vectorizes it.
+  for (std::size_t i = 0; i < count; ++i) {
+    least = std::min(least, column[i]);
+    most = std::max(most, column[i]);
+  }
+  const auto known = [&](std::uint8_t number) { return number >= first && number <= last; };
+  if (count == 0 || (known(least) && known(most))) return absl::OkStatus();
+  const std::uint8_t* unknown = std::find_if_not(column, column + count, known);
+  return absl::InternalError(
+      absl::StrCat("answered ", *unknown, " among the ", name, ", a number that this program does not know"));
+}
 
 absl::StatusOr<Response> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query, std::size_t pulse_count,
                                     const AnswerColumns& answers) {

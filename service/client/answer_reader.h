@@ -5,6 +5,7 @@
 #include <grpcpp/support/byte_buffer.h>
 
 #include <cstddef>
+#include <cstdint>
 
 #include "absl/status/statusor.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
@@ -23,5 +24,8 @@ absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadAnswer(grpc::ByteBuffer& by
 absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadStreamedAnswer(grpc::ByteBuffer& bytes, const Query& query,
                                                                     std::size_t pulse_count,
                                                                     const AnswerColumns& answers);
+
+// Internal if one of `count` numbers of an answer, the `name`, is not within `first` to `last`. The column may be null.
+absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first, int last);
 
 }  // namespace albtpu::client

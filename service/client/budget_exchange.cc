@@ -8,12 +8,12 @@
 #include <cstring>
 #include <deque>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/client/answer_reader.h"
 #include "service/client/channel.h"
 #include "service/client/column_exchange.h"
 #include "service/client/wire.h"
@@ -57,22 +57,17 @@ const std::string& ColumnOf(const v1::BudgetColumns& budget, BudgetQuantity quan
                                                     const_cast<std::string*>(kScratch));
 }
 
-absl::Status WrongLength(std::string_view name, std::size_t bytes, std::size_t count) {
-  return absl::InternalError(
-      absl::StrCat("answered ", bytes, " bytes of ", std::string(name), " for ", count, " pulses"));
+absl::Status WrongLength(const char* name, std::size_t bytes, std::size_t count) {
+  return absl::InternalError(absl::StrCat("answered ", bytes, " bytes of ", name, " for ", count, " pulses"));
 }
 
 // Copies one byte for each pulse, of which none may be outside `least` to `most`.
-absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least, int most,
+absl::Status CopyBytes(const char* name, const std::string& bytes, std::size_t count, int least, int most,
                        std::uint8_t* destination) {
   if (destination == nullptr) return absl::OkStatus();
   if (bytes.size() != count) return WrongLength(name, bytes.size(), count);
   std::memcpy(destination, bytes.data(), count);
-  const auto* const unknown = std::find_if_not(destination, destination + count,
-                                               [=](std::uint8_t number) { return number >= least && number <= most; });
-  if (unknown == destination + count) return absl::OkStatus();
-  return absl::InternalError(absl::StrCat("answered ", *unknown, " among the ", std::string(name),
-                                          ", a number that this program does not know"));
+  return CheckNumbers(destination, count, name, least, most);
 }
 
 absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin, std::size_t count,
@@ -130,7 +125,7 @@ class Calls {
   Calls(grpc::GenericStub& stub, const BudgetTask& task, std::size_t begin)
       : stub_(stub), task_(task), most_(MaxPulses(task.pulses, task.answers)), sent_(begin), answered_(begin) {
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;
-    ToWire(task.options, task.pulses, task.answers, request_without_pulses_);
+    ToWire(task.query, task.pulses, task.answers, request_without_pulses_);
     request_without_pulses_.mutable_options()->set_table(task.table);
   }
 
@@ -170,7 +165,7 @@ class Calls {
   // Reads an answer into its place among the answers.
   void TakeAnswer(BudgetCall& call) {
     const absl::StatusOr<std::string> digest =
-        ReadBudget(call.response, task_.options, call.begin, call.count, task_.answers);
+        ReadBudget(call.response, task_.query, call.begin, call.count, task_.answers);
     if (!digest.ok()) return Fail(digest.status());
     absl::Status status = CheckDigest(task_.table, task_.sea != nullptr, task_.digest, *digest);
     if (!status.ok()) return Fail(std::move(status));

@@ -4,23 +4,14 @@
 #include <grpcpp/generic/generic_stub.h>
 
 #include <cstddef>
-#include <string>
 
 #include "absl/status/status.h"
-#include "albtpu/v1/sea.pb.h"
 #include "budget/query/budget_query.h"
+#include "service/client/column_exchange.h"
 
 namespace albtpu::client {
 
-// A query about any number of pulses, and the memory for its answers.
-struct BudgetTask {
-  const std::string& table;         // Its name; empty for a sea.
-  const std::string& digest;        // The digest that every answer must come from.
-  const albtpu::v1::SeaState* sea;  // Null for a table of the server's.
-  const BudgetOptions& options;
-  const BudgetPulses& pulses;
-  const BudgetAnswers& answers;
-};
+using BudgetTask = Task<BudgetOptions, BudgetPulses, BudgetAnswers>;
 
 // Queries the pulses from index `begin` on, a few calls at a time, until all are answered or something fails. Sets
 // `begin` and fails as QueryByStream() does.

@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "service/text_file.h"
+#include "status/status_macros.h"
 
 namespace albtpu::client {
 namespace {
@@ -58,22 +59,17 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const 
   if (!credentials.HasTls()) return grpc::InsecureChannelCredentials();
   if (credentials.certificate.empty() != credentials.key.empty())
     return absl::InvalidArgumentError("--tls-cert and --tls-key: one is missing; give both or neither");
-  absl::StatusOr<std::string> ca = ReadPem("--tls-ca", credentials.ca, kCertificate);
-  if (!ca.ok()) return ca.status();
-  absl::StatusOr<std::string> key = ReadPem("--tls-key", credentials.key, kPrivateKey);
-  if (!key.ok()) return key.status();
-  absl::StatusOr<std::string> certificate = ReadPem("--tls-cert", credentials.certificate, kCertificate);
-  if (!certificate.ok()) return certificate.status();
-  const auto tls = grpc::SslCredentials({*std::move(ca), *std::move(key), *std::move(certificate)});
+  ASSIGN_OR_RETURN(std::string ca, ReadPem("--tls-ca", credentials.ca, kCertificate));
+  ASSIGN_OR_RETURN(std::string key, ReadPem("--tls-key", credentials.key, kPrivateKey));
+  ASSIGN_OR_RETURN(std::string certificate, ReadPem("--tls-cert", credentials.certificate, kCertificate));
+  const auto tls = grpc::SslCredentials({std::move(ca), std::move(key), std::move(certificate)});
   if (credentials.token.empty()) return tls;
-  absl::StatusOr<std::string> token = ReadToken(credentials.token);
-  if (!token.ok()) return token.status();
-  return grpc::CompositeChannelCredentials(tls, grpc::AccessTokenCredentials(*token));
+  ASSIGN_OR_RETURN(std::string token, ReadToken(credentials.token));
+  return grpc::CompositeChannelCredentials(tls, grpc::AccessTokenCredentials(token));
 }
 
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address, const Credentials& credentials) {
-  const auto channel_credentials = MakeCredentials(credentials);
-  if (!channel_credentials.ok()) return channel_credentials.status();
+  ASSIGN_OR_RETURN(const auto channel_credentials, MakeCredentials(credentials));
   grpc::ChannelArguments arguments;
   arguments.SetLoadBalancingPolicyName("round_robin");
   arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);  // ServerSource retries; gRPC would only by a service config.
@@ -82,7 +78,7 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& ad
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kConnectMs);
-  return grpc::CreateCustomChannel(address, *channel_credentials, arguments);
+  return grpc::CreateCustomChannel(address, channel_credentials, arguments);
 }
 
 namespace {
@@ -98,12 +94,11 @@ absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size
 }  // namespace
 
 absl::Status CheckHealth(const std::string& address, const Credentials& credentials) {
-  const auto channel = OpenChannel(address, credentials);
-  if (!channel.ok()) return channel.status();
+  ASSIGN_OR_RETURN(const auto channel, OpenChannel(address, credentials));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kHealthDeadline);
   HealthCheckResponse response;
-  const absl::Status status = FromGrpc(Health::NewStub(*channel)->Check(&context, {}, &response));
+  const absl::Status status = FromGrpc(Health::NewStub(channel)->Check(&context, {}, &response));
   if (!status.ok()) return WithServerAddress(status, address);
   if (response.status() == HealthCheckResponse::SERVING) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat("server ", address, ": ",

@@ -10,6 +10,7 @@
 #include "service/client/answer_reader.h"
 #include "service/client/channel.h"
 #include "service/client/wire.h"
+#include "status/status_macros.h"
 
 namespace albtpu::client {
 namespace {
@@ -129,8 +130,7 @@ class Call {
     const auto answer = ReadStreamedAnswer(response_, task_.query, count, Offset(task_.answers, answered_));
     response_.Clear();
     if (!answer.ok()) return answer.status();
-    const absl::Status status = CheckDigest(task_.table, task_.sea != nullptr, task_.digest, answer->table().digest());
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(CheckDigest(task_.table, task_.sea != nullptr, task_.digest, answer->table().digest()));
     answered_ += count;
     return absl::OkStatus();
   }

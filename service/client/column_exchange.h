@@ -21,14 +21,16 @@ inline constexpr std::size_t kMostPulses = 65536;
 absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest, const std::string& answered);
 
 // A query about any number of pulses, and the memory for its answers. Messages take kMostPulses pulses at a time.
-struct ColumnTask {
+template <typename Options, typename Pulses, typename Answers>
+struct Task {
   const std::string& table;         // Its name; empty for a sea.
   const std::string& digest;        // The digest that every answer must come from.
   const albtpu::v1::SeaState* sea;  // Null for a table of the server's.
-  const Query& query;
-  const PulseColumns& pulses;
-  const AnswerColumns& answers;
+  const Options& query;
+  const Pulses& pulses;
+  const Answers& answers;
 };
+using ColumnTask = Task<Query, PulseColumns, AnswerColumns>;
 
 // Queries the pulses from index `begin` on, a few messages ahead of the answers, until all are answered or something
 // fails. Sets `begin` to the index after the last pulse answered, from which another call can continue. Returns the

@@ -5,7 +5,10 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "budget/query/query_check.h"
-#include "service/seas/sea_pulses.h"
+#include "sea/table/sea_table.h"
+#include "service/client/sea_sources.h"
+#include "service/seas/sea_summary.h"
+#include "status/status_macros.h"
 
 namespace albtpu::client {
 namespace {
@@ -19,7 +22,20 @@ struct AsText {
   }
 };
 
+class LocalSeaSources final : public SeaSources {
+ public:
+  absl::StatusOr<std::unique_ptr<UncertaintySource>> Open(const KnownSea& sea) override {
+    ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(compiler_, sea));
+    return std::make_unique<LocalSource>("", table);
+  }
+
+ private:
+  const SeaCompiler compiler_;
+};
+
 }  // namespace
+
+std::unique_ptr<SeaSources> LocalSeas() { return std::make_unique<LocalSeaSources>(); }
 
 TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   const Provenance& provenance = table.provenance();
@@ -41,7 +57,7 @@ LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
 
 absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) {
   const PulseColumns used = summary_.sea ? OnOneSea(pulses) : pulses;
-  if (absl::Status status = CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used));
   InterpolateOnAllCores(interpolator_, query, used, answers);
   return absl::OkStatus();
 }
@@ -53,8 +69,7 @@ absl::Status LocalSource::AnswerBudget(const BudgetOptions& options, const Budge
     used.pulses = OnOneSea(pulses.pulses);
     used.sea_axis = summary_.sea->x_azimuth;
   }
-  if (absl::Status status = CheckQuery(summary_.sea ? kOneSea : kSeaSurface, used, options); !status.ok())
-    return status;
+  RETURN_IF_ERROR(CheckQuery(summary_.sea ? kOneSea : kSeaSurface, used, options));
   QueryBudgetOnAllCores(interpolator_, used, options, answers);
   return absl::OkStatus();
 }

@@ -66,10 +66,6 @@ void ToWire(const Query& query, const AnswerColumns& requested, v1::QueryColumns
 }
 
 void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
-  using Fields = v1::PulseColumns;
-  constexpr std::array<int, kAxisCount> kFields = {Fields::kWindSpeedFieldNumber, Fields::kFetchFieldNumber,
-                                                   Fields::kIncidenceFieldNumber, Fields::kAzimuthFieldNumber,
-                                                   Fields::kFootprintFieldNumber, Fields::kDepthFieldNumber};
   const auto is_long = [](std::span<const float> column) { return column.size() > 1; };
   const bool all_constant = std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long);
   const std::size_t mark = request.Mark();
@@ -77,7 +73,7 @@ void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
     const std::span<const float> column = pulses[axis];
     const std::size_t repeats = all_constant && axis == AxisId::kDepth ? pulses.size : 1;
     if (column.empty()) continue;
-    char* bytes = request.AddColumn(kFields[Index(axis)], repeats * column.size_bytes());
+    char* bytes = request.AddColumn(ToWire(axis), repeats * column.size_bytes());  // Its field has the same number.
     for (std::size_t i = 0; i < repeats; ++i)
       std::memcpy(bytes + i * column.size_bytes(), column.data(), column.size_bytes());
   }

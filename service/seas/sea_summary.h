@@ -1,10 +1,11 @@
-// A summary of a sea as it was computed: its frame, its main numbers and the assumptions.
+// A summary of a sea as it was computed: its frame, its main numbers and the assumptions; and the pulses on it.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tables/query/pulse_columns.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
@@ -22,5 +23,11 @@ struct SeaSummary {
 
 // Of a table of one sea, from its attributes; nullopt for other tables.
 std::optional<SeaSummary> SummaryOfSea(const UncertaintyTable& table);
+
+// The same pulses without wind speed and fetch, which have no effect on such a sea. As columns for a table of one sea.
+inline PulseColumns OnOneSea(PulseColumns pulses) {
+  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch}) pulses.axis[Index(axis)] = {};
+  return pulses;
+}
 
 }  // namespace albtpu

@@ -12,7 +12,9 @@
 namespace albtpu::config {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // What a flag says, and what stands in the file.
@@ -76,6 +78,7 @@ TEST(EachKey, IsRefusedWhereItsValueIsWrong) {
       EXPECT_THAT(error, StartsWith(absl::StrCat("line 2: '", key.section, ".", key.key, "' "))) << wrong.file;
       EXPECT_THAT(error, HasSubstr("(expected ")) << wrong.file;
       EXPECT_THAT(error, HasSubstr("; ")) << wrong.file;
+      EXPECT_THAT(error, Not(EndsWith("give it"))) << wrong.file;
       if (key.flag.empty() || wrong.flag.empty()) continue;
       const absl::StatusOr<Value> value = ParseValue(*FindFlag(key.flag).declaration, wrong.flag);
       ASSERT_FALSE(value.ok()) << key.flag << wrong.flag;
@@ -87,12 +90,20 @@ TEST(EachKey, IsRefusedWhereItsValueIsWrong) {
   }
 }
 
+TEST(EachKey, NamesTheUnitOrTheRangeOfItsNumber) {
+  const auto error_of = [](const char* text) { return std::string(ParseSurvey(text, "").status().message()); };
+  EXPECT_EQ(error_of("[water]\nindex = 1.5"),
+            "line 2: 'water.index' is 1.5 (expected 1.3 to 1.4); give a number in this range");
+  EXPECT_EQ(error_of("[sea]\nwind_speed = 200"),
+            "line 2: 'sea.wind_speed' is 200 (expected 0 to 100 m/s); give it in m/s");
+}
+
 TEST(EachKey, TakesTheEndsOfItsRange) {
   for (const ListedKey& key : ListKeys()) {
     if (key.values.type != "number") continue;
     for (const double end : {*key.values.least, *key.values.greatest}) {
       const std::string text = absl::StrCat(end);
-      EXPECT_THAT(ErrorOf(key, text), ::testing::Not(HasSubstr("expected "))) << key.key;
+      EXPECT_THAT(ErrorOf(key, text), Not(HasSubstr("expected "))) << key.key;
       if (key.flag.empty()) continue;
       EXPECT_TRUE(ParseValue(*FindFlag(key.flag).declaration, text).ok()) << key.flag;
     }

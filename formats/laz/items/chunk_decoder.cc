@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::laz {
 absl::Status PointwiseDecoder::Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
@@ -16,7 +17,7 @@ absl::Status PointwiseDecoder::Begin(const ByteSource& source, std::uint64_t beg
   if (end - begin < record_length_)
     return Damaged("it has ", end - begin, " bytes (expected ", record_length_, " and more for its points)");
   first_.resize(record_length_);
-  if (absl::Status status = source.ReadAt(begin, first_); !status.ok()) return status;
+  RETURN_IF_ERROR(source.ReadAt(begin, first_));
   items_.Begin(first_.data());
   decoder_.Begin(window_, source, begin + record_length_, end);
   return CheckBytes();
@@ -70,7 +71,7 @@ absl::Status LayeredDecoder::Begin(const ByteSource& source, std::uint64_t begin
   assert(begin <= end && end <= source.size() && points > 0);
   if (end - begin < head_.size())
     return Damaged("it has ", end - begin, " bytes (at least ", head_.size(), " begin a chunk)");
-  if (absl::Status status = source.ReadAt(begin, head_); !status.ok()) return status;
+  RETURN_IF_ERROR(source.ReadAt(begin, head_));
   const std::string_view head(head_.data(), head_.size());
   const auto stated = Load<std::uint32_t>(head, record_length_);
   if (stated != points) return Damaged("it states ", stated, " points (expected ", points, ")");
@@ -103,7 +104,7 @@ absl::Status LayeredDecoder::Decode(std::span<char> records) {
   while (left > 0) {
     const std::size_t batch = std::min(left, kBatchPoints);
     point_.Code({next, record_length_, batch});
-    if (absl::Status status = CheckStreams(); !status.ok()) return status;
+    RETURN_IF_ERROR(CheckStreams());
     next += batch * record_length_;
     left -= batch;
   }
@@ -121,7 +122,7 @@ absl::Status LayeredDecoder::CheckStreams() {
 }
 
 absl::Status LayeredDecoder::End(bool exact) {
-  if (absl::Status status = CheckStreams(); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckStreams());
   const auto streams = point_.streams();
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (streams[i].present && streams[i].coder.position() != stream_ends_[i]) {

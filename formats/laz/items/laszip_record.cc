@@ -16,6 +16,7 @@
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
+#include "status/status_macros.h"
 
 namespace albtpu::laz {
 namespace {
@@ -119,9 +120,7 @@ absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_
   }
   const auto chunk_size = Load<std::uint32_t>(data, 12);
   const auto compressor = Load<std::uint16_t>(data, 0);
-  if (absl::Status status = CheckCompressor(compressor, Load<std::uint16_t>(data, 2), chunk_size, point_format);
-      !status.ok())
-    return status;
+  RETURN_IF_ERROR(CheckCompressor(compressor, Load<std::uint16_t>(data, 2), chunk_size, point_format));
   const std::size_t count = Load<std::uint16_t>(data, 32);
   if (data.size() != kRecordHeadSize + count * kItemSize) {
     return absl::InvalidArgumentError(absl::StrCat("its LASzip record has ", data.size(), " bytes (expected ",
@@ -141,8 +140,7 @@ absl::StatusOr<LaszipRecord> ParseLaszipRecord(std::string_view data, int point_
                                                    wanted, " for point format ", point_format, " and records of ",
                                                    record_length, " bytes)", kGetAnotherCopy));
   }
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    if (absl::Status status = CheckVersion(record.items[i], expected[i]); !status.ok()) return status;
+  for (std::size_t i = 0; i < expected.size(); ++i) RETURN_IF_ERROR(CheckVersion(record.items[i], expected[i]));
   return record;
 }
 

@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "service/text_file.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -111,20 +112,17 @@ absl::Status CheckPair(const CertificateFiles& files, Certificates& pem) {
 }  // namespace
 
 absl::StatusOr<Certificates> ReadCertificates(const CertificateFiles& files) {
-  absl::StatusOr<std::string> certificate = ReadTextFile("--tls-cert", files.certificate);
-  if (!certificate.ok()) return certificate.status();
-  absl::StatusOr<std::string> key = ReadTextFile("--tls-key", files.key);
-  if (!key.ok()) return key.status();
-  Certificates read{*std::move(certificate), *std::move(key), {}, {}};
-  if (absl::Status status = CheckPair(files, read); !status.ok()) return status;
+  ASSIGN_OR_RETURN(std::string certificate, ReadTextFile("--tls-cert", files.certificate));
+  ASSIGN_OR_RETURN(std::string key, ReadTextFile("--tls-key", files.key));
+  Certificates read{std::move(certificate), std::move(key), {}, {}};
+  RETURN_IF_ERROR(CheckPair(files, read));
   if (files.client_ca.empty()) return read;
-  absl::StatusOr<std::string> client_ca = ReadTextFile("--tls-client-ca", files.client_ca);
-  if (!client_ca.ok()) return client_ca.status();
-  if (FirstCertificate(*client_ca) == nullptr) {
+  ASSIGN_OR_RETURN(std::string client_ca, ReadTextFile("--tls-client-ca", files.client_ca));
+  if (FirstCertificate(client_ca) == nullptr) {
     return absl::InvalidArgumentError(absl::StrCat("--tls-client-ca: ", files.client_ca.string(),
                                                    ": holds no certificate: expected the PEM file of an authority"));
   }
-  read.client_ca = *std::move(client_ca);
+  read.client_ca = std::move(client_ca);
   return read;
 }
 

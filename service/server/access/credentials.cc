@@ -15,6 +15,7 @@
 #include "absl/strings/str_split.h"
 #include "service/server/observe/metrics.h"
 #include "service/text_file.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -34,9 +35,8 @@ absl::StatusOr<std::unique_ptr<CertificateFile>> OpenCertificates(const Certific
 
 absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> OpenTokens(const std::filesystem::path& path) {
   return FileValue<Tokens>::Open({path}, [path]() -> absl::StatusOr<Tokens> {
-    const absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
-    if (!text.ok()) return text.status();
-    absl::StatusOr<Tokens> tokens = Tokens::Parse(*text);
+    ASSIGN_OR_RETURN(const std::string text, ReadTextFile("--token-file", path));
+    absl::StatusOr<Tokens> tokens = Tokens::Parse(text);
     if (tokens.ok()) return tokens;
     return absl::Status(tokens.status().code(),
                         absl::StrCat("--token-file: ", path.string(), ": ", tokens.status().message()));
@@ -108,14 +108,12 @@ bool AreEqual(const std::string& token, absl::string_view text) {
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeCredentials(const CredentialFiles& files,
                                                                          const Recorders& recorders) {
   if (!files.HasTls()) return grpc::InsecureServerCredentials();
-  absl::StatusOr<std::unique_ptr<CertificateFile>> certificates =
-      OpenCertificates(files.certificates, recorders.access);
-  if (!certificates.ok()) return certificates.status();
-  auto credentials = std::make_shared<Tls>(*std::move(certificates));
+  ASSIGN_OR_RETURN(std::unique_ptr<CertificateFile> certificates,
+                   OpenCertificates(files.certificates, recorders.access));
+  auto credentials = std::make_shared<Tls>(std::move(certificates));
   if (files.tokens.empty()) return credentials;
-  absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> tokens = OpenTokens(files.tokens);
-  if (!tokens.ok()) return tokens.status();
-  RequireToken(*std::move(tokens), recorders, credentials->get());
+  ASSIGN_OR_RETURN(std::unique_ptr<FileValue<Tokens>> tokens, OpenTokens(files.tokens));
+  RequireToken(std::move(tokens), recorders, credentials->get());
   return credentials;
 }
 

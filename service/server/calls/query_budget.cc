@@ -7,10 +7,11 @@
 #include "absl/strings/str_cat.h"
 #include "budget/query/query_check.h"
 #include "service/error_message.h"
-#include "service/seas/sea_pulses.h"
+#include "service/seas/sea_summary.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -20,15 +21,13 @@ std::array<double, 3> Read(const v1::ForwardRightDown& v) { return {v.forward(),
 }  // namespace
 
 absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options) {
-  const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
-  if (!coverage.ok()) return coverage.status();
-  const absl::StatusOr<SurfaceLocation> located = FromWire(options.located());
-  if (!located.ok()) return located.status();
+  ASSIGN_OR_RETURN(const Coverage coverage, FromWire(options.coverage()));
+  ASSIGN_OR_RETURN(const SurfaceLocation located, FromWire(options.located()));
   BudgetOptions read{.errors = FromMessage(options.errors()),
-                     .located = *located,
+                     .located = located,
                      .lever_arm = Read(options.lever_arm()),
                      .datum = options.datum(),
-                     .coverage = *coverage};
+                     .coverage = coverage};
   if (options.has_refractive_index()) read.index = options.refractive_index();
   FieldViolations violations;
   for (const OptionError& error : FindErrors(read))
@@ -37,7 +36,7 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
     violations.Add("options.sea_axis",
                    absl::StrCat("options.sea_axis is ", options.sea_axis(), ": expected degrees, or leave it out"));
   }
-  if (absl::Status status = violations.ToStatus(); !status.ok()) return status;
+  RETURN_IF_ERROR(violations.ToStatus());
   return read;
 }
 
@@ -62,9 +61,8 @@ using BudgetSelection = std::array<bool, kBudgetQuantityCount>;
 absl::StatusOr<BudgetSelection> ReadBudgetQuantities(const v1::QueryBudgetRequest& request) {
   BudgetSelection selection{};
   for (const int number : request.quantities()) {
-    const absl::StatusOr<BudgetQuantity> quantity = FromWire(static_cast<v1::BudgetQuantity>(number));
-    if (!quantity.ok()) return quantity.status();
-    selection[static_cast<std::size_t>(*quantity)] = true;
+    ASSIGN_OR_RETURN(const BudgetQuantity quantity, FromWire(static_cast<v1::BudgetQuantity>(number)));
+    selection[static_cast<std::size_t>(quantity)] = true;
   }
   if (request.quantities_size() == 0) {
     selection[static_cast<std::size_t>(BudgetQuantity::kTotalThu)] = true;
@@ -79,10 +77,9 @@ absl::StatusOr<BudgetPulses> ReadPulses(const v1::QueryBudgetRequest& request, c
   const auto aircraft = ColumnsOf(request.aircraft());
   std::vector<RequestColumn> all(axes.begin(), axes.end());
   all.insert(all.end(), aircraft.begin(), aircraft.end());
-  const absl::StatusOr<std::size_t> count = CountPulses(all);
-  if (!count.ok()) return count.status();
-  BudgetPulses pulses{.pulses = PulsesOf(axes, *count)};
-  pulses.aircraft.size = *count;
+  ASSIGN_OR_RETURN(const std::size_t count, CountPulses(all));
+  BudgetPulses pulses{.pulses = PulsesOf(axes, count)};
+  pulses.aircraft.size = count;
   for (std::size_t i = 0; i < aircraft.size(); ++i) pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
   return pulses;
 }
@@ -135,31 +132,27 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
                          OutcomeTally& tally) {
   v1::QueryOptions query;
   query.set_table(request.options().table());
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources);
-  if (!plan.ok()) return plan.status();
-  const absl::StatusOr<BudgetOptions> options = ReadBudgetOptions(request.options());
-  if (!options.ok()) return options.status();
-  const absl::StatusOr<BudgetSelection> selection = ReadBudgetQuantities(request);
-  if (!selection.ok()) return selection.status();
-  const ServedTable& source = *plan->source;
-  absl::StatusOr<BudgetPulses> pulses = ReadPulses(request, source.table.schema());
-  if (!pulses.ok()) return pulses.status();
-  const std::size_t count = pulses->pulses.size;
-  if (absl::Status status = CheckAnswerSize(*selection, count); !status.ok()) return status;
+  ASSIGN_OR_RETURN(const QueryPlan plan, PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources));
+  ASSIGN_OR_RETURN(const BudgetOptions options, ReadBudgetOptions(request.options()));
+  ASSIGN_OR_RETURN(const BudgetSelection selection, ReadBudgetQuantities(request));
+  const ServedTable& source = *plan.source;
+  ASSIGN_OR_RETURN(BudgetPulses pulses, ReadPulses(request, source.table.schema()));
+  const std::size_t count = pulses.pulses.size;
+  RETURN_IF_ERROR(CheckAnswerSize(selection, count));
   v1::QueryBudgetResponse head;
   *head.mutable_table() = WriteReference(source);
-  head.set_coverage(ToWire(options->coverage));
+  head.set_coverage(ToWire(options.coverage));
   head.set_pulse_count(static_cast<int>(count));
-  head.set_azimuth_absent(pulses->pulses[AxisId::kAzimuth].empty());
+  head.set_azimuth_absent(pulses.pulses[AxisId::kAzimuth].empty());
   if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
   response.Add(head);
-  if (source.sea) pulses->pulses = OnOneSea(pulses->pulses);
+  if (source.sea) pulses.pulses = OnOneSea(pulses.pulses);
   if (source.sea)
-    pulses->sea_axis = source.sea->x_azimuth;
+    pulses.sea_axis = source.sea->x_azimuth;
   else if (request.options().has_sea_axis())
-    pulses->sea_axis = request.options().sea_axis();
-  const BudgetAnswers answers = AddColumns(*selection, count, response);
-  QueryBudgetOnAllCores(source.interpolator, *pulses, *options, answers);
+    pulses.sea_axis = request.options().sea_axis();
+  const BudgetAnswers answers = AddColumns(selection, count, response);
+  QueryBudgetOnAllCores(source.interpolator, pulses, options, answers);
   tally.Add({answers.outcomes, count}, {answers.outcome_axes, count});
   return absl::OkStatus();
 }

@@ -4,10 +4,11 @@
 #include <cstdint>
 
 #include "absl/strings/str_cat.h"
-#include "service/seas/sea_pulses.h"
+#include "service/seas/sea_summary.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -58,20 +59,17 @@ std::string ColumnError(const RequestColumn& column, const RequestColumn& longes
 }  // namespace
 
 absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea, AnswerSources& sources) {
-  const absl::StatusOr<const ServedTable*> source = FindSource(options, sea, sources);
-  if (!source.ok()) return source.status();
-  const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
-  if (!coverage.ok()) return coverage.status();
-  const absl::StatusOr<std::optional<S44Order>> s44_order = FromWire(options.s44_order());
-  if (!s44_order.ok()) return s44_order.status();
-  return QueryPlan{.source = *source,
-                   .query = {.coverage = *coverage, .s44_order = *s44_order},
+  ASSIGN_OR_RETURN(const ServedTable* source, FindSource(options, sea, sources));
+  ASSIGN_OR_RETURN(const Coverage coverage, FromWire(options.coverage()));
+  ASSIGN_OR_RETURN(const std::optional<S44Order> s44_order, FromWire(options.s44_order()));
+  return QueryPlan{.source = source,
+                   .query = {.coverage = coverage, .s44_order = s44_order},
                    .standard_errors = options.standard_errors(),
                    .best_s44_order = options.best_s44_order()};
 }
 
 absl::StatusOr<std::size_t> CountPulses(std::span<const RequestColumn> columns) {
-  if (absl::Status status = CheckBytes(columns); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckBytes(columns));
   const RequestColumn& longest = *std::max_element(
       columns.begin(), columns.end(),
       [](const RequestColumn& a, const RequestColumn& b) { return a.bytes->size() < b.bytes->size(); });
@@ -81,7 +79,7 @@ absl::StatusOr<std::size_t> CountPulses(std::span<const RequestColumn> columns) 
     const std::string error = ColumnError(column, longest);
     if (!error.empty()) violations.Add(Path(column), error);
   }
-  if (absl::Status status = violations.ToStatus(); !status.ok()) return status;
+  RETURN_IF_ERROR(violations.ToStatus());
   return longest.numbers().size();
 }
 
@@ -106,9 +104,8 @@ PulseColumns PulsesOf(std::span<const RequestColumn> columns, std::size_t count)
 
 absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns, const TableSchema& schema) {
   const std::array<RequestColumn, kAxisCount> read = ColumnsOf(columns, schema);
-  const absl::StatusOr<std::size_t> count = CountPulses(read);
-  if (!count.ok()) return count.status();
-  return PulsesOf(read, *count);
+  ASSIGN_OR_RETURN(const std::size_t count, CountPulses(read));
+  return PulsesOf(read, count);
 }
 
 namespace {
@@ -120,9 +117,8 @@ absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryColumnsRequest& 
   QuantitySelection selection;
   selection.fill(request.quantities_size() == 0);
   for (int number : request.quantities()) {
-    const absl::StatusOr<Quantity> quantity = FromWire(static_cast<v1::Quantity>(number));
-    if (!quantity.ok()) return quantity.status();
-    selection[Index(*quantity)] = true;
+    ASSIGN_OR_RETURN(const Quantity quantity, FromWire(static_cast<v1::Quantity>(number)));
+    selection[Index(quantity)] = true;
   }
   return selection;
 }
@@ -135,19 +131,13 @@ float* AddFloats(int field, std::size_t count, ColumnMessage& message) {
   return reinterpret_cast<float*>(message.AddColumn(field, count * sizeof(float)));
 }
 
+// The number of a field is that of its quantity.
 std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelection& selection, std::size_t count,
                                                  ColumnMessage& message) {
-  using Fields = v1::SeaSurfaceColumns;
-  constexpr std::array<int, kQuantityCount> kFields = {Fields::kRefractionAlongWindFieldNumber,
-                                                       Fields::kRefractionCrossWindFieldNumber,
-                                                       Fields::kThuFieldNumber,
-                                                       Fields::kTvuFieldNumber,
-                                                       Fields::kBiasAlongBeamFieldNumber,
-                                                       Fields::kBiasVerticalFieldNumber};
   const std::size_t mark = message.Mark();
   std::array<float*, kQuantityCount> columns{};
   for (std::size_t i = 0; i < kQuantityCount; ++i)
-    if (selection[i]) columns[i] = AddFloats(kFields[i], count, message);
+    if (selection[i]) columns[i] = AddFloats(ToWire(kQuantities[i]), count, message);
   message.Nest(field, mark);
   return columns;
 }
@@ -177,23 +167,19 @@ AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selecti
 
 absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request, ColumnMessage& response,
                           OutcomeTally& tally) {
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
-  if (!plan.ok()) return plan.status();
-  const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
-  if (!selection.ok()) return selection.status();
-  const absl::StatusOr<PulseColumns> pulses = ReadPulseColumns(request.pulses(), plan->source->table.schema());
-  if (!pulses.ok()) return pulses.status();
+  ASSIGN_OR_RETURN(const QueryPlan plan, PlanQuery(request, sources));
+  ASSIGN_OR_RETURN(const QuantitySelection selection, ReadQuantities(request));
+  ASSIGN_OR_RETURN(const PulseColumns pulses, ReadPulseColumns(request.pulses(), plan.source->table.schema()));
   v1::QueryColumnsResponse head;
-  *head.mutable_table() = WriteReference(*plan->source);
-  head.set_coverage(ToWire(plan->query.coverage));
-  head.set_pulse_count(static_cast<int>(pulses->size));
-  head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
-  if (plan->source->sea) *head.mutable_sea() = WriteSea(*plan->source->sea);
+  *head.mutable_table() = WriteReference(*plan.source);
+  head.set_coverage(ToWire(plan.query.coverage));
+  head.set_pulse_count(static_cast<int>(pulses.size));
+  head.set_azimuth_absent(pulses[AxisId::kAzimuth].empty());
+  if (plan.source->sea) *head.mutable_sea() = WriteSea(*plan.source->sea);
   response.Add(head);
-  const AnswerColumns answers = AddColumns(*plan, *selection, pulses->size, response);
-  InterpolateOnAllCores(plan->source->interpolator, plan->query, plan->source->sea ? OnOneSea(*pulses) : *pulses,
-                        answers);
-  tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
+  const AnswerColumns answers = AddColumns(plan, selection, pulses.size, response);
+  InterpolateOnAllCores(plan.source->interpolator, plan.query, plan.source->sea ? OnOneSea(pulses) : pulses, answers);
+  tally.Add({answers.outcomes, pulses.size}, {answers.outcome_axes, pulses.size});
   return absl::OkStatus();
 }
 

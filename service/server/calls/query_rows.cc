@@ -12,12 +12,13 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "service/column_message.h"
-#include "service/seas/sea_pulses.h"
+#include "service/seas/sea_summary.h"
 #include "service/server/calls/query_budget.h"
 #include "service/server/calls/query_columns.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
+#include "status/status_macros.h"
 #include "tables/file/table_encoder.h"
 
 namespace albtpu::server {
@@ -146,102 +147,88 @@ bool Parse(const grpc::ByteBuffer& bytes, Message& message) {
   return reader.status().ok() && message.ParseFromZeroCopyStream(&reader);
 }
 
-// Calls `query` with the parsed request and returns its status.
-template <typename Request, typename Query>
-grpc::Status HandleParsed(const grpc::ByteBuffer& bytes, Query query) try {
-  Request request;
-  if (Parse(bytes, request)) return ToGrpcStatus(query(request));
-  return ToGrpcStatus(absl::InvalidArgumentError(
-      absl::StrCat("the message is not a valid ", request.GetTypeName(), " (its bytes do not parse)")));
-} catch (const std::exception& error) {
-  return ToGrpcStatus(absl::InternalError(error.what()));
-}
-
-grpc::ByteBuffer Serialize(const google::protobuf::Message& message) {
+grpc::ByteBuffer ByteBufferOf(const ColumnMessage& message) { return message.Finish(); }
+grpc::ByteBuffer ByteBufferOf(const google::protobuf::Message& message) {
   ColumnMessage bytes;
   bytes.Add(message);
-  return bytes.Finish();
+  return ByteBufferOf(bytes);
+}
+
+// Calls `query` with the parsed request and the answers that it fills, and writes these to `response`.
+template <typename Request, typename Answers, typename Query>
+grpc::Status HandleParsed(const grpc::ByteBuffer& bytes, grpc::ByteBuffer& response, Query query) try {
+  Request request;
+  if (!Parse(bytes, request)) {
+    return ToGrpcStatus(absl::InvalidArgumentError(
+        absl::StrCat("the message is not a valid ", request.GetTypeName(), " (its bytes do not parse)")));
+  }
+  Answers answers;
+  const absl::Status status = query(request, answers);
+  if (status.ok()) response = ByteBufferOf(answers);
+  return ToGrpcStatus(status);
+} catch (const std::exception& error) {
+  return ToGrpcStatus(absl::InternalError(error.what()));
 }
 
 }  // namespace
 
 absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
                        OutcomeTally& tally) {
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
-  if (!plan.ok()) return plan.status();
-  const absl::Status status = CheckCount(*plan, request.pulses());
-  if (!status.ok()) return status;
-  *response.mutable_table() = WriteReference(*plan->source);
-  response.set_coverage(ToWire(plan->query.coverage));
-  if (plan->source->sea) *response.mutable_sea() = WriteSea(*plan->source->sea);
+  ASSIGN_OR_RETURN(const QueryPlan plan, PlanQuery(request, sources));
+  RETURN_IF_ERROR(CheckCount(plan, request.pulses()));
+  *response.mutable_table() = WriteReference(*plan.source);
+  response.set_coverage(ToWire(plan.query.coverage));
+  if (plan.source->sea) *response.mutable_sea() = WriteSea(*plan.source->sea);
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
-  for (bool with_azimuth : {true, false}) RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
+  for (bool with_azimuth : {true, false}) RowColumns(plan, request.pulses(), with_azimuth).Query(response, tally);
   return absl::OkStatus();
 }
 
 grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally) {
-  return HandleParsed<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
-    v1::QueryPulsesResponse answers;
-    const absl::Status status = QueryRows(sources, rows, answers, tally);
-    if (status.ok()) response = Serialize(answers);
-    return status;
-  });
+  return HandleParsed<v1::QueryPulsesRequest, v1::QueryPulsesResponse>(
+      request, response, [&](const auto& asked, auto& answers) { return QueryRows(sources, asked, answers, tally); });
 }
 
 grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                 OutcomeTally& tally) {
-  return HandleParsed<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
-    ColumnMessage answers;
-    const absl::Status status = QueryColumns(sources, columns, answers, tally);
-    if (status.ok()) response = answers.Finish();
-    return status;
+  return HandleParsed<v1::QueryColumnsRequest, ColumnMessage>(request, response, [&](const auto& asked, auto& answers) {
+    return QueryColumns(sources, asked, answers, tally);
   });
 }
 
 grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally) {
-  return HandleParsed<v1::QueryBudgetRequest>(request, [&](const v1::QueryBudgetRequest& pulses) {
-    ColumnMessage answers;
-    const absl::Status status = QueryBudget(sources, pulses, answers, tally);
-    if (status.ok()) response = answers.Finish();
-    return status;
-  });
+  return HandleParsed<v1::QueryBudgetRequest, ColumnMessage>(
+      request, response, [&](const auto& asked, auto& answers) { return QueryBudget(sources, asked, answers, tally); });
 }
 
 grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                               OutcomeTally& /*tally*/) {
-  return HandleParsed<v1::CompileSeaRequest>(request, [&](const v1::CompileSeaRequest& wanted) {
-    v1::CompileSeaResponse compiled;
-    const absl::Status status = DescribeSea(sources, wanted, compiled);
-    if (status.ok()) response = Serialize(compiled);
-    return status;
-  });
+  return HandleParsed<v1::CompileSeaRequest, v1::CompileSeaResponse>(
+      request, response, [&](const auto& asked, auto& answers) { return DescribeSea(sources, asked, answers); });
 }
 
 grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                  OutcomeTally& tally) {
-  return HandleParsed<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
-    ColumnMessage answers;
-    const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
-    answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
-    if (status.ok()) response = answers.Finish();
-    return status;
-  });
+  return HandleParsed<v1::StreamColumnsRequest, ColumnMessage>(
+      request, response, [&](const auto& asked, auto& answers) {
+        absl::Status status = Within("query", QueryColumns(sources, asked.query(), answers, tally));
+        answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
+        return status;
+      });
 }
 
 absl::Status DescribeSea(AnswerSources& sources, const v1::CompileSeaRequest& request,
                          v1::CompileSeaResponse& response) {
   if (!request.has_sea())
     return FieldViolation("sea", "sea is missing (its table is what is asked for); send a SeaState");
-  const absl::StatusOr<const ServedTable*> table = sources.Find(request.sea());
-  if (!table.ok()) return table.status();
-  *response.mutable_table() = WriteTableMessage(**table);
+  ASSIGN_OR_RETURN(const ServedTable* table, sources.Find(request.sea()));
+  *response.mutable_table() = WriteTableMessage(*table);
   if (!request.with_file()) return absl::OkStatus();
-  absl::StatusOr<std::string> file = EncodeTable((*table)->table);
-  if (!file.ok()) return file.status();
-  response.set_file(*std::move(file));
+  ASSIGN_OR_RETURN(std::string file, EncodeTable(table->table));
+  response.set_file(std::move(file));
   return absl::OkStatus();
 }
 

@@ -12,6 +12,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -95,11 +96,10 @@ int ListeningSocket::port() const {
 }
 
 absl::StatusOr<std::vector<ListeningSocket>> Listen(const ListenAddress& address) {
-  absl::StatusOr<Addresses> addresses = Resolve(address);
-  if (!addresses.ok()) return addresses.status();
+  ASSIGN_OR_RETURN(Addresses addresses, Resolve(address));
   std::vector<ListeningSocket> sockets;
   absl::Status failure;
-  for (addrinfo* candidate = addresses->get(); candidate != nullptr; candidate = candidate->ai_next) {
+  for (addrinfo* candidate = addresses.get(); candidate != nullptr; candidate = candidate->ai_next) {
     if (!sockets.empty()) SetPort(candidate->ai_addr, sockets.front().port());
     ListeningSocket socket(::socket(candidate->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (ListenOn(socket.descriptor(), *candidate)) {

@@ -21,35 +21,19 @@ const prometheus::Histogram::BucketBoundaries kCompileSeconds = {2.5e-3, 5e-3, 1
 }  // namespace
 
 SeaMetrics::SeaMetrics(prometheus::Registry& registry) {
-  auto& requests = prometheus::BuildCounter()
-                       .Name("albtpu_sea_requests_total")
-                       .Help("Requests with a sea, by how they got its table.")
-                       .Register(registry);
+  auto& requests = Counters(registry, "albtpu_sea_requests_total", "Requests with a sea, by how they got its table.");
   found_ = &requests.Add({{"result", "found"}});
   joined_ = &requests.Add({{"result", "joined"}});
   compiled_ = &requests.Add({{"result", "compiled"}});
   failed_ = &requests.Add({{"result", "failed"}});
   refused_ = &requests.Add({{"result", "refused"}});
-  evicted_ = &prometheus::BuildCounter()
-                  .Name("albtpu_sea_evictions_total")
-                  .Help("Tables of seas that were dropped to make room for others.")
-                  .Register(registry)
-                  .Add({});
-  seconds_ = &prometheus::BuildHistogram()
-                  .Name("albtpu_sea_compile_seconds")
-                  .Help("Time to compute the table of a sea, without waiting.")
-                  .Register(registry)
+  evicted_ =
+      &Counters(registry, "albtpu_sea_evictions_total", "Tables of seas that were dropped to make room for others.")
+           .Add({});
+  seconds_ = &Histograms(registry, "albtpu_sea_compile_seconds", "Time to compute the table of a sea, without waiting.")
                   .Add({}, kCompileSeconds);
-  tables_ = &prometheus::BuildGauge()
-                 .Name("albtpu_sea_tables")
-                 .Help("Tables of seas that are kept.")
-                 .Register(registry)
-                 .Add({});
-  bytes_ = &prometheus::BuildGauge()
-                .Name("albtpu_sea_table_bytes")
-                .Help("Memory of the tables of seas that are kept.")
-                .Register(registry)
-                .Add({});
+  tables_ = &Gauges(registry, "albtpu_sea_tables", "Tables of seas that are kept.").Add({});
+  bytes_ = &Gauges(registry, "albtpu_sea_table_bytes", "Memory of the tables of seas that are kept.").Add({});
 }
 
 void SeaMetrics::CountCompiled(std::chrono::duration<double> took) {

@@ -25,6 +25,20 @@
 
 namespace albtpu::server {
 
+// Metrics of one name, which differ by their labels.
+inline prometheus::Family<prometheus::Counter>& Counters(prometheus::Registry& registry, const char* name,
+                                                         const char* help) {
+  return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+inline prometheus::Family<prometheus::Gauge>& Gauges(prometheus::Registry& registry, const char* name,
+                                                     const char* help) {
+  return prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+}
+inline prometheus::Family<prometheus::Histogram>& Histograms(prometheus::Registry& registry, const char* name,
+                                                             const char* help) {
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+}
+
 // The metrics of the seas that requests carry.
 class SeaMetrics {
  public:

@@ -107,26 +107,14 @@ std::string CodeName(grpc::StatusCode code) {
 }
 
 CallMetrics::CallMetrics(prometheus::Registry& registry)
-    : calls_(prometheus::BuildCounter()
-                 .Name("albtpu_calls_total")
-                 .Help("Calls that have ended, by method and status code.")
-                 .Register(registry)) {
-  auto& in_progress = prometheus::BuildGauge()
-                          .Name("albtpu_calls_under_way")
-                          .Help("Calls that have begun and not ended.")
-                          .Register(registry);
-  auto& seconds = prometheus::BuildHistogram()
-                      .Name("albtpu_answer_seconds")
-                      .Help(
-                          "Time from a request to its answer, without the network; in a stream, from the "
-                          "moment that it is the turn of the request.")
-                      .Register(registry);
-  auto& batch =
-      prometheus::BuildHistogram().Name("albtpu_answer_pulses").Help("Pulses of an answer.").Register(registry);
-  auto& pulses = prometheus::BuildCounter()
-                     .Name("albtpu_pulses_total")
-                     .Help("Pulses that were answered, by outcome and the axis that made it.")
-                     .Register(registry);
+    : calls_(Counters(registry, "albtpu_calls_total", "Calls that have ended, by method and status code.")) {
+  auto& in_progress = Gauges(registry, "albtpu_calls_under_way", "Calls that have begun and not ended.");
+  auto& seconds = Histograms(registry, "albtpu_answer_seconds",
+                             "Time from a request to its answer, without the network; in a stream, from the "
+                             "moment that it is the turn of the request.");
+  auto& batch = Histograms(registry, "albtpu_answer_pulses", "Pulses of an answer.");
+  auto& pulses =
+      Counters(registry, "albtpu_pulses_total", "Pulses that were answered, by outcome and the axis that made it.");
   for (std::size_t i = 0; i < kMethodNames.size(); ++i) {
     const prometheus::Labels method = {{"method", kMethodNames[i]}};
     for (const grpc::StatusCode code : kCodesFromStart) Ended(static_cast<Method>(i), code);
@@ -135,10 +123,8 @@ CallMetrics::CallMetrics(prometheus::Registry& registry)
     seconds_[i] = &seconds.Add(method, kSeconds);
     pulses_[i] = &batch.Add(method, kPulses);
   }
-  unread_ = &prometheus::BuildCounter()
-                 .Name("albtpu_unread_answers_total")
-                 .Help("Answers to single calls that were dropped: their callers did not read them.")
-                 .Register(registry)
+  unread_ = &Counters(registry, "albtpu_unread_answers_total",
+                      "Answers to single calls that were dropped: their callers did not read them.")
                  .Add({});
   interpolated_ = &pulses.Add({{"outcome", "INTERPOLATED"}, {"axis", ""}});
   for (AxisId axis : kAxes) {
@@ -178,45 +164,30 @@ prometheus::Counter& CallMetrics::Ended(Method method, std::size_t code) {
 }
 
 AccessMetrics::AccessMetrics(prometheus::Registry& registry)
-    : certificate_expiry_(prometheus::BuildGauge()
-                              .Name("albtpu_certificate_expiry_timestamp_seconds")
-                              .Help("When the certificate ends that new connections are shown.")
-                              .Register(registry)) {
-  refused_connections_ = &prometheus::BuildCounter()
-                              .Name("albtpu_refused_connections_total")
-                              .Help("Connections that were closed at once: there were as many as can be.")
-                              .Register(registry)
+    : certificate_expiry_(Gauges(registry, "albtpu_certificate_expiry_timestamp_seconds",
+                                 "When the certificate ends that new connections are shown.")) {
+  refused_connections_ = &Counters(registry, "albtpu_refused_connections_total",
+                                   "Connections that were closed at once: there were as many as can be.")
                               .Add({});
-  ended_connections_ = &prometheus::BuildCounter()
-                            .Name("albtpu_ended_connections_total")
-                            .Help("Connections that were ended: they had more calls in memory than they may.")
-                            .Register(registry)
+  ended_connections_ = &Counters(registry, "albtpu_ended_connections_total",
+                                 "Connections that were ended: they had more calls in memory than they may.")
                             .Add({});
-  auto& calls = prometheus::BuildCounter()
-                    .Name("albtpu_refused_calls_total")
-                    .Help("Calls that were refused before they reached a method, by reason.")
-                    .Register(registry);
+  auto& calls = Counters(registry, "albtpu_refused_calls_total",
+                         "Calls that were refused before they reached a method, by reason.");
   no_token_ = &calls.Add({{"reason", "no token"}});
   wrong_token_ = &calls.Add({{"reason", "wrong token"}});
 }
 
 ReloadMetrics::ReloadMetrics(prometheus::Registry& registry) {
-  auto& reloads = prometheus::BuildCounter()
-                      .Name("albtpu_reloads_total")
-                      .Help("Reloads of the tables, by result.")
-                      .Register(registry);
+  auto& reloads = Counters(registry, "albtpu_reloads_total", "Reloads of the tables, by result.");
   loaded_ = &reloads.Add({{"result", "loaded"}});
   unchanged_ = &reloads.Add({{"result", "unchanged"}});
   refused_ = &reloads.Add({{"result", "refused"}});
-  last_succeeded_ = &prometheus::BuildGauge()
-                         .Name("albtpu_last_reload_successful")
-                         .Help("1 if the last reload, or the start, took the tables as they lay on disk.")
-                         .Register(registry)
+  last_succeeded_ = &Gauges(registry, "albtpu_last_reload_successful",
+                            "1 if the last reload, or the start, took the tables as they lay on disk.")
                          .Add({}, 1);
-  last_success_time_ = &prometheus::BuildGauge()
-                            .Name("albtpu_last_reload_success_timestamp_seconds")
-                            .Help("When the tables were last taken as they lay on disk.")
-                            .Register(registry)
+  last_success_time_ = &Gauges(registry, "albtpu_last_reload_success_timestamp_seconds",
+                               "When the tables were last taken as they lay on disk.")
                             .Add({});
   last_success_time_->SetToCurrentTime();
 }
@@ -229,10 +200,7 @@ void ReloadMetrics::Count(const LiveTables::ReloadResult& result) {
 }
 
 ServerMetrics::ServerMetrics() {
-  prometheus::BuildGauge()
-      .Name("albtpu_build_info")
-      .Help("1; which program this is.")
-      .Register(*registry)
+  Gauges(*registry, "albtpu_build_info", "1; which program this is.")
       .Add({{"version", std::string(Version())}, {"commit", std::string(Commit())}}, 1);
 }
 

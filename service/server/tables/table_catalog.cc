@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 #include "tables/file/table_io.h"
 
 namespace albtpu::server {
@@ -15,10 +16,9 @@ using Kind = TableCatalog::Change::Kind;
 absl::StatusOr<std::shared_ptr<const TableCatalog::Entry>> Read(const TableFile& file) {
   // Taken before the content is read, so a change during the read is noticed the next time.
   const FileIdentity identity = IdentityOf(file.path);
-  absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
-  if (!table.ok()) return table.status();
+  ASSIGN_OR_RETURN(UncertaintyTable table, ReadTable(file.path));
   return std::make_shared<const TableCatalog::Entry>(
-      TableCatalog::Entry{{file.FullName(), *std::move(table)}, identity});
+      TableCatalog::Entry{{file.FullName(), std::move(table)}, identity});
 }
 
 // Joins the messages of several failures.
@@ -50,20 +50,17 @@ absl::Status CheckNames(const std::vector<TableFile>& files, const std::filesyst
 }  // namespace
 
 absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& folder, std::string_view default_table) {
-  absl::StatusOr<Reloaded> first = TableCatalog(folder, default_table).Reload();
-  if (!first.ok()) return first.status();
-  return std::move(first->catalog);
+  ASSIGN_OR_RETURN(Reloaded first, TableCatalog(folder, default_table).Reload());
+  return std::move(first.catalog);
 }
 
 absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
-  absl::StatusOr<std::vector<TableFile>> files = FindTables(folder_);
-  if (!files.ok()) return files.status();
-  const absl::Status names = CheckNames(*files, folder_, default_table_);
-  if (!names.ok()) return names;
+  ASSIGN_OR_RETURN(std::vector<TableFile> files, FindTables(folder_));
+  RETURN_IF_ERROR(CheckNames(files, folder_, default_table_));
   Reloaded reloaded{TableCatalog(folder_, default_table_), {}};
   TableCatalog& catalog = reloaded.catalog;
   Failures failures;
-  for (TableFile& file : *files) {
+  for (TableFile& file : files) {
     std::shared_ptr<const Entry> entry = EntryOf(file.FullName());
     const bool is_kept = entry != nullptr && entry->identity == IdentityOf(file.path);
     if (!is_kept) {
@@ -92,9 +89,8 @@ std::shared_ptr<const TableCatalog::Entry> TableCatalog::EntryOf(std::string_vie
 }
 
 absl::StatusOr<const TableCatalog::Entry*> TableCatalog::Find(std::string_view request) const {
-  const absl::StatusOr<std::size_t> found = FindTable(files_, request, default_table_);
-  if (!found.ok()) return found.status();
-  return entries_[*found].get();
+  ASSIGN_OR_RETURN(const std::size_t found, FindTable(files_, request, default_table_));
+  return entries_[found].get();
 }
 
 LiveTables::LiveTables(TableCatalog catalog, Listener on_reload)
@@ -140,15 +136,14 @@ void LiveTables::Run() {
 }
 
 LiveTables::ReloadResult LiveTables::ReloadNow() try {
-  absl::StatusOr<TableCatalog::Reloaded> reloaded = current()->Reload();
-  if (!reloaded.ok()) return reloaded.status();
-  auto next = std::make_shared<const TableCatalog>(std::move(reloaded->catalog));
+  ASSIGN_OR_RETURN(TableCatalog::Reloaded reloaded, current()->Reload());
+  auto next = std::make_shared<const TableCatalog>(std::move(reloaded.catalog));
   {
     const std::lock_guard lock(mutex_);
     current_.swap(next);
   }
   // `next` is now the previous catalog, freed here unless calls still use it.
-  return std::move(reloaded->changes);
+  return std::move(reloaded.changes);
 } catch (const std::exception& error) {
   return absl::InternalError(error.what());
 }

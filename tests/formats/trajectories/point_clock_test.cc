@@ -1,7 +1,6 @@
-#include "formats/trajectories/point_clock.h"
-
 #include <gmock/gmock.h>
 
+#include "formats/trajectories/trajectory_time.h"
 #include "sea/sea_time.h"
 
 namespace albtpu::formats {

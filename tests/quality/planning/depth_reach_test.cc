@@ -81,8 +81,8 @@ TEST(DepthReach, CountsTheBias) {
 }
 
 TEST(DepthReach, TakesTheFootprintFromTheDivergence) {
-  EXPECT_DOUBLE_EQ(FootprintAt(400, 0, 1), 0.4);
-  EXPECT_NEAR(FootprintAt(400, 60, 1), 0.8, 1e-12);
+  EXPECT_DOUBLE_EQ(annotate::FootprintAtIncidence(400, 1, 0), 0.4);
+  EXPECT_NEAR(annotate::FootprintAtIncidence(400, 1, 60), 0.8, 1e-12);
 }
 
 SurveyPlan PlanOf(const std::vector<double>& depths) {

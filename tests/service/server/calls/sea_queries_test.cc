@@ -1,7 +1,7 @@
 // Queries with a sea, through a running server.
 #include "sea/table/sea_table.h"
 #include "service/client/wire.h"
-#include "service/seas/sea_pulses.h"
+#include "service/seas/sea_summary.h"
 #include "tables/file/table_encoder.h"
 #include "tests/service/known_seas.h"
 #include "tests/service/server/served_tables.h"
