@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "formats/text/text.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -39,12 +40,6 @@ absl::StatusOr<std::vector<fs::path>> ErrorFilesIn(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -83,7 +78,7 @@ std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
     }
   }
   if (horizontal.empty()) return std::nullopt;
-  return TrajectoryPrecision{MedianOf(std::move(horizontal)), MedianOf(std::move(vertical))};
+  return TrajectoryPrecision{Median(std::move(horizontal)), Median(std::move(vertical))};
 }
 
 using nlohmann::ordered_json;

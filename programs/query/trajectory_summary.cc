@@ -11,13 +11,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
-#include "budget/beams/return_pair.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 #include "service/printable_text.h"
 
 namespace albtpu::programs {
