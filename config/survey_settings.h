@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "budget/water/water_share.h"
+#include "budget/water/water_contribution.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
 #include "config/sensors/sensor.h"
@@ -50,7 +50,7 @@ struct WaterSettings {                                     // [water]
   std::optional<std::string> kd_kind, jerlov;
   std::optional<double> kd_sigma, secchi, absorption, scattering;  // 1/m, m, 1/m, 1/m
   std::optional<double> omega0, omega0_sigma, backscatter_fraction;
-  // The receiver, and what the processing did (water_share.h).
+  // The receiver, and what the processing did (water_contribution.h).
   std::optional<std::string> detector, bias;
   std::optional<double> field_of_view, pulse_length, photons;  // m, ns, 1
   std::optional<double> residual_fraction;
