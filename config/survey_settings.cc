@@ -6,6 +6,7 @@
 #include "absl/strings/str_join.h"
 #include "config/toml/toml_keys.h"
 #include "sea/sea_time.h"
+#include "status/status_macros.h"
 
 namespace albtpu::config {
 FlagKey FindFlag(std::string_view flag) {
@@ -83,10 +84,9 @@ void CheckTogether(TomlKeys&, const Settings&) {}
 }  // namespace
 
 absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const fs::path& folder) {
-  const absl::StatusOr<toml::table> root = ParseToml(text, kSurveyFile);
-  if (!root.ok()) return root.status();
+  ASSIGN_OR_RETURN(const toml::table root, ParseToml(text, kSurveyFile));
   TomlProblem problem(kSurveyFile);
-  TomlKeys keys(*root, "", problem);
+  TomlKeys keys(root, "", problem);
   SurveySettings survey;
   ForEachSection([&](std::string_view name, const auto& table, const auto& section) {
     if (name.find('.') != name.npos) return;  // A table in a section.
@@ -110,9 +110,8 @@ absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const fs::path
 }
 
 absl::StatusOr<SurveySettings> ReadSurvey(const fs::path& path) {
-  const absl::StatusOr<std::string> text = ReadTomlText(path, kSurveyFile);
-  if (!text.ok()) return text.status();
-  absl::StatusOr<SurveySettings> survey = ParseSurvey(*text, path.parent_path());
+  ASSIGN_OR_RETURN(const std::string text, ReadTomlText(path, kSurveyFile));
+  absl::StatusOr<SurveySettings> survey = ParseSurvey(text, path.parent_path());
   if (!survey.ok()) return InFile(path, survey.status());
   return survey;
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "budget/water/water_share.h"
+#include "budget/water/water_contribution.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
 #include "config/sensors/sensor.h"
@@ -50,7 +50,7 @@ struct WaterSettings {                                     // [water]
   std::optional<std::string> kd_kind, jerlov;
   std::optional<double> kd_sigma, secchi, absorption, scattering;  // 1/m, m, 1/m, 1/m
   std::optional<double> omega0, omega0_sigma, backscatter_fraction;
-  // The receiver, and what the processing did (water_share.h).
+  // The receiver, and what the processing did (water_contribution.h).
   std::optional<std::string> detector, bias;
   std::optional<double> field_of_view, pulse_length, photons;  // m, ns, 1
   std::optional<double> residual_fraction;
@@ -212,22 +212,15 @@ inline constexpr std::array<Key<OutputSettings>, 4> kOutputKeys = {{
 // keys are the sources of error.
 template <typename Visit>
 void ForEachSection(const Visit& visit) {
-  visit(
-      "sensor", kSensorKeys, [](auto& all) -> auto& { return all.sensor; });
-  visit(
-      "trajectory", kTrajectoryKeys, [](auto& all) -> auto& { return all.trajectory; });
-  visit(
-      "surface", kSurfaceKeys, [](auto& all) -> auto& { return all.surface; });
-  visit(
-      "sea", kSeaKeys, [](auto& all) -> auto& { return all.sea; });
+  visit("sensor", kSensorKeys, std::mem_fn(&SurveySettings::sensor));
+  visit("trajectory", kTrajectoryKeys, std::mem_fn(&SurveySettings::trajectory));
+  visit("surface", kSurfaceKeys, std::mem_fn(&SurveySettings::surface));
+  visit("sea", kSeaKeys, std::mem_fn(&SurveySettings::sea));
   visit(
       "sea.waves", kWaveKeys, [](auto& all) -> auto& { return all.sea.wave_flags; });
-  visit(
-      "water", kWaterKeys, [](auto& all) -> auto& { return all.water; });
-  visit(
-      "datum", kDatumKeys, [](auto& all) -> auto& { return all.datum; });
-  visit(
-      "output", kOutputKeys, [](auto& all) -> auto& { return all.output; });
+  visit("water", kWaterKeys, std::mem_fn(&SurveySettings::water));
+  visit("datum", kDatumKeys, std::mem_fn(&SurveySettings::datum));
+  visit("output", kOutputKeys, std::mem_fn(&SurveySettings::output));
 }
 
 // A key by its flag, which must be one of a table, and what puts its value into settings.

@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "status/status_macros.h"
 #include "tables/digest.h"
 #include "tables/format.h"
 
@@ -108,8 +109,7 @@ absl::Status CheckVariables(const TableSchema& schema, std::span<const Axis> axe
       return absl::InvalidArgumentError(
           absl::StrFormat("variable '%s' is missing: only biases may be absent", std::string(quantity.name)));
     }
-    const absl::Status status = CheckVariable(axes, quantity, *variables[q]);
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(CheckVariable(axes, quantity, *variables[q]));
   }
   return absl::OkStatus();
 }
@@ -171,10 +171,9 @@ std::size_t ValueCount(std::span<const Axis> axes, const QuantitySchema& quantit
 
 absl::StatusOr<Table> Table::Create(const TableSchema& schema, Axes axes, Variables variables, Provenance provenance) {
   assert(IsWellFormed(schema));
-  absl::Status status = CheckAxes(schema, axes);
-  if (status.ok()) status = CheckVariables(schema, axes, variables);
-  if (status.ok()) status = CheckProvenance(provenance);
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(CheckAxes(schema, axes));
+  RETURN_IF_ERROR(CheckVariables(schema, axes, variables));
+  RETURN_IF_ERROR(CheckProvenance(provenance));
   return Table(schema, std::move(axes), std::move(variables), std::move(provenance));
 }
 

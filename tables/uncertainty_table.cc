@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "status/status_macros.h"
+
 namespace albtpu {
 namespace {
 
@@ -22,11 +24,11 @@ absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(Axes axes, Variables v
 absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(const TableSchema& kind, Axes axes, Variables variables,
                                                           Provenance provenance) {
   assert(IsOfSea(kind));
-  absl::StatusOr<Table> table = Table::Create(
-      kind, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
-      {std::make_move_iterator(variables.begin()), std::make_move_iterator(variables.end())}, std::move(provenance));
-  if (!table.ok()) return table.status();
-  return UncertaintyTable(*std::move(table));
+  ASSIGN_OR_RETURN(Table table,
+                   Table::Create(kind, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
+                                 {std::make_move_iterator(variables.begin()), std::make_move_iterator(variables.end())},
+                                 std::move(provenance)));
+  return UncertaintyTable(std::move(table));
 }
 
 UncertaintyTable::UncertaintyTable(Table table)

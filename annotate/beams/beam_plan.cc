@@ -10,10 +10,10 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "budget/beams/return_pair.h"
 #include "formats/files/file_access.h"
 #include "formats/text/text.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

@@ -13,6 +13,7 @@
 #include "budget/beams/track_check.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sea/samples.h"
+
 namespace albtpu::annotate {
 std::uint64_t HashOfTime(double time) { return MixBits(std::bit_cast<std::uint64_t>(time) + 0x9e3779b97f4a7c15); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -11,6 +12,7 @@
 #include "absl/strings/str_split.h"
 #include "formats/text/text.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 #include "sea/sea_time.h"
 #include "status/status_macros.h"
 
@@ -92,9 +94,7 @@ double LongestGap(const config::SeaSettings& settings, const std::vector<double>
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
   if (steps.empty()) return kBridgedGap;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::clamp(kBridgedSteps * *middle, kBridgedGap, kLongestBridged);
+  return std::clamp(kBridgedSteps * Median(std::move(steps)), kBridgedGap, kLongestBridged);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
     asked.aircraft[BudgetInput::kWaveHeight] =
         sea.wave_heights.empty() ? std::span(&plan.wave_height, 1) : std::span(sea.wave_heights);
   }
-  SeaShare share;
+  SeaContribution share;
   for (std::size_t i = 0; i < share.size(); ++i) share[i] = sea.values[i];
 
   BudgetOutputs outputs;

@@ -171,7 +171,7 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
                                .field_of_view = *settings.field_of_view,
                                .pulse_length = *settings.pulse_length,
                                .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
-  absl::StatusOr<WaterShare> share = WaterShare::Create(table, *optics, receiver, treatment);
+  absl::StatusOr<WaterContribution> share = WaterContribution::Create(table, *optics, receiver, treatment);
   if (!share.ok()) return InWater(share.status());
   if (!settings.processed_with.has_value())
     numbers.push_back(
@@ -184,7 +184,7 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
                      absl::StrCat("[water]: ", kHandlingTexts[static_cast<std::size_t>(treatment.handling)]), false});
   numbers.push_back({"water_table", absl::StrCat(table.table().provenance().id, " ", table.table().digest()),
                      WaterTablePath().string(), false});
-  plan.share = std::make_shared<WaterShare>(*std::move(share));
+  plan.share = std::make_shared<WaterContribution>(*std::move(share));
   return plan;
 }
 
@@ -207,7 +207,7 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
                                      &water.bias_along, &water.bias_vertical, &water.stretch})
     column->resize(plan.share != nullptr ? pulses.size : 0);
   if (plan.share == nullptr || pulses.size == 0) return;
-  const WaterShare& share = *plan.share;
+  const WaterContribution& share = *plan.share;
   share.Compute(incidence, depth,
                 {.bias_along = water.bias_along,
                  .bias_vertical = water.bias_vertical,

@@ -9,7 +9,7 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
 #include "budget/water/refractive_index.h"
-#include "budget/water/water_share.h"
+#include "budget/water/water_contribution.h"
 #include "config/survey_settings.h"
 
 namespace albtpu::annotate {
@@ -23,9 +23,9 @@ struct StatedNumber {
 
 // What a total takes of the water.
 struct WaterPlan {
-  std::shared_ptr<const WaterShare> share;  // null: left out
-  std::optional<double> photons;            // counted in an echo
-  double index = 1.34;                      // of the phase
+  std::shared_ptr<const WaterContribution> share;  // null: left out
+  std::optional<double> photons;                   // counted in an echo
+  double index = 1.34;                             // of the phase
   // Where the processing used another index than that of the water.
   std::optional<WaterIndex> of_water;
   double processed_with = 0;

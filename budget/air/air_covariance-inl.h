@@ -100,7 +100,7 @@ struct BeamNumbers {
   Ned surface;                         // What one metre of the height of the surface does: -k / c.
 };
 
-struct AirShare {
+struct AirContribution {
   NedCovariance pulse, line, survey;
   BeamNumbers beam;
 };
@@ -123,7 +123,7 @@ struct PointErrors {
   }
 };
 
-HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) {
+HWY_INLINE AirContribution AirContributionOf(const AirNumbers& pulse, const AirConstants& is) {
   const F zero = hn::Zero(Floats()), one = Constant(1), radian = Constant(0.017453292519943295f);
   const F inverse_index = Constant(is.inverse_index), inverse_square = Constant(is.inverse_square_index);
   const F given = Constant(is.given);
@@ -153,8 +153,8 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
       (radian * pulse.roll_rate) * forward + (radian * pulse.pitch_rate) * right + (radian * pulse.yaw_rate) * below;
   const Ned by_down = point.ByPosition({zero, zero, one}, given);
 
-  AirShare share;
-  NedCovariance& line = share.line = NoCovariance();
+  AirContribution contribution;
+  NedCovariance& line = contribution.line = NoCovariance();
   line.nn = pulse.position_sigma.n * pulse.position_sigma.n;
   line.ee = pulse.position_sigma.e * pulse.position_sigma.e;
   line.Add(pulse.position_sigma.d * by_down);
@@ -167,7 +167,7 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
   line.Add((radian * pulse.heading_sigma) *
            (point.ByDirection(Cross(vertical, u), given) + point.ByPosition(Cross(vertical, lever), given)));
 
-  NedCovariance& survey = share.survey = NoCovariance();
+  NedCovariance& survey = contribution.survey = NoCovariance();
   const float lever_arm = is.Sigma<&AirErrors::lever_arm>();
   survey.nn = survey.ee = Constant(lever_arm * lever_arm);
   survey.Add(Constant(lever_arm) * by_down);
@@ -181,7 +181,7 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
              Ned{Constant(-2) * w_over_n.n, Constant(-2) * w_over_n.e,
                  sine_refracted * sine_refracted * inverse_index * inverse_down - w_over_n.d});
 
-  NedCovariance& own = share.pulse = NoCovariance();
+  NedCovariance& own = contribution.pulse = NoCovariance();
   const F scan = Constant(is.Sigma<&AirErrors::scan>());
   own.Add(scan * point.ByDirection({c * north, c * east, hn::Neg(incidence.sine)}, Constant(is.scan_given)));
   own.Add((scan * point.by_north_east) * Ned{hn::Neg(east), north, zero});
@@ -191,8 +191,8 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
   own.Add(Constant(is.surface_height[0]) * surface);
   line.Add(Constant(is.surface_height[1]) * surface);
   survey.Add(Constant(is.surface_height[2]) * surface);
-  share.beam = {sine_refracted, down, north, east, surface};
-  return share;
+  contribution.beam = {sine_refracted, down, north, east, surface};
+  return contribution;
 }
 
 }  // namespace HWY_NAMESPACE

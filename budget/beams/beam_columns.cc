@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "budget/beams/arctangent.h"
-#include "budget/beams/refracted_path-inl.h"
+#include "budget/beams/refracted_path.h"
 
 // The code below is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE

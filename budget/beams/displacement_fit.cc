@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sea/response/closed_form.h"
+#include "sea/samples.h"
 
 namespace albtpu {
 namespace {

@@ -19,17 +19,6 @@ double RmsIncidenceSigma(const Eigen::Matrix3d& covariance, double height, doubl
 
 }  // namespace
 
-double IncidenceSigma(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& sensor,
-                      const Eigen::Vector3d& water_point) {
-  const Eigen::Vector3d beam = water_point - sensor;
-  const double range = beam.norm(), distance = beam.head<2>().norm();
-  if (!(distance > 0)) return std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2) / range;
-  Eigen::Vector3d across;
-  across << beam.head<2>() * (beam.z() / distance), -distance;
-  across /= range * range;
-  return std::sqrt(across.dot(covariance * across));
-}
-
 RayTrack::RayTrack(std::vector<RaySegment> segments, const RayTrackOptions& options)
     : segments_(std::move(segments)), options_(options) {
   for (const RaySegment& segment : segments_) {

@@ -38,11 +38,6 @@ struct TrackEstimate {
   double incidence_sigma = 0;          // rad; that of a beam of the segment's median incidence, over all azimuths.
 };
 
-// The standard deviation [rad] of the incidence of a beam from `sensor` to `water_point` by the error of the position:
-// a displacement e changes the angle from the vertical by e . (horizontal, up unit vector across the beam) / range.
-double IncidenceSigma(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& sensor,
-                      const Eigen::Vector3d& water_point);
-
 class RayTrack final : public SensorTrack {
  public:
   RayTrack(std::vector<RaySegment> segments, const RayTrackOptions& options);

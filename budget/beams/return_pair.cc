@@ -5,9 +5,12 @@
 #include <tbb/parallel_sort.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "sea/samples.h"
 
 namespace albtpu {
 namespace {

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -79,20 +77,6 @@ struct AirRay {
 // the two are nearer than `min_separation` [m] or the lower one is not below the upper one, if no ray in air refracts
 // into their direction, or if a number is not finite.
 std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index, double min_separation = 1);
-
-// The middle one of `values`, which are at least one; of an even number the upper one of the two in the middle.
-inline double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// The finalizer of SplitMix64: Steele, Lea and Flood (2014), doi:10.1145/2660193.2660195.
-constexpr std::uint64_t MixBits(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-  return bits ^ (bits >> 31);
-}
 
 // The point at which the rays of a few seconds meet, without a start value.
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "budget/beams/displacement_fit.h"
+#include "sea/samples.h"
 
 namespace albtpu {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sea/angle.h"
+#include "sea/samples.h"
 
 namespace albtpu {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "budget/beams/return_pair.h"
+#include "sea/samples.h"
 
 namespace albtpu {
 namespace {

@@ -119,10 +119,10 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
     axes[i] = 0;
   }
 
-  SeaShare share;
+  SeaContribution contribution;
   for (std::size_t i = 0; i < kQuantityCount; ++i)
-    if (sea.values[i] != nullptr) share[i] = {sea.values[i], count};
-  ComputePulseBudget(piece, share, options, OutputsAt(answers, begin, count));
+    if (sea.values[i] != nullptr) contribution[i] = {sea.values[i], count};
+  ComputePulseBudget(piece, contribution, options, OutputsAt(answers, begin, count));
 
   for (std::size_t i = 0; i < count; ++i) {
     if (outcomes[i] == kInterpolated) continue;
@@ -134,7 +134,7 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
 
 }  // namespace
 
-void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const BudgetOptions& options,
+void ComputePulseBudget(const BudgetPulses& pulses, const SeaContribution& sea, const BudgetOptions& options,
                         const BudgetOutputs& outputs) {
   BudgetInputs inputs = pulses.aircraft;
   const auto sea_axis = static_cast<float>(pulses.sea_axis.value_or(0));

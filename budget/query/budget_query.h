@@ -93,10 +93,10 @@ constexpr bool IsRequired(BudgetInput input) {
 
 // The share of the sea at each pulse, as a table answers it at 2 sigma: a column for each Quantity, or none where it is
 // not known. A bias of NaN is not known.
-using SeaShare = std::array<std::span<const float>, kQuantityCount>;
+using SeaContribution = std::array<std::span<const float>, kQuantityCount>;
 
 // Adds all shares. Every total of files, servers and libraries is computed here.
-void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const BudgetOptions& options,
+void ComputePulseBudget(const BudgetPulses& pulses, const SeaContribution& sea, const BudgetOptions& options,
                         const BudgetOutputs& outputs);
 
 // The pulses from `begin` on.

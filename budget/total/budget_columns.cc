@@ -67,7 +67,8 @@ HWY_INLINE F CovarianceOnAxes(F var_x, F var_y, F cosine, F sine, F cosine_refra
 }
 
 // The contribution of the sea surface.
-HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wave_height, const BeamNumbers& beam) {
+HWY_INLINE NedCovariance SeaContributionOf(F thu, F tvu, F along, F cross, F axis, F wave_height,
+                                           const BeamNumbers& beam) {
   const Floats d;
   const F along2 = along * along, sum = along2 + cross * cross, one = Constant(1), quarter = Constant(0.25f);
   const auto known = hn::And(axis == axis, sum > hn::Zero(d));
@@ -94,7 +95,7 @@ HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wa
 }
 
 // The error of the water column that is common to all pulses of a survey. A positive vertical error is too shallow.
-HWY_INLINE NedCovariance WaterShareOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
+HWY_INLINE NedCovariance WaterContributionOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
   const F held = hn::Max(Constant(-1), hn::Min(correlation, Constant(1)));
   const F along2 = along * along, up = held * (along * vertical);
   return {along2 * (beam.north * beam.north), along2 * (beam.east * beam.east), vertical * vertical,
@@ -112,7 +113,7 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
   for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
     const auto in = [&](BudgetInput input)
                         HWY_ATTR { return hn::Load(d, block.input[static_cast<std::size_t>(input)] + i); };
-    const AirShare air = AirShareOf(
+    const AirContribution air = AirContributionOf(
         {.incidence = in(BudgetInput::kIncidence),
          .beam_azimuth = in(BudgetInput::kBeamAzimuth),
          .altitude = in(BudgetInput::kAltitude),
@@ -130,13 +131,14 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
          .pitch_sigma = in(BudgetInput::kPitchSigma),
          .heading_sigma = in(BudgetInput::kHeadingSigma)},
         is);
-    const NedCovariance sea = SeaShareOf(in(BudgetInput::kSeaThu), in(BudgetInput::kSeaTvu),
-                                         in(BudgetInput::kRefractionAlong), in(BudgetInput::kRefractionCross),
-                                         in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
+    const NedCovariance sea = SeaContributionOf(in(BudgetInput::kSeaThu), in(BudgetInput::kSeaTvu),
+                                                in(BudgetInput::kRefractionAlong), in(BudgetInput::kRefractionCross),
+                                                in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
     NedCovariance survey = air.survey;
     survey.dd = survey.dd + Constant(datum_variance);
-    const NedCovariance water = WaterShareOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
-                                             in(BudgetInput::kWaterCorrelation), air.beam);
+    const NedCovariance water =
+        WaterContributionOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
+                            in(BudgetInput::kWaterCorrelation), air.beam);
     NedCovariance noise = NoCovariance();
     noise.Add(in(BudgetInput::kWaterNoise)*ShortRange(air.beam));
     survey = survey + water;

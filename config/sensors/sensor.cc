@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "formats/text/text.h"
+#include "status/status_macros.h"
 #include "tables/default_tables.h"
 
 namespace albtpu::config {
@@ -98,10 +99,9 @@ std::optional<SourcedDivergence> ReadDivergence(TomlKeys& root) {
 }  // namespace
 
 absl::StatusOr<Sensor> ParseSensor(std::string_view text) {
-  const absl::StatusOr<toml::table> root = ParseToml(text, kSensorFile);
-  if (!root.ok()) return root.status();
+  ASSIGN_OR_RETURN(const toml::table root, ParseToml(text, kSensorFile));
   TomlProblem problem(kSensorFile);
-  TomlKeys keys(*root, "", problem);
+  TomlKeys keys(root, "", problem);
   Sensor sensor;
   sensor.title = keys.Text("title", "what people call the sensor").value_or("");
   for (std::size_t i = 0; i < kErrorSourceCount; ++i)
@@ -115,9 +115,8 @@ absl::StatusOr<Sensor> ParseSensor(std::string_view text) {
 }
 
 absl::StatusOr<Sensor> ReadSensor(const std::filesystem::path& path) {
-  const absl::StatusOr<std::string> text = ReadTomlText(path, kSensorFile);
-  if (!text.ok()) return text.status();
-  absl::StatusOr<Sensor> sensor = ParseSensor(*text);
+  ASSIGN_OR_RETURN(const std::string text, ReadTomlText(path, kSensorFile));
+  absl::StatusOr<Sensor> sensor = ParseSensor(text);
   if (!sensor.ok()) return InFile(path, sensor.status());
   sensor->name = path.stem().string();
   sensor->path = path.string();
@@ -157,9 +156,8 @@ fs::path SensorsDirectory() {
 absl::StatusOr<std::vector<Sensor>> ListSensors() {
   std::vector<Sensor> sensors;
   for (const std::string& name : InstalledNames()) {
-    absl::StatusOr<Sensor> sensor = ReadSensor(PathOf(name));
-    if (!sensor.ok()) return sensor.status();
-    sensors.push_back(*std::move(sensor));
+    ASSIGN_OR_RETURN(Sensor sensor, ReadSensor(PathOf(name)));
+    sensors.push_back(std::move(sensor));
   }
   return sensors;
 }

@@ -168,51 +168,50 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
   return triple;
 }
 
-std::vector<double> TomlKeys::Numbers(std::string_view key) {
-  const std::string expected = "a list of numbers, such as [1, 2, 5]";
-  const toml::array* const list = List(key, expected);
-  std::vector<double> numbers;
-  if (list == nullptr) return numbers;
-  for (const toml::node& element : *list) {
-    const std::optional<double> number = NumberOf(element);
-    if (!number.has_value()) WrongElement(element, key, expected);
-    numbers.push_back(number.value_or(0));
+template <typename Element, typename Read>
+std::vector<Element> TomlKeys::Elements(std::string_view key, const std::string& expected, const Read& read,
+                                        bool may_repeat) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return {};
+  const toml::array* const list = node->as_array();
+  if (list == nullptr) {
+    Wrong(*node, key, expected, "write a list in brackets");
+    return {};
   }
-  return numbers;
+  if (list->empty()) Fail(key, absl::StrCat("is empty (expected ", expected, "); name one or more, or leave it out"));
+  std::vector<Element> elements;
+  for (const toml::node& each : *list) {
+    const std::optional<Element> element = read(each);
+    if (!element.has_value()) {
+      WrongElement(each, key, expected);
+      return {};
+    }
+    if (!may_repeat && std::ranges::find(elements, *element) != elements.end())
+      problem_.Remember(each.source(), absl::StrCat(Quoted(key), "has ", ValueText(each), " twice; name it once"));
+    elements.push_back(*element);
+  }
+  return elements;
+}
+
+std::vector<double> TomlKeys::Numbers(std::string_view key) {
+  return Elements<double>(key, "a list of numbers, such as [1, 2, 5]", NumberOf, true);
 }
 
 std::vector<int> TomlKeys::WholeNumbers(std::string_view key, int least, int greatest) {
-  const std::string expected = absl::StrCat("whole numbers from ", least, " to ", greatest);
-  const toml::array* const list = List(key, expected);
-  std::vector<int> numbers;
-  if (list == nullptr) return numbers;
-  for (const toml::node& element : *list) {
+  const auto read = [&](const toml::node& element) -> std::optional<int> {
     const std::optional<std::int64_t> number = element.value_exact<std::int64_t>();
-    if (!number.has_value() || *number < least || *number > greatest) {
-      WrongElement(element, key, expected);
-      return {};
-    }
-    if (std::ranges::find(numbers, *number) != numbers.end()) Twice(element, key);
-    numbers.push_back(static_cast<int>(*number));
-  }
-  return numbers;
+    if (!number.has_value() || *number < least || *number > greatest) return std::nullopt;
+    return static_cast<int>(*number);
+  };
+  return Elements<int>(key, absl::StrCat("whole numbers from ", least, " to ", greatest), read, false);
 }
 
 std::vector<std::string> TomlKeys::Texts(std::string_view key, std::string_view what) {
-  const std::string expected = absl::StrCat("texts, each ", std::string(what));
-  const toml::array* const list = List(key, expected);
-  std::vector<std::string> texts;
-  if (list == nullptr) return texts;
-  for (const toml::node& element : *list) {
-    const std::optional<std::string> text = element.value_exact<std::string>();
-    if (!text.has_value() || text->empty()) {
-      WrongElement(element, key, expected);
-      return {};
-    }
-    if (std::ranges::find(texts, *text) != texts.end()) Twice(element, key);
-    texts.push_back(*text);
-  }
-  return texts;
+  const auto read = [](const toml::node& element) {
+    std::optional<std::string> text = element.value_exact<std::string>();
+    return text.has_value() && text->empty() ? std::nullopt : text;
+  };
+  return Elements<std::string>(key, absl::StrCat("texts, each ", std::string(what)), read, false);
 }
 
 std::vector<TomlKeys> TomlKeys::Table(std::string_view key) {
@@ -263,25 +262,9 @@ std::string TomlKeys::Quoted(std::string_view key) const {
   return absl::StrCat("'", name_.empty() ? "" : name_ + ".", std::string(key), "' ");
 }
 
-const toml::array* TomlKeys::List(std::string_view key, const std::string& expected) {
-  const toml::node* const node = Find(key);
-  if (node == nullptr) return nullptr;
-  const toml::array* const list = node->as_array();
-  if (list != nullptr && !list->empty()) return list;
-  if (list != nullptr)
-    Fail(key, absl::StrCat("is empty (expected ", expected, "); name one or more, or leave it out"));
-  else
-    Wrong(*node, key, expected, "write a list in brackets");
-  return nullptr;
-}
-
 void TomlKeys::WrongElement(const toml::node& element, std::string_view key, const std::string& expected) {
   problem_.Remember(element.source(),
                     absl::StrCat(Quoted(key), "has ", ValueText(element), " (expected ", expected, "); correct it"));
-}
-
-void TomlKeys::Twice(const toml::node& element, std::string_view key) {
-  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element), " twice; name it once"));
 }
 
 void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::string& expected,

@@ -99,9 +99,9 @@ class TomlKeys {
   const toml::node* Find(std::string_view key);
   std::string Quoted(std::string_view key) const;  // "'sea.tail' "; of the table itself "[sea] "
   void Wrong(const toml::node& node, std::string_view key, const std::string& expected, const std::string& remedy);
-  const toml::array* List(std::string_view key, const std::string& expected);
+  template <typename Element, typename Read>
+  std::vector<Element> Elements(std::string_view key, const std::string& expected, const Read& read, bool may_repeat);
   void WrongElement(const toml::node& element, std::string_view key, const std::string& expected);
-  void Twice(const toml::node& element, std::string_view key);
 
   const toml::table& table_;
   std::string name_;

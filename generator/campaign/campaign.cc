@@ -8,6 +8,7 @@
 #include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 #include "tables/format.h"
 #include "tables/provenance.h"
 
@@ -75,15 +76,14 @@ absl::StatusOr<Campaign> ParseWater(CampaignFile& file, const CampaignHead& head
   const std::optional<std::int64_t> photons = ReadWhole(file, campaign_keys::kPhotons);
   const std::optional<std::int64_t> pairs = ReadWhole(file, campaign_keys::kPairs);
   const std::optional<std::int64_t> checked = ReadWhole(file, campaign_keys::kCheckedBeams);
-  if (const absl::Status status = file.Finish(); !status.ok()) return status;
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeWaterAxes(nodes);
-  if (!axes.ok()) return axes.status();
+  RETURN_IF_ERROR(file.Finish());
+  ASSIGN_OR_RETURN(UncertaintyTable::Axes axes, MakeWaterAxes(nodes));
   Campaign campaign{.text = head.text,
                     .id = head.id,
                     .version = head.version,
                     .title = head.title,
                     .seed = head.seed,
-                    .axes = *std::move(axes),
+                    .axes = std::move(axes),
                     .refractive_index = *refractive_index,
                     .wind_sea = {},
                     .water = WaterWork{.group_index = *group_index,
@@ -92,16 +92,15 @@ absl::StatusOr<Campaign> ParseWater(CampaignFile& file, const CampaignHead& head
                     .effort = {},
                     .rays = std::nullopt,
                     .checked_pulses = static_cast<std::size_t>(*checked)};
-  if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTable(campaign));
   return campaign;
 }
 
 }  // namespace
 
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
-  const absl::StatusOr<toml::table> root = config::ParseToml(text, kCampaignFile);
-  if (!root.ok()) return root.status();
-  CampaignFile file(*root);
+  ASSIGN_OR_RETURN(const toml::table root, config::ParseToml(text, kCampaignFile));
+  CampaignFile file(root);
 
   const std::string id = ReadText(file, campaign_keys::kId);
   const std::string version = ReadText(file, campaign_keys::kVersion);
@@ -125,16 +124,15 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::optional<std::int64_t> rays = ReadWhole(file, campaign_keys::kRays);
   const std::string node_values = ReadText(file, campaign_keys::kNodes);
   const std::optional<std::int64_t> checked_pulses = ReadWhole(file, campaign_keys::kCheckedPulses);
-  if (const absl::Status status = file.Finish(); !status.ok()) return status;
+  RETURN_IF_ERROR(file.Finish());
 
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(*wind_sea.model, nodes);
-  if (!axes.ok()) return axes.status();
+  ASSIGN_OR_RETURN(UncertaintyTable::Axes axes, MakeAxes(*wind_sea.model, nodes));
   Campaign campaign{.text = std::string(text),
                     .id = id,
                     .version = version,
                     .title = title,
                     .seed = static_cast<std::uint64_t>(*seed),
-                    .axes = *std::move(axes),
+                    .axes = std::move(axes),
                     .profile = *FindBeamProfile(profile),
                     .source_height = *source_height,
                     .refractive_index = *refractive_index,
@@ -145,14 +143,13 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
   campaign.balanced_nodes = node_values == "balanced";
   campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
-  if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTable(campaign));
   return campaign;
 }
 
 absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {
-  const absl::StatusOr<std::string> text = config::ReadTomlText(path, kCampaignFile);
-  if (!text.ok()) return text.status();
-  absl::StatusOr<Campaign> campaign = ParseCampaign(*text);
+  ASSIGN_OR_RETURN(const std::string text, config::ReadTomlText(path, kCampaignFile));
+  absl::StatusOr<Campaign> campaign = ParseCampaign(text);
   if (!campaign.ok()) return config::InFile(path, campaign.status());
   return campaign;
 }

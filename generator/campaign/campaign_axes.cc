@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/campaign_keys.h"
+#include "status/status_macros.h"
 #include "tables/water/water_schema.h"
 
 namespace albtpu {
@@ -56,16 +57,6 @@ constexpr std::array kWaterAxisKeys = {campaign_keys::kBackscatterFraction, camp
                                        campaign_keys::kFieldOfView,         campaign_keys::kPulseLength};
 static_assert(kWaterAxisKeys.size() == kAxisCount);
 
-absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
-  std::vector<Axis> axes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    absl::StatusOr<Axis> axis = Axis::Create(kind.axes[i], nodes[i]);
-    if (!axis.ok()) return axis.status();
-    axes.push_back(*std::move(axis));
-  }
-  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
-}
-
 }  // namespace
 
 Nodes ReadNodesOfSea(CampaignFile& file) {
@@ -81,13 +72,21 @@ Nodes ReadNodesOfWater(CampaignFile& file) {
   return nodes;
 }
 
+absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
+  std::vector<Axis> axes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    ASSIGN_OR_RETURN(Axis axis, Axis::Create(kind.axes[i], nodes[i]));
+    axes.push_back(std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
   for (const AxisId axis : kAxes) {
     const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
     if (!problem.empty()) return absl::InvalidArgumentError(problem);
   }
-  const absl::Status fetch = ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
-  if (!fetch.ok()) return fetch;
+  RETURN_IF_ERROR(ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]));
 
   return AxesOfKind(kSeaSurface, nodes);
 }

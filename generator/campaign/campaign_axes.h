@@ -18,6 +18,9 @@ using Nodes = std::array<std::vector<double>, kAxisCount>;
 Nodes ReadNodesOfSea(CampaignFile& file);
 Nodes ReadNodesOfWater(CampaignFile& file);
 
+// The axes of these nodes, in the order of the kind. InvalidArgument if some nodes make no axis.
+absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes);
+
 // Checks the rules for a sea that can be simulated, and then those of all axes. InvalidArgument with the key.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes);
 // The same for the water column.

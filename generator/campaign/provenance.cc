@@ -31,14 +31,11 @@ float AlongAxis(const Axis& axis, double t) {
 }
 
 Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
-  const auto in_degrees = [](const Estimate& radians) {
-    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
-  };
   switch (quantity) {
     case Quantity::kRefractionAlongWind:
-      return in_degrees(beam.refraction_along_wind);
+      return InDegrees(beam.refraction_along_wind);
     case Quantity::kRefractionCrossWind:
-      return in_degrees(beam.refraction_cross_wind);
+      return InDegrees(beam.refraction_cross_wind);
     case Quantity::kThu:
       return beam.thu[0];
     case Quantity::kTvu:

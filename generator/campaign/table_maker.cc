@@ -7,11 +7,9 @@
 #include <utility>
 
 #include "generator/campaign/provenance.h"
-#include "generator/campaign/unit_work.h"
 #include "generator/campaign/water_cases.h"
 #include "generator/math/statistics.h"
-#include "generator/ranks/ranks.h"
-#include "sea/angle.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -66,8 +64,6 @@ void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::ve
   }
 }
 
-namespace {
-
 // The variables of a table, filled in beam by beam.
 class VariableGrid {
  public:
@@ -98,16 +94,14 @@ class VariableGrid {
   UncertaintyTable::Variables variables_;
 };
 
+namespace {
+
 void Round(Variable& variable) {
   for (std::size_t i = 0; i < variable.values.size(); ++i) {
     const auto [value, standard_error] = Rounded({variable.values[i], variable.standard_errors[i]});
     variable.values[i] = static_cast<float>(value);
     variable.standard_errors[i] = static_cast<float>(standard_error);
   }
-}
-
-Estimate InDegrees(const Estimate& radians) {
-  return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
 }
 
 void Store(const BeamUncertainty& result, std::size_t sea_case, std::size_t beam, VariableGrid& grid) {
@@ -162,24 +156,21 @@ TableBuilder::TableBuilder(const Campaign& campaign) : parts_(new Parts(campaign
 TableBuilder::~TableBuilder() = default;
 
 absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
-  const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
-  if (!content.ok()) return content.status();
+  ASSIGN_OR_RETURN(const std::string_view content, OpenUnit(unit, parts_->origin, bytes));
   if (unit.kind != UnitKind::kSeaCase) {
-    absl::StatusOr<std::vector<Estimate>> estimates = DecodeEstimates(*content);
-    if (!estimates.ok()) return estimates.status();
+    ASSIGN_OR_RETURN(std::vector<Estimate> estimates, DecodeEstimates(content));
     const bool checks = unit.kind == UnitKind::kPulse;
-    if (checks && estimates->size() != (parts_->campaign.water ? kCheckedEstimates : kChecked.size()))
+    if (checks && estimates.size() != (parts_->campaign.water ? kCheckedEstimates : kChecked.size()))
       return WrongShape();
-    (checks ? parts_->direct : parts_->water)[unit.index] = *std::move(estimates);
+    (checks ? parts_->direct : parts_->water)[unit.index] = std::move(estimates);
     return absl::OkStatus();
   }
-  absl::StatusOr<SeaCaseResult> result = DecodeResult(*content);
-  if (!result.ok()) return result.status();
-  if (!HasShapeOf(parts_->campaign, *result)) return WrongShape();
-  for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
-    Store(result->beams[beam], unit.index, beam, *parts_->grid);
-  result->beams.clear();
-  parts_->results[unit.index] = *std::move(result);
+  ASSIGN_OR_RETURN(SeaCaseResult result, DecodeResult(content));
+  if (!HasShapeOf(parts_->campaign, result)) return WrongShape();
+  for (std::size_t beam = 0; beam < result.beams.size(); ++beam)
+    Store(result.beams[beam], unit.index, beam, *parts_->grid);
+  result.beams.clear();
+  parts_->results[unit.index] = std::move(result);
   return absl::OkStatus();
 }
 
@@ -193,32 +184,15 @@ absl::StatusOr<Table> TableBuilder::Build() {
     Round(variable);
   }
   Provenance provenance = MakeProvenance(campaign, parts_->results);
-  const absl::StatusOr<UncertaintyTable> table =
-      UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, provenance);
-  if (!table.ok()) return table.status();
+  ASSIGN_OR_RETURN(const UncertaintyTable table,
+                   UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, provenance));
   std::vector<InterpolationError> errors;
   for (std::size_t q = 0; q < kChecked.size(); ++q)
-    errors.push_back(CompareWithTable(campaign, *table, parts_->direct, q));
+    errors.push_back(CompareWithTable(campaign, table, parts_->direct, q));
   DescribeInterpolationErrors(errors, provenance);
-  const absl::StatusOr<UncertaintyTable> described =
-      UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance));
-  if (!described.ok()) return described.status();
-  return described->table();
-}
-
-absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign, const std::function<void(std::size_t)>& done) {
-  TableBuilder builder(campaign);
-  std::size_t finished = 0;
-  const absl::Status computed = ComputeUnits(campaign, UnitsOf(campaign), *OneRank(),
-                                             [&](UnitId unit, const std::string& bytes, const std::string&) {
-                                               const absl::Status added = builder.Add(unit, bytes);
-                                               done(++finished);
-                                               return added;
-                                             });
-  if (!computed.ok()) return computed;
-  absl::StatusOr<Table> table = builder.Build();
-  if (!table.ok()) return table.status();
-  return UncertaintyTable(*std::move(table));
+  ASSIGN_OR_RETURN(const UncertaintyTable described,
+                   UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance)));
+  return described.table();
 }
 
 }  // namespace albtpu

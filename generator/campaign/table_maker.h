@@ -1,7 +1,6 @@
 // From the units of a campaign to a table, with node values that minimize the error of interpolation.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -58,9 +57,5 @@ class TableBuilder {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
-
-// Computes all units of a campaign of a sea in this process (unit_work.h). After each unit, `done` is called with the
-// number of finished units, by one thread at a time.
-absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign, const std::function<void(std::size_t)>& done);
 
 }  // namespace albtpu

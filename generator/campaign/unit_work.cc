@@ -22,6 +22,7 @@
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/provenance.h"
 #include "generator/campaign/water_cases.h"
+#include "status/status_macros.h"
 #include "tables/file/atomic_file.h"
 
 namespace albtpu {
@@ -166,11 +167,10 @@ void Dismiss(Ranks& ranks) {
 }
 
 absl::Status FollowRankZero(Ranks& ranks) {
-  const absl::StatusOr<Campaign> campaign = ParseCampaign(ranks.Receive().bytes);
-  if (!campaign.ok()) return campaign.status();
+  ASSIGN_OR_RETURN(const Campaign campaign, ParseCampaign(ranks.Receive().bytes));
   std::mutex messages;  // held while messages are exchanged
   ComputeAll(
-      *campaign,
+      campaign,
       [&]() -> std::optional<UnitId> {
         const std::lock_guard lock(messages);
         ranks.Send(0, kAsk, "");
@@ -211,9 +211,8 @@ absl::StatusOr<std::string> ReadFile(const fs::path& path) {
 absl::Status WriteOnce(const fs::path& path, const std::string& bytes) {
   const absl::Status written = WriteFileAtomically(path, bytes, Existing::kKeep);
   if (!absl::IsAlreadyExists(written)) return written;
-  const absl::StatusOr<std::string> there = ReadFile(path);
-  if (!there.ok()) return there.status();
-  return *there == bytes ? absl::OkStatus() : written;
+  ASSIGN_OR_RETURN(const std::string there, ReadFile(path));
+  return there == bytes ? absl::OkStatus() : written;
 }
 
 // Calls `visit` with the name of each file of a folder.
@@ -258,8 +257,7 @@ absl::StatusOr<Campaign> WorkFolder::ReadCampaign() const { return albtpu::ReadC
 
 absl::StatusOr<std::vector<UnitId>> WorkFolder::Finished(const std::vector<UnitId>& units) const {
   std::set<std::string> names;
-  const absl::Status listed = ForEachName(folder_, [&](const std::string& name) { names.insert(name); });
-  if (!listed.ok()) return listed;
+  RETURN_IF_ERROR(ForEachName(folder_, [&](const std::string& name) { names.insert(name); }));
   std::vector<UnitId> finished;
   std::copy_if(units.begin(), units.end(), std::back_inserter(finished),
                [&](UnitId unit) { return names.contains(PathOf(unit).filename().string()); });
@@ -268,9 +266,8 @@ absl::StatusOr<std::vector<UnitId>> WorkFolder::Finished(const std::vector<UnitI
 
 absl::Status WorkFolder::Read(const std::vector<UnitId>& units, const Sink& sink) const {
   for (const UnitId unit : units) {
-    const absl::StatusOr<std::string> bytes = ReadFile(PathOf(unit));
-    if (!bytes.ok()) return bytes.status();
-    const absl::Status taken = sink(unit, *bytes);
+    ASSIGN_OR_RETURN(const std::string bytes, ReadFile(PathOf(unit)));
+    const absl::Status taken = sink(unit, bytes);
     if (!taken.ok())
       return absl::Status(taken.code(), absl::StrCat(PathOf(unit).string(), ": ", std::string(taken.message())));
   }

@@ -12,6 +12,7 @@
 #include "generator/math/random_stream.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -240,16 +241,13 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBea
 
 absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign, const std::vector<std::vector<Estimate>>& cases,
                                       const std::vector<std::vector<Estimate>>& direct) {
-  const absl::StatusOr<Table::Variables> variables = VariablesOf(campaign, cases);
-  if (!variables.ok()) return variables.status();
+  ASSIGN_OR_RETURN(const Table::Variables variables, VariablesOf(campaign, cases));
   const Table::Axes axes(campaign.axes.begin(), campaign.axes.end());
   Provenance provenance = ProvenanceOf(campaign);
-  absl::StatusOr<Table> table = Table::Create(kWaterColumn, axes, *variables, provenance);
-  if (!table.ok()) return table.status();
-  const absl::StatusOr<WaterColumnTable> interpolated = WaterColumnTable::Create(*std::move(table));
-  if (!interpolated.ok()) return interpolated.status();
-  DescribeErrors(*interpolated, campaign, direct, provenance);
-  return Table::Create(kWaterColumn, axes, *variables, std::move(provenance));
+  ASSIGN_OR_RETURN(Table table, Table::Create(kWaterColumn, axes, variables, provenance));
+  ASSIGN_OR_RETURN(const WaterColumnTable interpolated, WaterColumnTable::Create(std::move(table)));
+  DescribeErrors(interpolated, campaign, direct, provenance);
+  return Table::Create(kWaterColumn, axes, variables, std::move(provenance));
 }
 
 }  // namespace albtpu

@@ -4,12 +4,18 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "sea/angle.h"
+
 namespace albtpu {
 
 struct Estimate {
   double value = 0;
   double standard_error = 0;
 };
+
+inline Estimate InDegrees(const Estimate& radians) {
+  return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+}
 
 // A control variate: a quantity that correlates with the one to be averaged, realization by realization, and whose
 // expectation is known.

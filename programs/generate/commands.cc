@@ -24,7 +24,6 @@
 #include "tables/uncertainty_table.h"
 #include "tables/version.h"
 #include "tables/water/water_schema.h"
-#include "validation/laboratory/laboratory_studies.h"
 #include "validation/published/published_table.h"
 #include "validation/report/report.h"
 #include "validation/report/study.h"

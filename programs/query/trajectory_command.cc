@@ -17,7 +17,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
-#include "budget/beams/return_pair.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
@@ -28,6 +27,7 @@
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "sea/angle.h"
+#include "sea/samples.h"
 #include "service/printable_text.h"
 #include "status/status_macros.h"
 

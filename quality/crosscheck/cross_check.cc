@@ -13,7 +13,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "budget/beams/return_pair.h"
+#include "sea/samples.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "budget/beams/return_pair.h"
+#include "sea/samples.h"
 
 namespace albtpu::quality {
 namespace {

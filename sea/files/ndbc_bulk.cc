@@ -14,6 +14,7 @@
 #include "sea/files/text_lines.h"
 #include "sea/spectra/equilibrium_wind.h"
 #include "sea/spectra/jonswap.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -48,7 +49,7 @@ class NdbcBulkReader {
     while (const auto line = lines_.Next()) {
       const std::vector<std::string_view> words = Words(*line);
       if (words.empty() || words.front().starts_with('#')) continue;
-      if (absl::Status status = ReadRecord(words); !status.ok()) return status;
+      RETURN_IF_ERROR(ReadRecord(words));
     }
     if (lines_.cut()) return lines_.CutError();
     if (series_.records.empty()) return absl::InvalidArgumentError("none of its records has waves; give another file");
@@ -86,7 +87,7 @@ class NdbcBulkReader {
     for (std::size_t i = 0; i < waves_.size(); ++i)
       if (absl::Status status = AddWaves(words, waves_[i], separated_ && i == 1, components); !status.ok())
         return status;
-    if (absl::Status status = AddWind(words, record); !status.ok()) return status;
+    RETURN_IF_ERROR(AddWind(words, record));
     if (components.empty()) {
       ++without_waves_;
       return absl::OkStatus();
@@ -122,12 +123,9 @@ class NdbcBulkReader {
   }
 
   absl::Status AddWind(const std::vector<std::string_view>& words, SeaRecord& record) {
-    const auto speed = Value(words, wind_speed_, 99);
-    const auto direction = Direction(words, wind_direction_);
-    if (!speed.ok()) return speed.status();
-    if (!direction.ok()) return direction.status();
-    if (*speed) record.wind_speed_10m = WindSpeedAt10m(**speed, anemometer_height_);
-    record.wind_from = *direction;
+    ASSIGN_OR_RETURN(const auto speed, Value(words, wind_speed_, 99));
+    ASSIGN_OR_RETURN(record.wind_from, Direction(words, wind_direction_));
+    if (speed) record.wind_speed_10m = WindSpeedAt10m(*speed, anemometer_height_);
     return absl::OkStatus();
   }
 

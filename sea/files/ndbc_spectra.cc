@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "sea/angle.h"
 #include "sea/files/ndbc_table.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -86,19 +87,17 @@ BinnedWaves WavesOf(const NdbcRow& row, const std::pair<const NdbcRow*, const Nd
 }  // namespace
 
 absl::StatusOr<SeaSeries> ReadNdbcSpectra(const NdbcTexts& texts) {
-  const absl::StatusOr<NdbcTable> energy = ReadNdbcTable(texts.energy, NdbcQuantity::kEnergy);
-  if (!energy.ok()) return energy.status();
-  const auto spread = ReadCompanion(texts.spread, NdbcQuantity::kSpread, energy->real_time, texts.spread_name);
-  if (!spread.ok()) return spread.status();
-  const auto direction =
-      ReadCompanion(texts.direction, NdbcQuantity::kDirection, energy->real_time, texts.direction_name);
-  if (!direction.ok()) return direction.status();
+  ASSIGN_OR_RETURN(const NdbcTable energy, ReadNdbcTable(texts.energy, NdbcQuantity::kEnergy));
+  ASSIGN_OR_RETURN(const auto spread,
+                   ReadCompanion(texts.spread, NdbcQuantity::kSpread, energy.real_time, texts.spread_name));
+  ASSIGN_OR_RETURN(const auto direction,
+                   ReadCompanion(texts.direction, NdbcQuantity::kDirection, energy.real_time, texts.direction_name));
 
-  SeaSeries series{.format = energy->real_time ? "NDBC spectra in real time" : "NDBC spectra of the history"};
+  SeaSeries series{.format = energy.real_time ? "NDBC spectra in real time" : "NDBC spectra of the history"};
   series.record_length = kNdbcRecordLength;
-  const Directions directions(*spread, *direction);
+  const Directions directions(spread, direction);
   std::size_t isotropic = 0, empty = 0;
-  for (const NdbcRow& row : energy->rows) {
+  for (const NdbcRow& row : energy.rows) {
     const auto at = directions.At(row);
     BinnedWaves waves = WavesOf(row, at);
     if (!waves) {

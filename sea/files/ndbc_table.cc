@@ -9,6 +9,7 @@
 #include "sea/files/sea_csv.h"
 #include "sea/files/text_lines.h"
 #include "sea/sea_time.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 NdbcDate NdbcDateColumns(std::span<const std::string_view> header) {
@@ -63,11 +64,11 @@ class NdbcReader {
   absl::StatusOr<NdbcTable> Read() {
     const auto first = lines_.Next();
     if (!first) return lines_.CutError();
-    if (absl::Status status = ReadHeader(*first); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadHeader(*first));
     while (const auto line = lines_.Next()) {
       const std::vector<std::string_view> words = Words(*line);
       if (words.empty() || words.front().starts_with('#')) continue;
-      if (absl::Status status = ReadRow(words); !status.ok()) return status;
+      RETURN_IF_ERROR(ReadRow(words));
     }
     if (lines_.cut()) return lines_.CutError();
     if (table_.rows.empty())
@@ -104,8 +105,7 @@ class NdbcReader {
 
   absl::Status ReadFrequencies(const std::vector<std::string_view>& words) {
     std::vector<double> frequencies;
-    for (std::size_t i = date_.count; i < words.size(); ++i)
-      if (absl::Status status = AddFrequency(words[i], frequencies); !status.ok()) return status;
+    for (std::size_t i = date_.count; i < words.size(); ++i) RETURN_IF_ERROR(AddFrequency(words[i], frequencies));
     return Keep(frequencies);
   }
 
@@ -134,8 +134,7 @@ class NdbcReader {
     const auto time = NdbcTime(words, date_);
     if (!time) return lines_.Error("does not begin with a date and time; get another copy of the file");
     NdbcRow row{.time = *time, .frequencies = nullptr, .values = {}};
-    const absl::Status status = table_.real_time ? ReadPairs(words, row) : ReadValues(words, row);
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(table_.real_time ? ReadPairs(words, row) : ReadValues(words, row));
     row.frequencies = frequencies_;
     values_ += row.values.size();
     if (values_ > kMaxSeaValues || table_.rows.size() >= kMaxSeaRecords)
@@ -151,7 +150,7 @@ class NdbcReader {
                           "); get another copy of the file");
     for (std::size_t i = date_.count; i < words.size(); ++i) {
       has_decimals_ = has_decimals_ || words[i].find('.') != words[i].npos;
-      if (absl::Status status = AddValue(words[i], row); !status.ok()) return status;
+      RETURN_IF_ERROR(AddValue(words[i], row));
     }
     return absl::OkStatus();
   }
@@ -166,8 +165,8 @@ class NdbcReader {
       if (!frequency.starts_with('(') || !frequency.ends_with(')') || frequency.size() < 3)
         return lines_.Error(Quoted(frequency), " is no frequency in parentheses; get another copy of the file");
       frequency = frequency.substr(1, frequency.size() - 2);
-      if (absl::Status status = AddFrequency(frequency, frequencies); !status.ok()) return status;
-      if (absl::Status status = AddValue(words[i], row); !status.ok()) return status;
+      RETURN_IF_ERROR(AddFrequency(frequency, frequencies));
+      RETURN_IF_ERROR(AddValue(words[i], row));
     }
     return Keep(frequencies);
   }

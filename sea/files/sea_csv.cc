@@ -13,6 +13,7 @@
 #include "sea/angle.h"
 #include "sea/files/text_lines.h"
 #include "sea/sea_time.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -100,13 +101,13 @@ class SeaCsvReader {
     while ((line = lines_.Next()) && IsComment(*line)) {
     }
     if (!line) return lines_.CutError();
-    if (absl::Status status = ReadHeader(*line); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadHeader(*line));
     while ((line = lines_.Next())) {
       if (IsComment(*line)) continue;
-      if (absl::Status status = ReadLine(*line); !status.ok()) return status;
+      RETURN_IF_ERROR(ReadLine(*line));
     }
     if (lines_.cut()) return lines_.CutError();
-    if (absl::Status status = Finish(); !status.ok()) return status;
+    RETURN_IF_ERROR(Finish());
     SortByTime(series_);
     return std::move(series_);
   }
@@ -142,8 +143,7 @@ class SeaCsvReader {
       const auto time = ParseSeaTime(cells[0]);
       if (!time)
         return lines_.Error(Quoted(cells[0]), " is no time (expected UTC such as 2020-06-08T03:50Z); correct it");
-      if (!axis_.empty() && time != time_)
-        if (absl::Status status = Finish(); !status.ok()) return status;
+      if (!axis_.empty() && time != time_) RETURN_IF_ERROR(Finish());
       time_ = time;
       cells.erase(cells.begin());
     }

@@ -14,6 +14,7 @@
 #include "sea/files/swan_spectra.h"
 #include "sea/files/text_lines.h"
 #include "sea/files/ww3_points.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -100,12 +101,11 @@ absl::StatusOr<SeaSeries> ReadNdbcFiles(const std::filesystem::path& path, std::
     name[letter] = 'i';
     direction.replace_filename(name);
   }
-  const auto r2 = ReadBeside(spread), alpha2 = ReadBeside(direction);
-  if (!r2.ok()) return r2.status();
-  if (!alpha2.ok()) return alpha2.status();
+  ASSIGN_OR_RETURN(const auto r2, ReadBeside(spread));
+  ASSIGN_OR_RETURN(const auto alpha2, ReadBeside(direction));
   return ReadNdbcSpectra({.energy = energy,
-                          .spread = *r2,
-                          .direction = *alpha2,
+                          .spread = r2,
+                          .direction = alpha2,
                           .spread_name = spread.filename().string(),
                           .direction_name = direction.filename().string()});
 }
@@ -123,11 +123,10 @@ absl::StatusOr<SeaSeries> ReadSeaText(std::string_view text, const SeaFileOption
 }
 
 absl::StatusOr<SeaSeries> ReadSeaFile(const std::filesystem::path& path, const SeaFileOptions& options) {
-  const absl::StatusOr<std::string> text = ReadText(path);
-  if (!text.ok()) return text.status();
-  const std::string_view first_line = FirstLine(*text);
-  if (IsNdbcTable(first_line)) return ReadNdbcFiles(path, *text, first_line);
-  return ReadSeaText(*text, options);
+  ASSIGN_OR_RETURN(const std::string text, ReadText(path));
+  const std::string_view first_line = FirstLine(text);
+  if (IsNdbcTable(first_line)) return ReadNdbcFiles(path, text, first_line);
+  return ReadSeaText(text, options);
 }
 
 }  // namespace albtpu

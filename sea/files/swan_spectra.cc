@@ -10,6 +10,7 @@
 #include "sea/files/sea_csv.h"
 #include "sea/files/text_lines.h"
 #include "sea/files/ww3_points.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -23,9 +24,8 @@ class SwanReader {
   absl::StatusOr<SeaSeries> Read() {
     series_.format = "SWAN spectra";
     series_.points.clear();
-    if (absl::Status status = ReadHeader(); !status.ok()) return status;
-    absl::Status status = ReadSpectra();
-    if (!status.ok()) return status;
+    RETURN_IF_ERROR(ReadHeader());
+    RETURN_IF_ERROR(ReadSpectra());
     if (words_.lines().cut()) return words_.lines().CutError();
     if (series_.records.empty()) return absl::InvalidArgumentError("it has no spectrum; give another file");
     series_.assumed.push_back("waves are taken from the model up to its highest frequency; currents are left out");
@@ -37,26 +37,24 @@ class SwanReader {
 
  private:
   absl::Status ReadHeader() {
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(NextKeyword());
     if (keyword_ != "SWAN") return Unexpected("SWAN");
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(NextKeyword());
     if (keyword_ == "TIME") {
-      const auto option = Count(1);
-      if (!option.ok()) return option.status();
+      RETURN_IF_ERROR(Count(1).status());
       timed_ = true;
-      if (absl::Status status = NextKeyword(); !status.ok()) return status;
+      RETURN_IF_ERROR(NextKeyword());
     }
-    if (absl::Status status = ReadLocations(); !status.ok()) return status;
-    if (absl::Status status = ReadGrid(); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadLocations());
+    RETURN_IF_ERROR(ReadGrid());
     return ReadQuantity();
   }
 
   absl::Status ReadLocations() {
     const bool geographic = keyword_ == "LONLAT";
     if (!geographic && keyword_ != "LOCATIONS") return Unexpected("LONLAT or LOCATIONS");
-    const auto count = Count(kMaxSeaRecords);
-    if (!count.ok()) return count.status();
-    for (std::size_t i = 0; i < *count; ++i) {
+    ASSIGN_OR_RETURN(const auto count, Count(kMaxSeaRecords));
+    for (std::size_t i = 0; i < count; ++i) {
       const auto line = words_.NextLine();
       if (!line) return words_.lines().CutError();
       const std::vector<std::string_view> words = Words(*line);
@@ -74,20 +72,18 @@ class SwanReader {
 
   absl::Status ReadGrid() {
     if (keyword_ != "AFREQ" && keyword_ != "RFREQ") return Unexpected("AFREQ or RFREQ");
-    auto frequencies = ReadAxis("a frequency");
-    if (!frequencies.ok()) return frequencies.status();
+    ASSIGN_OR_RETURN(auto frequencies, ReadAxis("a frequency"));
     const bool cartesian = keyword_ == "CDIR";
     if (keyword_ == "QUANT")
       return words_.lines().Error("the spectra have no directions; write them by SPECOUT with SPEC2D");
     if (!cartesian && keyword_ != "NDIR") return Unexpected("NDIR or CDIR");
-    auto directions = ReadAxis("a direction");
-    if (!directions.ok()) return directions.status();
-    const auto [least, largest] = std::minmax_element(directions->begin(), directions->end());
+    ASSIGN_OR_RETURN(auto directions, ReadAxis("a direction"));
+    const auto [least, largest] = std::minmax_element(directions.begin(), directions.end());
     if (*largest - *least <= 2 * std::numbers::pi)
       return words_.lines().Error("the directions reach from ", *least, " to ", *largest,
                                   " degrees (a turn in radians is as wide); write directions in degrees");
-    for (double& direction : *directions) direction = RadiansOfDegrees(cartesian ? 90 - direction : direction);
-    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*std::move(frequencies), *std::move(directions));
+    for (double& direction : directions) direction = RadiansOfDegrees(cartesian ? 90 - direction : direction);
+    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(std::move(frequencies), std::move(directions));
     if (!grid.ok()) return words_.lines().Error(grid.status().message());
     grid_ = *std::move(grid);
     return absl::OkStatus();
@@ -95,10 +91,9 @@ class SwanReader {
 
   // The numbers behind a keyword, one on each line; then comes the next keyword.
   absl::StatusOr<std::vector<double>> ReadAxis(std::string_view what) {
-    const auto count = Count(kMaxFrequencies);
-    if (!count.ok()) return count.status();
+    ASSIGN_OR_RETURN(const auto count, Count(kMaxFrequencies));
     std::vector<double> axis;
-    for (std::size_t i = 0; i < *count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const auto line = words_.NextLine();
       if (!line) return words_.lines().CutError();
       const auto number = ParseNumber(Words(*line)[0]);
@@ -106,26 +101,24 @@ class SwanReader {
         return words_.lines().Error(Quoted(*line), " is not ", std::string(what), "; get another copy of the file");
       axis.push_back(*number);
     }
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(NextKeyword());
     return axis;
   }
 
   absl::Status ReadQuantity() {
     if (keyword_ != "QUANT") return Unexpected("QUANT");
-    const auto count = Count(1);
-    if (!count.ok()) return count.status();
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(Count(1).status());
+    RETURN_IF_ERROR(NextKeyword());
     const std::string quantity = keyword_;
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(NextKeyword());
     const bool energy = quantity == "EnDens", variance = quantity == "VaDens";
     if (!(energy && keyword_ == "J/m2/Hz/degr") && !(variance && keyword_ == "m2/Hz/degr"))
       return words_.lines().Error(
           "states ", Quoted(quantity), " in ", Quoted(keyword_),
           " (expected VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr); write spectra of variance");
     unit_ = DegreesOfRadians(energy ? 1 / kSwanWeight : 1);
-    const auto exception = words_.Numbers(1, "an exception value");
-    if (!exception.ok()) return exception.status();
-    exception_ = exception->front();
+    ASSIGN_OR_RETURN(const auto exception, words_.Numbers(1, "an exception value"));
+    exception_ = exception.front();
     return absl::OkStatus();
   }
 
@@ -147,7 +140,7 @@ class SwanReader {
           if (!next) return words_.lines().CutError();
           first = Words(*next)[0];
         }
-        if (absl::Status status = ReadSpectrum(first, point, time); !status.ok()) return status;
+        RETURN_IF_ERROR(ReadSpectrum(first, point, time));
       }
     }
     return absl::OkStatus();
@@ -162,18 +155,16 @@ class SwanReader {
     if (keyword == "ZERO") {
       record.waves = grid_->NoWaves();
     } else if (keyword == "FACTOR") {
-      const auto factor = words_.Numbers(1, "a factor");
-      if (!factor.ok()) return factor.status();
-      auto densities = words_.Numbers(grid_->size(), "a spectral density");
-      if (!densities.ok()) return densities.status();
-      for (double& density : *densities) {
+      ASSIGN_OR_RETURN(const auto factor, words_.Numbers(1, "a factor"));
+      ASSIGN_OR_RETURN(auto densities, words_.Numbers(grid_->size(), "a spectral density"));
+      for (double& density : densities) {
         if (density == exception_) {
           ++without_data_;
           return absl::OkStatus();
         }
-        density *= factor->front() * unit_;
+        density *= factor.front() * unit_;
       }
-      absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*densities, SpectralGrid::Order::kDirectionFirst);
+      absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(densities, SpectralGrid::Order::kDirectionFirst);
       if (!waves.ok()) return words_.lines().Error(waves.status().message());
       record.waves = *std::move(waves);
     } else {
@@ -198,7 +189,7 @@ class SwanReader {
 
   // A count from 1 to `most`, alone on a line.
   absl::StatusOr<std::size_t> Count(std::size_t most) {
-    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    RETURN_IF_ERROR(NextKeyword());
     const auto count = ParseCount(keyword_);
     if (!count || *count < 1 || static_cast<std::size_t>(*count) > most)
       return words_.lines().Error("states ", Quoted(keyword_), " (expected ",

@@ -13,6 +13,8 @@
 #include "sea/angle.h"
 #include "sea/files/sea_csv.h"
 #include "sea/files/text_lines.h"
+#include "sea/samples.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -36,9 +38,7 @@ std::vector<double> Widths(const std::vector<double>& directions) {
   if (std::all_of(gaps.begin(), gaps.end(), [&](double gap) { return std::abs(gap - equal) < 0.1 * equal; }))
     return std::vector<double>(n, equal);
 
-  std::vector<double> sorted = gaps;
-  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-  const double widest = 2 * sorted[n / 2];
+  const double widest = 2 * Median(gaps);
   std::vector<double> widths(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double before = gaps[(i + n - 1) % n], behind = gaps[i];
@@ -136,9 +136,8 @@ class Ww3Reader {
   absl::StatusOr<SeaSeries> Read() {
     series_.format = "point output of WAVEWATCH III";
     series_.points.clear();
-    if (absl::Status status = ReadHeader(); !status.ok()) return status;
-    while (const auto line = words_.NextLine())
-      if (absl::Status status = ReadTime(*line); !status.ok()) return status;
+    RETURN_IF_ERROR(ReadHeader());
+    while (const auto line = words_.NextLine()) RETURN_IF_ERROR(ReadTime(*line));
     if (words_.lines().cut()) return words_.lines().CutError();
     if (series_.records.empty())
       return absl::InvalidArgumentError("it has a header and no record; get another copy of the file");
@@ -161,15 +160,13 @@ class Ww3Reader {
             "does not state the numbers of frequencies, directions and points; get another copy of the file");
       (i == 0 ? frequencies_ : i == 1 ? directions_ : points_) = static_cast<std::size_t>(*count);
     }
-    const auto frequencies = words_.Numbers(frequencies_, "a frequency");
-    if (!frequencies.ok()) return frequencies.status();
-    const auto directions = words_.Numbers(directions_, "a direction");
-    if (!directions.ok()) return directions.status();
-    for (const double direction : *directions)
+    ASSIGN_OR_RETURN(const auto frequencies, words_.Numbers(frequencies_, "a frequency"));
+    ASSIGN_OR_RETURN(const auto directions, words_.Numbers(directions_, "a direction"));
+    for (const double direction : directions)
       if (std::abs(direction) > kLargestDirection)
         return words_.lines().Error("a direction is ", direction,
                                     " rad (expected 0 to 2 pi); write directions in radians");
-    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*frequencies, *directions);
+    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(frequencies, directions);
     if (!grid.ok()) return words_.lines().Error(grid.status().message());
     grid_ = *std::move(grid);
     return absl::OkStatus();
@@ -179,8 +176,7 @@ class Ww3Reader {
     const std::vector<std::string_view> words = Words(line);
     const auto time = words.size() == 2 ? SecondsOfDigits(words[0], words[1]) : std::nullopt;
     if (!time) return words_.lines().Error(Quoted(line), " is no date and time; get another copy of the file");
-    for (std::size_t i = 0; i < points_; ++i)
-      if (absl::Status status = ReadPoint(*time); !status.ok()) return status;
+    for (std::size_t i = 0; i < points_; ++i) RETURN_IF_ERROR(ReadPoint(*time));
     return absl::OkStatus();
   }
 
@@ -204,9 +200,8 @@ class Ww3Reader {
                      .water_depth = numbers[2],
                      .wind_speed_10m = numbers[3],
                      .wind_from = RadiansOfDegrees(numbers[4])};
-    const auto density = words_.Numbers(frequencies_ * directions_, "a spectral density");
-    if (!density.ok()) return density.status();
-    absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*density, SpectralGrid::Order::kFrequencyFirst);
+    ASSIGN_OR_RETURN(const auto density, words_.Numbers(frequencies_ * directions_, "a spectral density"));
+    absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(density, SpectralGrid::Order::kFrequencyFirst);
     if (!waves.ok()) return words_.lines().Error(waves.status().message());
     record.waves = *std::move(waves);
     values_ += frequencies_ * (1 + 2 * kSeaHarmonics);

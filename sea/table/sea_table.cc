@@ -13,6 +13,7 @@
 #include "sea/spectra/sea_error.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/table/sea_attributes.h"
+#include "status/status_macros.h"
 #include "tables/version.h"
 
 namespace albtpu {
@@ -137,9 +138,8 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea) c
 absl::StatusOr<UncertaintyTable::Axes> SeaCompiler::AxesFor(double wind_speed) const {
   const SeaTableNodes& nodes = options_.nodes;
   // A wind derived from absurd waves may be infinite.
-  absl::StatusOr<Axis> wind = Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {static_cast<float>(wind_speed)});
-  if (!wind.ok()) return wind.status();
-  return UncertaintyTable::Axes{*std::move(wind),
+  ASSIGN_OR_RETURN(Axis wind, Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {static_cast<float>(wind_speed)}));
+  return UncertaintyTable::Axes{std::move(wind),
                                 MakeAxis(AxisId::kFetch, {1}),
                                 MakeAxis(AxisId::kIncidence, nodes.incidences),
                                 MakeAxis(AxisId::kAzimuth, nodes.azimuths),

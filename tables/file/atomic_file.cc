@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -166,7 +167,7 @@ void OutputFile::Discard::operator()(Temporary* temporary) const {
 OutputFile::OutputFile(std::unique_ptr<Temporary> temporary) : temporary_(temporary.release()) {}
 
 absl::StatusOr<OutputFile> OutputFile::Create(const std::filesystem::path& path, Existing existing) {
-  if (absl::Status status = CheckTarget(path, existing); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTarget(path, existing));
   std::unique_ptr<Temporary> temporary(new Temporary{path, existing, OpenUnnamed(FolderOf(path))});
   if (temporary->descriptor >= 0) return OutputFile(std::move(temporary));
   temporary->descriptor = MakeTemporary(FolderOf(path), temporary->temporary_path, [](const char* name) {
@@ -216,7 +217,7 @@ absl::Status OutputFile::Sync() {
 
 absl::Status OutputFile::Commit() {
   Temporary& temporary = *temporary_;
-  if (absl::Status status = Sync(); !status.ok()) return status;
+  RETURN_IF_ERROR(Sync());
   if (temporary.temporary_path.empty()) {
     std::string name;
     const std::string unnamed = InProc(temporary.descriptor);
@@ -229,7 +230,7 @@ absl::Status OutputFile::Commit() {
   }
   if (close(std::exchange(temporary.descriptor, -1)) != 0) return SystemError(temporary.path, kMakeRoom);
   // Check again: another program may have created the file meanwhile.
-  if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckTarget(temporary.path, temporary.existing));
   const char* from = temporary.temporary_path.c_str();
   const char* to = temporary.path.c_str();
   const int renamed = temporary.existing == Existing::kReplace ? std::rename(from, to) : RenameToFreeName(from, to);
@@ -247,10 +248,9 @@ absl::Status OutputFile::Commit() {
 }
 
 absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes, Existing existing) {
-  absl::StatusOr<OutputFile> file = OutputFile::Create(path, existing);
-  if (!file.ok()) return file.status();
-  if (absl::Status status = file->Write(bytes); !status.ok()) return status;
-  return file->Commit();
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(path, existing));
+  RETURN_IF_ERROR(file.Write(bytes));
+  return file.Commit();
 }
 
 bool IsTemporaryName(std::string_view name) {

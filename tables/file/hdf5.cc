@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "absl/strings/str_format.h"
+#include "status/status_macros.h"
 #include "tables/format.h"
 
 namespace albtpu::hdf5 {
@@ -88,9 +89,8 @@ absl::Status CheckChunks(hid_t dataset, hid_t creation, const std::vector<hsize_
       return Problem("has chunks of more than %d values, the most that a chunk may have", format::kMaxChunkValues);
     values *= std::max<hsize_t>(size, 1);
   }
-  const absl::StatusOr<std::size_t> behind = BytesBehindDeflate(creation);
-  if (!behind.ok()) return behind.status();
-  Chunks chunks(dataset, values * sizeof(float), *behind);
+  ASSIGN_OR_RETURN(const std::size_t behind, BytesBehindDeflate(creation));
+  Chunks chunks(dataset, values * sizeof(float), behind);
   std::vector<hsize_t> offset(shape.size());
   do {
     if (!chunks.IsWhole(offset)) return Problem("has a chunk that is missing or damaged");
@@ -153,7 +153,7 @@ absl::Status CheckSize(std::size_t count, std::size_t size, const std::string& n
 
 absl::StatusOr<AttributeValue> ReadFixedText(hid_t attribute, hid_t type, const std::string& name) {
   const std::size_t size = H5Tget_size(type);
-  if (const absl::Status status = CheckSize(size, 1, name); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckSize(size, 1, name));
   std::string text(size, '\0');
   const Handle memory_type(H5Tcopy(type), H5Tclose);
   if (H5Aread(attribute, memory_type, text.data()) < 0) return Unreadable(name);
@@ -166,7 +166,7 @@ absl::StatusOr<AttributeValue> ReadVariableText(hid_t attribute, hid_t type, con
   if (H5Aread(attribute, memory_type, &text) < 0) return Unreadable(name);
   std::string copy(text == nullptr ? "" : text);
   H5free_memory(text);
-  if (const absl::Status status = CheckSize(copy.size(), 1, name); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckSize(copy.size(), 1, name));
   return copy;
 }
 
@@ -178,7 +178,7 @@ absl::StatusOr<AttributeValue> ReadNumber(hid_t attribute, hid_t memory_type, co
 }
 
 absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const std::string& name) {
-  if (const absl::Status status = CheckSize(count, sizeof(double), name); !status.ok()) return status;
+  RETURN_IF_ERROR(CheckSize(count, sizeof(double), name));
   std::vector<double> numbers(count);
   if (H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0) return Unreadable(name);
   return numbers;

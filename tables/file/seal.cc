@@ -6,6 +6,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_format.h"
+#include "status/status_macros.h"
 #include "tables/digest.h"
 
 namespace albtpu::seal {
@@ -79,8 +80,7 @@ absl::Status CheckHeader(absl::string_view head, std::uint64_t file_length) {
 }
 
 absl::Status Check(absl::string_view file) {
-  absl::Status status = CheckHeader(file.substr(0, kSize), file.size());
-  if (!status.ok()) return status;
+  RETURN_IF_ERROR(CheckHeader(file.substr(0, kSize), file.size()));
   const Sha256Digest digest = DigestOf(file);
   if (std::memcmp(file.data() + kDigestOffset, digest.data(), kDigestSize) != 0)
     return absl::DataLossError("is damaged: its bytes do not have the SHA-256 of its seal");

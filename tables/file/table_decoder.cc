@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "status/status_macros.h"
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
@@ -87,35 +88,30 @@ absl::StatusOr<Scale> ReadScale(const FloatDataset& dataset, std::string_view ki
 }
 
 absl::StatusOr<Axis> ReadAxis(hid_t file, const AxisSchema& schema) {
-  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "axis", schema.name);
-  if (!dataset.ok()) return dataset.status();
-  if (dataset->shape.size() != 1)
-    return About("axis", dataset->name, absl::StrFormat("has %d dimensions: it should have 1", dataset->shape.size()));
-  if (dataset->shape[0] > format::kMaxNodeCount) {
-    return About("axis", dataset->name,
-                 absl::StrFormat("has %d nodes: it may have %d at most", dataset->shape[0], format::kMaxNodeCount));
+  ASSIGN_OR_RETURN(const FloatDataset dataset, OpenDataset(file, "axis", schema.name));
+  if (dataset.shape.size() != 1)
+    return About("axis", dataset.name, absl::StrFormat("has %d dimensions: it should have 1", dataset.shape.size()));
+  if (dataset.shape[0] > format::kMaxNodeCount) {
+    return About("axis", dataset.name,
+                 absl::StrFormat("has %d nodes: it may have %d at most", dataset.shape[0], format::kMaxNodeCount));
   }
-  const absl::Status units = CheckUnits(*dataset, "axis", schema.units);
-  if (!units.ok()) return units;
-  const absl::StatusOr<Scale> scale = ReadScale(*dataset, "axis");
-  if (!scale.ok()) return scale.status();
-  const absl::StatusOr<std::vector<float>> nodes = ReadFloats(*dataset, "axis");
-  if (!nodes.ok()) return nodes.status();
-  return Axis::Create(schema, {nodes->begin(), nodes->end()}, *scale);
+  RETURN_IF_ERROR(CheckUnits(dataset, "axis", schema.units));
+  ASSIGN_OR_RETURN(const Scale scale, ReadScale(dataset, "axis"));
+  ASSIGN_OR_RETURN(const std::vector<float> nodes, ReadFloats(dataset, "axis"));
+  return Axis::Create(schema, {nodes.begin(), nodes.end()}, scale);
 }
 
 absl::StatusOr<Table::Axes> ReadAxes(hid_t file, const TableSchema& schema) {
   Table::Axes axes;
   std::size_t count = 1;
   for (const AxisSchema& axis_schema : schema.axes) {
-    absl::StatusOr<Axis> axis = ReadAxis(file, axis_schema);
-    if (!axis.ok()) return axis.status();
-    if (axis->size() > format::kMaxValueCount / count) {
+    ASSIGN_OR_RETURN(Axis axis, ReadAxis(file, axis_schema));
+    if (axis.size() > format::kMaxValueCount / count) {
       return absl::InvalidArgumentError(
           absl::StrFormat("the axes span more than %d nodes, the most that a table may have", format::kMaxValueCount));
     }
-    count *= axis->size();
-    axes.push_back(*std::move(axis));
+    count *= axis.size();
+    axes.push_back(std::move(axis));
   }
   return axes;
 }
@@ -131,8 +127,7 @@ absl::StatusOr<std::vector<float>> ReadValues(const FloatDataset& dataset, const
                  absl::StrFormat("has the shape (%s): its axes have (%s)", absl::StrJoin(dataset.shape, ", "),
                                  absl::StrJoin(expected, ", ")));
   }
-  const absl::Status units = CheckUnits(dataset, "variable", quantity.units);
-  if (!units.ok()) return units;
+  RETURN_IF_ERROR(CheckUnits(dataset, "variable", quantity.units));
   return ReadFloats(dataset, "variable");
 }
 
@@ -141,21 +136,16 @@ absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const Table::Ax
                                                      const QuantitySchema& quantity) {
   const std::string name(quantity.name);
   if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
-  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "variable", name);
-  if (!dataset.ok()) return dataset.status();
-  absl::StatusOr<std::vector<float>> values = ReadValues(*dataset, axes, quantity);
-  if (!values.ok()) return values.status();
-  const absl::StatusOr<Scale> scale = ReadScale(*dataset, "variable");
-  if (!scale.ok()) return scale.status();
-  Variable variable{*std::move(values), {}, *scale};
+  ASSIGN_OR_RETURN(const FloatDataset dataset, OpenDataset(file, "variable", name));
+  ASSIGN_OR_RETURN(std::vector<float> values, ReadValues(dataset, axes, quantity));
+  ASSIGN_OR_RETURN(const Scale scale, ReadScale(dataset, "variable"));
+  Variable variable{std::move(values), {}, scale};
 
   const std::string error_name = name + std::string(kStandardErrorSuffix);
   if (H5Lexists(file, error_name.c_str(), H5P_DEFAULT) <= 0) return variable;
-  const absl::StatusOr<FloatDataset> errors = OpenDataset(file, "variable", error_name);
-  if (!errors.ok()) return errors.status();
-  absl::StatusOr<std::vector<float>> standard_errors = ReadValues(*errors, axes, quantity);
-  if (!standard_errors.ok()) return standard_errors.status();
-  variable.standard_errors = *std::move(standard_errors);
+  ASSIGN_OR_RETURN(const FloatDataset errors, OpenDataset(file, "variable", error_name));
+  ASSIGN_OR_RETURN(std::vector<float> standard_errors, ReadValues(errors, axes, quantity));
+  variable.standard_errors = std::move(standard_errors);
   return variable;
 }
 
@@ -164,28 +154,24 @@ absl::StatusOr<Provenance> ReadProvenance(hid_t file) {
   for (const auto& [name, member] :
        {std::pair(format::kId, &Provenance::id), std::pair(format::kVersion, &Provenance::version),
         std::pair(format::kTitle, &Provenance::title), std::pair(format::kCampaign, &Provenance::campaign)}) {
-    absl::StatusOr<std::string> text = ReadText(file, name);
-    if (!text.ok()) return text.status();
-    provenance.*member = *std::move(text);
+    ASSIGN_OR_RETURN(std::string text, ReadText(file, name));
+    provenance.*member = std::move(text);
   }
-  const absl::StatusOr<std::vector<std::string>> names = hdf5::AttributeNames(file);
-  if (!names.ok()) return names.status();
+  ASSIGN_OR_RETURN(const std::vector<std::string> names, hdf5::AttributeNames(file));
   const auto& reserved = format::kReservedAttributes;
-  for (const std::string& name : *names) {
+  for (const std::string& name : names) {
     if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) continue;
-    absl::StatusOr<AttributeValue> value = hdf5::ReadAttribute(file, name);
-    if (!value.ok()) return value.status();
-    provenance.attributes[name] = *std::move(value);
+    ASSIGN_OR_RETURN(AttributeValue value, hdf5::ReadAttribute(file, name));
+    provenance.attributes[name] = std::move(value);
   }
   return provenance;
 }
 
 absl::Status CheckCoverage(hid_t file) {
-  const absl::StatusOr<std::string> coverage = ReadText(file, format::kCoverage);
-  if (!coverage.ok()) return coverage.status();
-  if (*coverage == format::kCoverageValue) return absl::OkStatus();
+  ASSIGN_OR_RETURN(const std::string coverage, ReadText(file, format::kCoverage));
+  if (coverage == format::kCoverageValue) return absl::OkStatus();
   return About("attribute", std::string(format::kCoverage),
-               absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
+               absl::StrFormat("is '%s': it should be '%s'", coverage, std::string(format::kCoverageValue)));
 }
 
 using Kinds = std::span<const TableSchema* const>;
@@ -195,13 +181,12 @@ using Kinds = std::span<const TableSchema* const>;
 absl::StatusOr<const TableSchema*> KindOf(hid_t file, Kinds kinds) {
   std::string kind(format::kDefaultTableKind);
   if (H5Aexists(file, std::string(format::kTableKind).c_str()) > 0) {
-    const absl::StatusOr<std::string> named = ReadText(file, format::kTableKind);
-    if (!named.ok()) return named.status();
-    if (*named == format::kDefaultTableKind) {
+    ASSIGN_OR_RETURN(const std::string named, ReadText(file, format::kTableKind));
+    if (named == format::kDefaultTableKind) {
       return About("attribute", std::string(format::kTableKind),
-                   absl::StrFormat("is '%s': files of that kind do not have it", *named));
+                   absl::StrFormat("is '%s': files of that kind do not have it", named));
     }
-    kind = *named;
+    kind = named;
   }
   std::vector<std::string> names;
   for (const TableSchema* schema : kinds) {
@@ -236,36 +221,29 @@ absl::Status CheckStoredOnce(hid_t file, const TableSchema& schema, std::size_t 
 }
 
 absl::StatusOr<Table> ReadContents(hid_t file, Kinds kinds, std::size_t length) {
-  const absl::StatusOr<const TableSchema*> kind = KindOf(file, kinds);
-  if (!kind.ok()) return kind.status();
-  const TableSchema& schema = **kind;
-  absl::Status status = CheckCoverage(file);
-  if (status.ok()) status = CheckStoredOnce(file, schema, length);
-  if (!status.ok()) return status;
-  absl::StatusOr<Table::Axes> axes = ReadAxes(file, schema);
-  if (!axes.ok()) return axes.status();
+  ASSIGN_OR_RETURN(const TableSchema* kind, KindOf(file, kinds));
+  const TableSchema& schema = *kind;
+  RETURN_IF_ERROR(CheckCoverage(file));
+  RETURN_IF_ERROR(CheckStoredOnce(file, schema, length));
+  ASSIGN_OR_RETURN(Table::Axes axes, ReadAxes(file, schema));
   Table::Variables variables;
   for (const QuantitySchema& quantity : schema.quantities) {
-    absl::StatusOr<std::optional<Variable>> variable = ReadVariable(file, *axes, quantity);
-    if (!variable.ok()) return variable.status();
-    variables.push_back(*std::move(variable));
+    ASSIGN_OR_RETURN(std::optional<Variable> variable, ReadVariable(file, axes, quantity));
+    variables.push_back(std::move(variable));
   }
-  absl::StatusOr<Provenance> provenance = ReadProvenance(file);
-  if (!provenance.ok()) return provenance.status();
-  const absl::StatusOr<std::string> digest = ReadText(file, format::kContentDigest);
-  if (!digest.ok()) return digest.status();
+  ASSIGN_OR_RETURN(Provenance provenance, ReadProvenance(file));
+  ASSIGN_OR_RETURN(const std::string digest, ReadText(file, format::kContentDigest));
 
-  absl::StatusOr<Table> table = Table::Create(schema, *std::move(axes), std::move(variables), *std::move(provenance));
-  if (table.ok() && table->digest() != *digest) {
+  absl::StatusOr<Table> table = Table::Create(schema, std::move(axes), std::move(variables), std::move(provenance));
+  if (table.ok() && table->digest() != digest) {
     return About("attribute", std::string(format::kContentDigest),
-                 absl::StrFormat("is '%s': the content has '%s'", *digest, table->digest()));
+                 absl::StrFormat("is '%s': the content has '%s'", digest, table->digest()));
   }
   return table;
 }
 
 absl::StatusOr<Table> Decode(absl::string_view file, Kinds kinds) {
-  const absl::Status sealed = seal::Check(file);
-  if (!sealed.ok()) return sealed;
+  RETURN_IF_ERROR(seal::Check(file));
   const hdf5::Session session;
   // HDF5 reads the very bytes that were checked, not the file again.
   const Handle image = hdf5::OpenImage(file);
@@ -281,9 +259,8 @@ absl::StatusOr<Table> DecodeTable(absl::string_view file, const TableSchema& sch
 }
 
 absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
-  absl::StatusOr<Table> table = Decode(file, UncertaintyTable::kKinds);
-  if (!table.ok()) return table.status();
-  return UncertaintyTable(*std::move(table));
+  ASSIGN_OR_RETURN(Table table, Decode(file, UncertaintyTable::kKinds));
+  return UncertaintyTable(std::move(table));
 }
 
 }  // namespace albtpu

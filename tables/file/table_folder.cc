@@ -10,6 +10,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 namespace {
@@ -48,10 +49,9 @@ absl::StatusOr<std::vector<fs::directory_entry>> List(const fs::path& folder) {
 }
 
 absl::StatusOr<std::vector<TableFile>> FindVersions(const fs::path& folder) {
-  const absl::StatusOr<std::vector<fs::directory_entry>> entries = List(folder);
-  if (!entries.ok()) return entries.status();
+  ASSIGN_OR_RETURN(const std::vector<fs::directory_entry> entries, List(folder));
   std::vector<TableFile> files;
-  for (const fs::directory_entry& entry : *entries) {
+  for (const fs::directory_entry& entry : entries) {
     std::error_code ignored;
     const std::optional<std::string> version = TableStem(entry.path());
     if (!version.has_value() || entry.is_directory(ignored)) continue;
@@ -113,16 +113,14 @@ bool IsMeant(const TableFile& table, std::string_view request) {
 std::string TableFile::FullName() const { return version.empty() ? name : absl::StrCat(name, "/", version); }
 
 absl::StatusOr<std::vector<TableFile>> FindTables(const fs::path& folder) {
-  const absl::StatusOr<std::vector<fs::directory_entry>> entries = List(folder);
-  if (!entries.ok()) return entries.status();
+  ASSIGN_OR_RETURN(const std::vector<fs::directory_entry> entries, List(folder));
   std::vector<TableFile> files;
-  for (const fs::directory_entry& entry : *entries) {
+  for (const fs::directory_entry& entry : entries) {
     std::error_code ignored;
     if (entry.is_directory(ignored)) {
       if (!IsName(entry.path().filename().string())) continue;
-      absl::StatusOr<std::vector<TableFile>> versions = FindVersions(entry.path());
-      if (!versions.ok()) return versions.status();
-      std::move(versions->begin(), versions->end(), std::back_inserter(files));
+      ASSIGN_OR_RETURN(std::vector<TableFile> versions, FindVersions(entry.path()));
+      std::move(versions.begin(), versions.end(), std::back_inserter(files));
     } else if (const std::optional<std::string> name = TableStem(entry.path()); name.has_value()) {
       files.push_back({*name, "", entry.path()});
     }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 #include "tables/file/atomic_file.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
@@ -44,8 +45,7 @@ absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
     return stream.read(file.data() + offset, static_cast<std::streamsize>(file.size() - offset)).good();
   };
   if (!read_from(0)) return SystemError(errno);
-  const absl::Status header = seal::CheckHeader(file, length);
-  if (!header.ok()) return header;
+  RETURN_IF_ERROR(seal::CheckHeader(file, length));
   file.resize(length);
   if (!read_from(seal::kSize)) return SystemError(errno);
   return file;
@@ -64,9 +64,8 @@ auto Read(const fs::path& path, const Decode& decode) -> decltype(decode(std::st
 }
 
 absl::Status Write(const Table& table, const fs::path& path, Existing existing) {
-  const absl::StatusOr<std::string> file = EncodeTable(table);
-  if (!file.ok()) return file.status();
-  return WriteFileAtomically(path, *file, existing);
+  ASSIGN_OR_RETURN(const std::string file, EncodeTable(table));
+  return WriteFileAtomically(path, file, existing);
 }
 
 }  // namespace

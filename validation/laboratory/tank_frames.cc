@@ -40,8 +40,7 @@ DataTable LightUnderWaves(std::uint64_t seed) {
   const double rays_of_bin = experiment.rays * kBin * kBin / (0.25 * std::numbers::pi * footprint * footprint);
   for (int i = 0; i < kBins; ++i) {
     for (int j = 0; j < kBins; ++j) {
-      table.rows.push_back(
-          {(i + 0.5 - 0.5 * kBins) * kBin, (j + 0.5 - 0.5 * kBins) * kBin, light[i * kBins + j] / rays_of_bin});
+      table.Add((i + 0.5 - 0.5 * kBins) * kBin, (j + 0.5 - 0.5 * kBins) * kBin, light[i * kBins + j] / rays_of_bin);
     }
   }
   return table;
@@ -69,12 +68,10 @@ DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
                   "frames were independent, and the correlation of each frame with the next",
                   {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
                    "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
-                   "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},
-                  {}};
+                   "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"}};
   for (const EvolvingTank& t : tanks) {
-    table.rows.push_back({t.wind_speed, t.array.along_wind.value, t.array.along_wind.standard_error,
-                          t.array.cross_wind.value, t.array.cross_wind.standard_error, t.full_beam.along_wind.value,
-                          t.full_beam.cross_wind.value, t.array_correlation, t.full_beam_correlation});
+    table.Add(t.wind_speed, t.array.along_wind, t.array.cross_wind, t.full_beam.along_wind.value,
+              t.full_beam.cross_wind.value, t.array_correlation, t.full_beam_correlation);
   }
   return table;
 }
@@ -186,11 +183,9 @@ DataTable TableOf(const std::vector<TankVariation>& variations) {
   DataTable table{"table_4_sensitivity",
                   "The array at nadir, 2 m/s, wave height 9 mm, with one parameter changed at a time",
                   {"parameter", "value", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
-                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg"},
-                  {}};
+                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg"}};
   for (const TankVariation& v : variations) {
-    table.rows.push_back({v.parameter, v.value, v.array.along_wind.value, v.array.along_wind.standard_error,
-                          v.array.cross_wind.value, v.array.cross_wind.standard_error, v.full_beam.along_wind.value});
+    table.Add(v.parameter, v.value, v.array.along_wind, v.array.cross_wind, v.full_beam.along_wind.value);
   }
   return table;
 }

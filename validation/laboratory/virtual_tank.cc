@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "generator/surface/wave_patch.h"
-#include "sea/angle.h"
 #include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {
@@ -188,11 +187,7 @@ WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double 
 }
 
 CentroidScatter ScatterOf(const CentroidAngles& angles) {
-  const auto two_sigma = [](const Eigen::ArrayXd& sample) {
-    const Estimate radians = TwoSigma(sample);
-    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
-  };
-  return {two_sigma(angles.along_wind), two_sigma(angles.cross_wind)};
+  return {InDegrees(TwoSigma(angles.along_wind)), InDegrees(TwoSigma(angles.cross_wind))};
 }
 
 std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water) {

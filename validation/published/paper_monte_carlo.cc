@@ -48,20 +48,17 @@ DataTable Table3(const PaperMonteCarlo& runs) {
                   "sqrt2_monte_carlo_along_se_deg", "ln_sqrt2_closed_form_over_paper_along", "paper_cross_deg",
                   "cross_reading", "closed_form_cross_deg", "monte_carlo_cross_deg", "monte_carlo_cross_se_deg",
                   "sqrt2_monte_carlo_cross_deg", "sqrt2_monte_carlo_cross_se_deg",
-                  "ln_sqrt2_closed_form_over_paper_cross"},
-      .rows = {}};
-  const auto reading = [](bool clean) { return std::string(clean ? "clean" : "doubtful"); };
+                  "ln_sqrt2_closed_form_over_paper_cross"}};
+  const auto reading = [](bool clean) { return clean ? "clean" : "doubtful"; };
   for (std::size_t w = 0; w < runs.paper.wind_speeds.size(); ++w) {
     for (std::size_t i = 0; i < runs.paper.incidences.size(); ++i) {
       const PublishedAngles::Cell& paper = runs.paper.At(w, i);
       const RefractionGrid::Cell &theory = runs.closed_form.At(w, i), &ours = runs.fine.At(w, i),
                                  &scaled = runs.fine_sqrt2.At(w, i);
-      table.rows.push_back(
-          {runs.paper.wind_speeds[w], runs.paper.incidences[i], paper.along, reading(paper.along_is_clean),
-           theory.along.value, ours.along.value, ours.along.standard_error, scaled.along.value,
-           scaled.along.standard_error, std::log(kSqrt2 * theory.along.value / paper.along), paper.cross,
-           reading(paper.cross_is_clean), theory.cross.value, ours.cross.value, ours.cross.standard_error,
-           scaled.cross.value, scaled.cross.standard_error, std::log(kSqrt2 * theory.cross.value / paper.cross)});
+      table.Add(runs.paper.wind_speeds[w], runs.paper.incidences[i], paper.along, reading(paper.along_is_clean),
+                theory.along.value, ours.along, scaled.along, std::log(kSqrt2 * theory.along.value / paper.along),
+                paper.cross, reading(paper.cross_is_clean), theory.cross.value, ours.cross, scaled.cross,
+                std::log(kSqrt2 * theory.cross.value / paper.cross));
     }
   }
   return table;
@@ -70,14 +67,11 @@ DataTable Table3(const PaperMonteCarlo& runs) {
 DataTable LinesInWind(const PaperMonteCarlo& runs) {
   DataTable table{.name = "table_3_lines",
                   .title = "Lines fitted to the along-wind angles over wind, one for each incidence",
-                  .columns = {"whose", "incidence_deg", "slope_deg_s_m", "intercept_deg", "r_squared"},
-                  .rows = {}};
+                  .columns = {"whose", "incidence_deg", "slope_deg_s_m", "intercept_deg", "r_squared"}};
   const auto add = [&](const char* whose, const RefractionGrid& grid) {
     const std::vector<LineFit> fits = FitAlongWindByIncidence(grid);
-    for (std::size_t i = 0; i < fits.size(); ++i) {
-      table.rows.push_back(
-          {std::string(whose), grid.options.incidences[i], fits[i].slope, fits[i].intercept, fits[i].r_squared});
-    }
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      table.Add(whose, grid.options.incidences[i], fits[i].slope, fits[i].intercept, fits[i].r_squared);
   };
   add("paper", GridOf(runs.paper));
   add("closed form", runs.closed_form);
@@ -92,23 +86,19 @@ DataTable AngleModels(const PaperMonteCarlo& runs) {
                   .title =
                       "Eq. 27 (along wind) and 28 (cross wind): (a theta + b) w + c theta + d in degrees, "
                       "theta in degrees, w in m/s",
-                  .columns = {"axis", "whose", "a", "b", "c", "d"},
-                  .rows = {}};
-  const auto row = [&](const char* axis, const char* whose, const AngleModel& model) {
-    table.rows.push_back(
-        {std::string(axis), std::string(whose), model.wind_incidence, model.wind, model.incidence, model.constant});
+                  .columns = {"axis", "whose", "a", "b", "c", "d"}};
+  const auto rows = [&](const char* axis, const char* printed, const AngleModel& published, AngleAxis of) {
+    const auto row = [&](const char* whose, const AngleModel& model) {
+      table.Add(axis, whose, model.wind_incidence, model.wind, model.incidence, model.constant);
+    };
+    row(printed, published);
+    row("our fit to Table 3", FitAngleModel(GridOf(runs.paper), of));
+    row("our fit to our closed form", FitAngleModel(runs.closed_form, of));
+    row("our fit to our Monte Carlo", FitAngleModel(runs.fine, of));
+    row("our fit to our Monte Carlo, heights times sqrt 2", FitAngleModel(runs.fine_sqrt2, of));
   };
-  const RefractionGrid printed = GridOf(runs.paper);
-  row("along", "printed, read with 0.0276", kPublishedAlongWind);
-  row("along", "our fit to Table 3", FitAngleModel(AlongWindSamples(printed)));
-  row("along", "our fit to our closed form", FitAngleModel(AlongWindSamples(runs.closed_form)));
-  row("along", "our fit to our Monte Carlo", FitAngleModel(AlongWindSamples(runs.fine)));
-  row("along", "our fit to our Monte Carlo, heights times sqrt 2", FitAngleModel(AlongWindSamples(runs.fine_sqrt2)));
-  row("cross", "printed, read with 0.0281", kPublishedCrossWind);
-  row("cross", "our fit to Table 3", FitAngleModel(CrossWindSamples(printed)));
-  row("cross", "our fit to our closed form", FitAngleModel(CrossWindSamples(runs.closed_form)));
-  row("cross", "our fit to our Monte Carlo", FitAngleModel(CrossWindSamples(runs.fine)));
-  row("cross", "our fit to our Monte Carlo, heights times sqrt 2", FitAngleModel(CrossWindSamples(runs.fine_sqrt2)));
+  rows("along", "printed, read with 0.0276", kPublishedAlongWind, kAlongWind);
+  rows("cross", "printed, read with 0.0281", kPublishedCrossWind, kCrossWind);
   return table;
 }
 
@@ -117,8 +107,7 @@ DataTable Figure8(const PaperMonteCarlo& runs) {
       .name = "figure_8",
       .title = "Figure 8: 2 sigma along the wind at 15 degrees, over wind, for each diameter",
       .columns = {"diameter_m", "wind_speed_m_s", "monte_carlo_deg", "monte_carlo_se_deg", "closed_form_deg",
-                  "line_deg", "line_slope_deg_s_m", "line_r_squared", "equation_27_29_deg"},
-      .rows = {}};
+                  "line_deg", "line_slope_deg_s_m", "line_r_squared", "equation_27_29_deg"}};
   const std::vector<double>& incidences = runs.paper.incidences;
   const auto i =
       static_cast<std::size_t>(std::find(incidences.begin(), incidences.end(), kFigure8Incidence) - incidences.begin());
@@ -126,11 +115,10 @@ DataTable Figure8(const PaperMonteCarlo& runs) {
     const LineFit line = FitAlongWindByIncidence(runs.by_diameter[d])[i];
     for (std::size_t w = 0; w < runs.paper.wind_speeds.size(); ++w) {
       const double wind_speed = runs.paper.wind_speeds[w];
-      const Estimate& ours = runs.by_diameter[d].At(w, i).along;
-      table.rows.push_back(
-          {kPaperDiameters[d], wind_speed, ours.value, ours.standard_error,
-           runs.closed_form_by_diameter[d].At(w, i).along.value, line(wind_speed), line.slope, line.r_squared,
-           kPublishedAlongWind(wind_speed, kFigure8Incidence) * PublishedAlongWindDiameterFactor(kPaperDiameters[d])});
+      table.Add(
+          kPaperDiameters[d], wind_speed, runs.by_diameter[d].At(w, i).along,
+          runs.closed_form_by_diameter[d].At(w, i).along.value, line(wind_speed), line.slope, line.r_squared,
+          kPublishedAlongWind(wind_speed, kFigure8Incidence) * PublishedAlongWindDiameterFactor(kPaperDiameters[d]));
     }
   }
   return table;
@@ -141,8 +129,7 @@ DataTable Figure9(const PaperMonteCarlo& runs) {
                   .title = "Figure 9: 2 sigma over the diameter, mean of all winds and incidences",
                   .columns = {"diameter_m", "monte_carlo_along_deg", "monte_carlo_along_se_deg",
                               "closed_form_along_deg", "equations_along_deg", "monte_carlo_cross_deg",
-                              "monte_carlo_cross_se_deg", "closed_form_cross_deg", "equations_cross_deg"},
-                  .rows = {}};
+                              "monte_carlo_cross_se_deg", "closed_form_cross_deg", "equations_cross_deg"}};
   for (std::size_t d = 0; d < kPaperDiameters.size(); ++d) {
     double along = 0, cross = 0;
     for (const double wind_speed : runs.paper.wind_speeds) {
@@ -151,14 +138,10 @@ DataTable Figure9(const PaperMonteCarlo& runs) {
         cross += kPublishedCrossWind(wind_speed, incidence) / static_cast<double>(runs.paper.cells.size());
       }
     }
-    const Estimate ours_along = MeanAngle(runs.by_diameter[d], &RefractionGrid::Cell::along);
-    const Estimate ours_cross = MeanAngle(runs.by_diameter[d], &RefractionGrid::Cell::cross);
-    table.rows.push_back({kPaperDiameters[d], ours_along.value, ours_along.standard_error,
-                          MeanAngle(runs.closed_form_by_diameter[d], &RefractionGrid::Cell::along).value,
-                          along * PublishedAlongWindDiameterFactor(kPaperDiameters[d]), ours_cross.value,
-                          ours_cross.standard_error,
-                          MeanAngle(runs.closed_form_by_diameter[d], &RefractionGrid::Cell::cross).value,
-                          cross * PublishedCrossWindDiameterFactor(kPaperDiameters[d])});
+    const RefractionGrid &ours = runs.by_diameter[d], &closed_form = runs.closed_form_by_diameter[d];
+    table.Add(kPaperDiameters[d], MeanAngle(ours, kAlongWind), MeanAngle(closed_form, kAlongWind).value,
+              along * PublishedAlongWindDiameterFactor(kPaperDiameters[d]), MeanAngle(ours, kCrossWind),
+              MeanAngle(closed_form, kCrossWind).value, cross * PublishedCrossWindDiameterFactor(kPaperDiameters[d]));
   }
   return table;
 }

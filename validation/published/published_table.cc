@@ -11,6 +11,7 @@
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
 #include "generator/math/statistics.h"
+#include "status/status_macros.h"
 
 namespace albtpu {
 absl::StatusOr<PublishedTable> PublishedTable::Read(const std::filesystem::path& file) {
@@ -47,19 +48,17 @@ absl::StatusOr<std::size_t> PublishedTable::Find(std::string_view column) const 
 }
 
 absl::StatusOr<std::vector<std::string>> PublishedTable::Words(std::string_view column) const {
-  const absl::StatusOr<std::size_t> index = Find(column);
-  if (!index.ok()) return index.status();
+  ASSIGN_OR_RETURN(const std::size_t index, Find(column));
   std::vector<std::string> words;
-  for (const Row& row : rows_) words.push_back(row.cells[*index]);
+  for (const Row& row : rows_) words.push_back(row.cells[index]);
   return words;
 }
 
 absl::StatusOr<std::vector<double>> PublishedTable::Numbers(std::string_view column) const {
-  const absl::StatusOr<std::size_t> index = Find(column);
-  if (!index.ok()) return index.status();
+  ASSIGN_OR_RETURN(const std::size_t index, Find(column));
   std::vector<double> numbers;
   for (const Row& row : rows_) {
-    const std::string& cell = row.cells[*index];
+    const std::string& cell = row.cells[index];
     double number = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
     if (error != std::errc() || end != cell.data() + cell.size()) {
@@ -69,6 +68,23 @@ absl::StatusOr<std::vector<double>> PublishedTable::Numbers(std::string_view col
     numbers.push_back(number);
   }
   return numbers;
+}
+
+absl::StatusOr<std::vector<std::vector<double>>> PublishedTable::Numbers(
+    std::initializer_list<std::string_view> columns) const {
+  std::vector<std::vector<double>> all;
+  for (const std::string_view column : columns) {
+    ASSIGN_OR_RETURN(std::vector<double> numbers, Numbers(column));
+    all.push_back(std::move(numbers));
+  }
+  return all;
+}
+
+absl::StatusOr<Table2> ReadTable2(const std::filesystem::path& published) {
+  ASSIGN_OR_RETURN(const PublishedTable table, PublishedTable::Read(published / "table2_wave_staff.csv"));
+  ASSIGN_OR_RETURN(const auto columns, table.Numbers({"distance_downwind_m", "peak_frequency_hz", "peak_wavelength_m",
+                                                      "significant_wave_height_m"}));
+  return Table2{columns[0], columns[1], columns[2], columns[3]};
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,8 @@ class PublishedTable {
   // InvalidArgument, with file, line and column, if there is no such column or if a number is expected and a word
   // found.
   absl::StatusOr<std::vector<double>> Numbers(std::string_view column) const;
+  // Of several columns, in the order of their names.
+  absl::StatusOr<std::vector<std::vector<double>>> Numbers(std::initializer_list<std::string_view> columns) const;
   absl::StatusOr<std::vector<std::string>> Words(std::string_view column) const;
 
  private:
@@ -37,6 +40,12 @@ class PublishedTable {
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };
+
+// Table 2: the waves of the tank by fetch [m]. Peak frequency in Hz, peak wavelength and significant wave height in m.
+struct Table2 {
+  std::vector<double> fetch, peak_frequency, peak_wavelength, significant_wave_height;
+};
+absl::StatusOr<Table2> ReadTable2(const std::filesystem::path& published);
 
 // The angle method of the paper: THU and TVU from the 2 sigma of a refraction angle. See the section "From an angle
 // to THU and TVU" of docs/physics.md.

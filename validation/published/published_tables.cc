@@ -7,9 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/provenance.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
+#include "status/status_macros.h"
 #include "tables/version.h"
 #include "validation/published/published_table.h"
 
@@ -69,19 +71,6 @@ struct TableNodes {
 // for any fetch. The plane of incidence is along the wind.
 constexpr double kFetch = 30, kAzimuth = 0;
 
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TableNodes& nodes) {
-  std::vector<Axis> axes;
-  for (const auto& [id, values] :
-       {std::pair{AxisId::kWindSpeed, nodes.wind_speeds}, std::pair{AxisId::kFetch, std::vector{kFetch}},
-        std::pair{AxisId::kIncidence, nodes.incidences}, std::pair{AxisId::kAzimuth, std::vector{kAzimuth}},
-        std::pair{AxisId::kFootprint, nodes.footprints}, std::pair{AxisId::kDepth, nodes.depths}}) {
-    absl::StatusOr<Axis> axis = Axis::Create(id, values);
-    if (!axis.ok()) return axis.status();
-    axes.push_back(*std::move(axis));
-  }
-  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
-}
-
 // The angles at each node, and THU and TVU from both angles together, as Table 5 follows from Table 4.
 UncertaintyTable::Variables MakeVariables(const TableNodes& nodes, const AnglesAt& angles_at) {
   Variable along, cross, thu, tvu;
@@ -135,9 +124,11 @@ Provenance MakeProvenance(std::string id, std::string title, std::string source,
 }
 
 absl::StatusOr<UncertaintyTable> Make(const TableNodes& nodes, const AnglesAt& angles_at, Provenance provenance) {
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
-  if (!axes.ok()) return axes.status();
-  return UncertaintyTable::Create(*std::move(axes), MakeVariables(nodes, angles_at), std::move(provenance));
+  ASSIGN_OR_RETURN(
+      UncertaintyTable::Axes axes,
+      AxesOfKind(kSeaSurface,
+                 {nodes.wind_speeds, {kFetch}, nodes.incidences, {kAzimuth}, nodes.footprints, nodes.depths}));
+  return UncertaintyTable::Create(std::move(axes), MakeVariables(nodes, angles_at), std::move(provenance));
 }
 
 }  // namespace

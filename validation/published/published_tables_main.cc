@@ -3,22 +3,19 @@
 #include <filesystem>
 #include <iostream>
 
+#include "status/status_macros.h"
 #include "tables/file/table_io.h"
 #include "validation/published/published_tables.h"
 
 namespace {
 
-absl::Status Write(const absl::StatusOr<albtpu::UncertaintyTable>& table, const std::filesystem::path& path) {
-  if (!table.ok()) return table.status();
-  return albtpu::WriteTable(*table, path, albtpu::Existing::kReplace);
-}
-
 absl::Status WriteAll(const std::filesystem::path& paper, const std::filesystem::path& output) {
-  const absl::StatusOr<albtpu::PublishedAngles> table_4 = albtpu::ReadTable4(paper);
-  if (!table_4.ok()) return table_4.status();
-  absl::Status status = Write(albtpu::MeasuredTable(*table_4), output / "birkebak2018_measured.h5");
-  if (status.ok()) status = Write(albtpu::ModelTable(), output / "birkebak2018_model.h5");
-  return status;
+  using namespace albtpu;
+  ASSIGN_OR_RETURN(const PublishedAngles table_4, ReadTable4(paper));
+  ASSIGN_OR_RETURN(const UncertaintyTable measured, MeasuredTable(table_4));
+  ASSIGN_OR_RETURN(const UncertaintyTable model, ModelTable());
+  RETURN_IF_ERROR(WriteTable(measured, output / "birkebak2018_measured.h5", Existing::kReplace));
+  return WriteTable(model, output / "birkebak2018_model.h5", Existing::kReplace);
 }
 
 }  // namespace

@@ -10,10 +10,6 @@
 namespace albtpu {
 namespace {
 
-Estimate InDegrees(const Estimate& radians) {
-  return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
-}
-
 SeaCase SeaCaseAt(const GridOptions& options, double wind_speed) {
   SeaCase sea_case;
   sea_case.sea = {.waves = WindSea{.wind_speed_10m = wind_speed}, .height_scale = options.height_scale};
@@ -22,15 +18,13 @@ SeaCase SeaCaseAt(const GridOptions& options, double wind_speed) {
   return sea_case;
 }
 
-std::vector<AngleSample> Samples(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis) {
-  std::vector<AngleSample> samples;
-  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w)
-    for (std::size_t i = 0; i < grid.options.incidences.size(); ++i)
-      samples.push_back({grid.options.wind_speeds[w], grid.options.incidences[i], (grid.At(w, i).*axis).value});
-  return samples;
-}
-
-LogRatio Summarize(const std::vector<double>& log_ratios) {
+LogRatio LogRatioOf(const RefractionGrid& ours, double factor, const PublishedAngles& paper, AngleAxis axis,
+                    double PublishedAngles::Cell::*printed, bool PublishedAngles::Cell::*is_clean) {
+  assert(ours.cells.size() == paper.cells.size());
+  std::vector<double> log_ratios;
+  for (std::size_t c = 0; c < paper.cells.size(); ++c)
+    if (paper.cells[c].*is_clean)
+      log_ratios.push_back(std::log(factor * (ours.cells[c].*axis).value / paper.cells[c].*printed));
   LogRatio result{0, 0, 0};
   for (const double log_ratio : log_ratios) {
     result.mean += log_ratio / static_cast<double>(log_ratios.size());
@@ -88,7 +82,7 @@ RefractionGrid GridOf(const PublishedAngles& published) {
   return grid;
 }
 
-Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis) {
+Estimate MeanAngle(const RefractionGrid& grid, AngleAxis axis) {
   Estimate mean;
   double variance = 0;
   const double winds = static_cast<double>(grid.options.wind_speeds.size());
@@ -121,31 +115,22 @@ double LowestRSquared(const RefractionGrid& grid) {
   return lowest;
 }
 
-std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid) {
-  return Samples(grid, &RefractionGrid::Cell::along);
-}
-std::vector<AngleSample> CrossWindSamples(const RefractionGrid& grid) {
-  return Samples(grid, &RefractionGrid::Cell::cross);
+AngleModel FitAngleModel(const RefractionGrid& grid, AngleAxis axis) {
+  std::vector<AngleSample> samples;
+  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w)
+    for (std::size_t i = 0; i < grid.options.incidences.size(); ++i)
+      samples.push_back({grid.options.wind_speeds[w], grid.options.incidences[i], (grid.At(w, i).*axis).value});
+  return FitAngleModel(samples);
 }
 
 LogRatio AlongWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper) {
-  assert(ours.cells.size() == paper.cells.size());
-  std::vector<double> log_ratios;
-  for (std::size_t c = 0; c < paper.cells.size(); ++c) {
-    if (!paper.cells[c].along_is_clean) continue;
-    log_ratios.push_back(std::log(factor * ours.cells[c].along.value / paper.cells[c].along));
-  }
-  return Summarize(log_ratios);
+  return LogRatioOf(ours, factor, paper, kAlongWind, &PublishedAngles::Cell::along,
+                    &PublishedAngles::Cell::along_is_clean);
 }
 
 LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper) {
-  assert(ours.cells.size() == paper.cells.size());
-  std::vector<double> log_ratios;
-  for (std::size_t c = 0; c < paper.cells.size(); ++c) {
-    if (!paper.cells[c].cross_is_clean) continue;
-    log_ratios.push_back(std::log(factor * ours.cells[c].cross.value / paper.cells[c].cross));
-  }
-  return Summarize(log_ratios);
+  return LogRatioOf(ours, factor, paper, kCrossWind, &PublishedAngles::Cell::cross,
+                    &PublishedAngles::Cell::cross_is_clean);
 }
 
 CaseCount AlongWindRisesWithWind(const RefractionGrid& grid) {

@@ -33,6 +33,10 @@ struct RefractionGrid {
   }
 };
 
+// Of a cell, along or across the wind.
+using AngleAxis = Estimate RefractionGrid::Cell::*;
+inline constexpr AngleAxis kAlongWind = &RefractionGrid::Cell::along, kCrossWind = &RefractionGrid::Cell::cross;
+
 RefractionGrid ClosedFormGrid(const GridOptions& options);
 
 struct SimulationSize {
@@ -51,17 +55,15 @@ double LargestRelativeStandardError(const RefractionGrid& grid);
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);
 
-// The mean over all winds and incidences of one axis of the cells, as in Figure 9. The incidences of a wind share
-// their surfaces, so their errors are taken as fully correlated.
-Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis);
+// The mean over all winds and incidences, as in Figure 9. The incidences of a wind share their surfaces, so their errors
+// are taken as fully correlated.
+Estimate MeanAngle(const RefractionGrid& grid, AngleAxis axis);
 
 // Lines through the along-wind angles over wind, one for each incidence.
 std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid);
 double LowestRSquared(const RefractionGrid& grid);  // of these lines
 
-// The angles as samples for FitAngleModel().
-std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid);
-std::vector<AngleSample> CrossWindSamples(const RefractionGrid& grid);
+AngleModel FitAngleModel(const RefractionGrid& grid, AngleAxis axis);
 
 // The distribution of ln(factor * ours / paper) over the clean cells of a published table.
 struct LogRatio {

@@ -34,15 +34,8 @@ std::string CsvOf(const DataTable& table) {
 }
 
 std::string_view Name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAgrees:
-      return "agrees";
-    case Verdict::kDiffers:
-      return "differs";
-    case Verdict::kReported:
-      break;
-  }
-  return "reported";
+  constexpr std::string_view kNames[] = {"agrees", "differs", "reported"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 int Count(const std::vector<Study>& studies, Verdict verdict) {
@@ -56,12 +49,11 @@ DataTable SummaryOf(const std::vector<Study>& studies) {
   DataTable summary{
       "summary",
       "Every comparison with its verdict",
-      {"study", "quantity", "unit", "published", "ours", "standard_error", "difference", "verdict", "basis"},
-      {}};
+      {"study", "quantity", "unit", "published", "ours", "standard_error", "difference", "verdict", "basis"}};
   for (const Study& study : studies) {
     for (const Comparison& c : study.comparisons) {
-      summary.rows.push_back({study.id, c.quantity, c.unit, c.published, c.ours, c.standard_error, c.ours - c.published,
-                              std::string(Name(c.verdict)), c.basis});
+      summary.Add(study.id, c.quantity, c.unit, c.published, c.ours, c.standard_error, c.ours - c.published,
+                  Name(c.verdict), c.basis);
     }
   }
   return summary;

@@ -4,6 +4,7 @@
 // draws the figures from the CSV files with matplotlib, and puts everything on one page.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "generator/math/statistics.h"
 
 namespace albtpu {
 
@@ -24,8 +26,22 @@ struct DataTable {
   std::string name;                  // "table_3": lower case and underscores
   std::string title;                 // one sentence
   std::vector<std::string> columns;  // with the unit: "along_wind_deg"
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<Cell>> rows = {};
   bool on_the_page = true;  // false: too long to read, in the CSV file only
+
+  // Adds a row. An Estimate fills two cells, with its value and its standard error; a vector of cells fills its cells.
+  template <typename... Values>
+  void Add(const Values&... values) {
+    rows.emplace_back();
+    (Append(values), ...);
+  }
+
+ private:
+  void Append(double number) { rows.back().emplace_back(number); }
+  void Append(const char* text) { rows.back().emplace_back(text); }
+  void Append(std::string_view text) { rows.back().emplace_back(std::string(text)); }
+  void Append(const Estimate& estimate) { Append(estimate.value), Append(estimate.standard_error); }
+  void Append(const std::vector<Cell>& cells) { rows.back().insert(rows.back().end(), cells.begin(), cells.end()); }
 };
 
 // Drawn by the function of this name in plots/, which reads the CSV files of its study.
@@ -39,6 +55,7 @@ enum class Verdict {
   kDiffers,   // outside of it; the text of the study gives the reason, as far as it is known
   kReported,  // without a verdict: `basis` says why none is possible
 };
+inline Verdict AgreesIf(bool within) { return within ? Verdict::kAgrees : Verdict::kDiffers; }
 
 // One line of the summary.
 struct Comparison {
@@ -49,6 +66,16 @@ struct Comparison {
   double standard_error = kNoNumber;  // of ours; kNoNumber if ours is exact
   Verdict verdict = Verdict::kReported;
   std::string basis;  // of the verdict: "within 0.010 m: two decimals are printed, and ..."
+};
+
+// The range of numbers.
+struct Range {
+  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+
+  void Add(double number) {
+    least = std::min(least, number);
+    most = std::max(most, number);
+  }
 };
 
 struct Study {

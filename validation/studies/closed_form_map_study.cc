@@ -9,7 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/studies.h"
 
 namespace albtpu {
@@ -146,16 +146,13 @@ DataTable WholeMap(const std::vector<MapPart>& map) {
       .columns = {"wind_speed_m_s", "fetch_m", "footprint_m", "incidence_deg", "azimuth_deg", "along_ratio",
                   "along_ratio_se", "cross_ratio", "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio",
                   "tvu_ratio_se", "least_ratio", "most_ratio", "mean_square_slope", "seen_fraction", "judged"},
-      .rows = {},
       .on_the_page = false};
   for (const MapPart& part : map) {
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
       const ClosedFormRatio& beam = part.ratios.beams[b];
-      table.rows.push_back(
-          {part.wind_speed, part.fetch, part.footprint, kDirections[b].incidence, kDirections[b].azimuth,
-           beam.along.value, beam.along.standard_error, beam.cross.value, beam.cross.standard_error, beam.thu.value,
-           beam.thu.standard_error, beam.tvu.value, beam.tvu.standard_error, 1 - beam.allowed, 1 + kDiscretizationError,
-           part.ratios.mean_square_slope, part.ratios.seen_fraction, std::string(part.is_judged() ? "yes" : "no")});
+      table.Add(part.wind_speed, part.fetch, part.footprint, kDirections[b].incidence, kDirections[b].azimuth,
+                beam.along, beam.cross, beam.thu, beam.tvu, 1 - beam.allowed, 1 + kDiscretizationError,
+                part.ratios.mean_square_slope, part.ratios.seen_fraction, part.is_judged() ? "yes" : "no");
     }
   }
   return table;
@@ -166,17 +163,12 @@ DataTable MeanMap(const std::vector<MapPart>& map, const Domain& domain) {
       .name = "closed_form_map_mean",
       .title = "Ratio of Monte Carlo to closed form, mean over fetches and footprints",
       .columns = {"wind_speed_m_s", "incidence_deg", "azimuth_deg", "along_ratio", "along_ratio_se", "cross_ratio",
-                  "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio", "tvu_ratio_se"},
-      .rows = {}};
+                  "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio", "tvu_ratio_se"}};
   for (const double wind_speed : domain.wind_speeds) {
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
-      const Estimate along = MeanRatio(map, wind_speed, b, &ClosedFormRatio::along);
-      const Estimate cross = MeanRatio(map, wind_speed, b, &ClosedFormRatio::cross);
-      const Estimate thu = MeanRatio(map, wind_speed, b, &ClosedFormRatio::thu);
-      const Estimate tvu = MeanRatio(map, wind_speed, b, &ClosedFormRatio::tvu);
-      table.rows.push_back({wind_speed, kDirections[b].incidence, kDirections[b].azimuth, along.value,
-                            along.standard_error, cross.value, cross.standard_error, thu.value, thu.standard_error,
-                            tvu.value, tvu.standard_error});
+      const auto mean = [&](Estimate ClosedFormRatio::*quantity) { return MeanRatio(map, wind_speed, b, quantity); };
+      table.Add(wind_speed, kDirections[b].incidence, kDirections[b].azimuth, mean(&ClosedFormRatio::along),
+                mean(&ClosedFormRatio::cross), mean(&ClosedFormRatio::thu), mean(&ClosedFormRatio::tvu));
     }
   }
   return table;
@@ -188,7 +180,7 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
       {.quantity = absl::StrCat("Refraction and THU within the bounds set by Snell's law, of ", tally.all),
        .unit = "ratios",
        .ours = static_cast<double>(tally.within),
-       .verdict = tally.within == tally.all ? Verdict::kAgrees : Verdict::kDiffers,
+       .verdict = AgreesIf(tally.within == tally.all),
        .basis = absl::StrFormat(
            "all at most 0.015 + 0.3 mss + 0.02 theta/20 degrees below 1 and 0.005 above it, besides %.1f "
            "standard errors, which chance exceeds in one such map of twenty; the worst is %.1f beyond",
@@ -199,36 +191,22 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
        .unit = "1",
        .ours = fit[0].value,
        .standard_error = fit[0].standard_error,
-       .verdict = std::abs(fit[0].value) <= kDiscretizationError + 3 * fit[0].standard_error ? Verdict::kAgrees
-                                                                                             : Verdict::kDiffers,
+       .verdict = AgreesIf(std::abs(fit[0].value) <= kDiscretizationError + 3 * fit[0].standard_error),
        .basis = "zero within three standard errors and 0.005, the accuracy for which grid, patch and rays "
                 "are chosen"});
-  const auto coefficient = [&](const char* quantity, const Estimate& ours, const std::string& basis) {
-    study.comparisons.push_back({.quantity = absl::StrCat("THU below the closed form, ", quantity),
-                                 .unit = "1",
-                                 .ours = ours.value,
-                                 .standard_error = ours.standard_error,
-                                 .verdict = Verdict::kReported,
-                                 .basis = basis});
+  const auto report = [&](const char* quantity, const Estimate& ours, const std::string& basis) {
+    study.comparisons.push_back(
+        {.quantity = quantity, .unit = "1", .ours = ours.value, .standard_error = ours.standard_error, .basis = basis});
   };
-  coefficient("per unit of mean square slope at nadir", fit[1],
-              absl::StrFormat("Snell's law to third order in slope gives %.3f as the slopes vanish",
-                              ThirdOrderAtNadir(kRefractiveIndex)));
-  coefficient("additional amount per unit of mean square slope at 20 degrees", fit[2],
-              "a fit in the square of the incidence; jackknife standard error");
-
-  Estimate calm = MeanRatio(map, domain.wind_speeds.front(), 0, &ClosedFormRatio::thu);
-  Estimate storm = MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::thu);
-  const auto report = [&](const char* where, const Estimate& ratio) {
-    study.comparisons.push_back({.quantity = absl::StrCat("THU, ratio of Monte Carlo to closed form, ", where),
-                                 .unit = "1",
-                                 .ours = ratio.value,
-                                 .standard_error = ratio.standard_error,
-                                 .verdict = Verdict::kReported,
-                                 .basis = "mean over fetches and footprints"});
-  };
-  report("1 m/s at nadir", calm);
-  report("15 m/s at 25 degrees along the wind", storm);
+  report("THU below the closed form, per unit of mean square slope at nadir", fit[1],
+         absl::StrFormat("Snell's law to third order in slope gives %.3f as the slopes vanish",
+                         ThirdOrderAtNadir(kRefractiveIndex)));
+  report("THU below the closed form, additional amount per unit of mean square slope at 20 degrees", fit[2],
+         "a fit in the square of the incidence; jackknife standard error");
+  report("THU, ratio of Monte Carlo to closed form, 1 m/s at nadir",
+         MeanRatio(map, domain.wind_speeds.front(), 0, &ClosedFormRatio::thu), "mean over fetches and footprints");
+  report("THU, ratio of Monte Carlo to closed form, 15 m/s at 25 degrees along the wind",
+         MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::thu), "mean over fetches and footprints");
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
-#include "validation/studies/corrected_waves_study.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,62 +10,10 @@
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "sea/sea_state.h"
+#include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/studies.h"
 
 namespace albtpu {
-namespace {
-
-Estimate Over(const Estimate& ours, double theory) {
-  if (theory == 0) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  return {ours.value / theory, ours.standard_error / theory};
-}
-
-}  // namespace
-
-SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed, std::uint32_t cell) {
-  assert(sea_case.depths.size() == 1 && sea_case.depths[0] > 0);
-  const SeaCaseResult result =
-      Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations}, seed, cell);
-  const SeaState sea(sea_case.sea);
-  SeaCaseRatios ratios{{}, SlopeCovariance(sea).trace(), 1};
-  for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
-    const BeamOptions& beam = sea_case.beams[b];
-    const BeamUncertainty& ours = result.beams[b];
-    const SmallSlopeUncertainty theory = ClosedForm(sea, beam, sea_case.refractive_index);
-    const double depth = sea_case.depths[0];
-    const double tvu = beam.incidence == 0 ? 0 : depth * theory.tvu_per_depth;
-    ratios.beams.push_back({Over(ours.refraction_along_wind, theory.refraction_along_wind),
-                            Over(ours.refraction_cross_wind, theory.refraction_cross_wind),
-                            Over(ours.thu[0], depth * theory.thu_per_depth), Over(ours.tvu[0], tvu),
-                            AllowedDeparture(ratios.mean_square_slope, DegreesOfRadians(beam.incidence))});
-    const double seen =
-        SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }).trace();
-    ratios.seen_fraction = std::min(ratios.seen_fraction, seen / ratios.mean_square_slope);
-  }
-  return ratios;
-}
-
-double AllowedDeparture(double mean_square_slope, double incidence_degrees) {
-  return 0.015 + 0.3 * mean_square_slope + 0.02 * incidence_degrees / 20;
-}
-
-double StandardErrorsFor(int comparisons) {
-  assert(comparisons > 0);
-  // Each exceeds k with the probability erfc(k / sqrt 2) = 0.05 / comparisons (Bonferroni, which also holds if they
-  // are not independent).
-  double low = 0, high = 10;
-  while (high - low > 1e-6) {
-    const double k = (low + high) / 2;
-    (std::erfc(k / std::sqrt(2.0)) * comparisons > 0.05 ? low : high) = k;
-  }
-  return high;
-}
-
-double ExcessInStandardErrors(const Estimate& ratio, double allowed) {
-  const double departure = ratio.value - 1;
-  return std::max(-allowed - departure, departure - kDiscretizationError) / ratio.standard_error;
-}
-
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
@@ -90,9 +35,7 @@ SmallSlopeUncertainty ClosedFormOf(const Case& c, double corrected_above) {
   return ClosedForm(SeaState(SeaOf(c, corrected_above)), BeamOf(c), kRefractiveIndex);
 }
 
-Cell LengthCell(double metres) {
-  return std::isinf(metres) ? Cell(std::string("nothing")) : Cell(absl::StrFormat("%g", metres));
-}
+std::string LengthText(double metres) { return std::isinf(metres) ? "nothing" : absl::StrFormat("%g", metres); }
 
 DataTable InClosedForm() {
   std::vector<Case> cases;
@@ -111,36 +54,33 @@ DataTable InClosedForm() {
                       "form: angles in degrees, THU and TVU per m of depth, and THU relative to that of the whole sea",
                   .columns = {"spectrum", "wind_speed_m_s", "footprint_m", "corrected_above_m", "along_wind_deg",
                               "cross_wind_deg", "thu_per_depth", "tvu_per_depth", "thu_left"},
-                  .rows = {},
                   .on_the_page = false};
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Case& c = cases[i / kLengths];
     const SmallSlopeUncertainty& whole = results[i / kLengths * kLengths];
     const SmallSlopeUncertainty& left = results[i];
-    table.rows.push_back({std::string(c.model->key), c.wind_speed, c.footprint,
-                          LengthCell(kCorrectedAbove[i % kLengths]), DegreesOfRadians(left.refraction_along_wind),
-                          DegreesOfRadians(left.refraction_cross_wind), left.thu_per_depth, left.tvu_per_depth,
-                          left.thu_per_depth / whole.thu_per_depth});
+    table.Add(c.model->key, c.wind_speed, c.footprint, LengthText(kCorrectedAbove[i % kLengths]),
+              DegreesOfRadians(left.refraction_along_wind), DegreesOfRadians(left.refraction_cross_wind),
+              left.thu_per_depth, left.tvu_per_depth, left.thu_per_depth / whole.thu_per_depth);
   }
   return table;
 }
 
 // The fraction of Apel's THU that remains, by wind and footprint, for the page.
 DataTable Summary() {
-  DataTable table{
-      .name = "corrected_waves_summary",
-      .title =
-          "Fraction of THU that remains if waves longer than a length are corrected for: Apel's "
-          "sea, 20 degrees, closed form",
-      .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m", "above_3_m", "above_1_m"},
-      .rows = {}};
+  DataTable table{.name = "corrected_waves_summary",
+                  .title =
+                      "Fraction of THU that remains if waves longer than a length are corrected for: Apel's "
+                      "sea, 20 degrees, closed form",
+                  .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m", "above_3_m",
+                              "above_1_m"}};
   for (const double wind_speed : {3.0, 6.0, 10.0, 15.0}) {
     for (const double footprint : {0.25, 0.5, 2.0}) {
       const Case c{&kApelModel, wind_speed, footprint};
       std::vector<Cell> row = {wind_speed, footprint};
       for (const double length : {100.0, 30.0, 10.0, 3.0, 1.0})
         row.push_back(ClosedFormOf(c, length).thu_per_depth / ClosedFormOf(c, kNothing).thu_per_depth);
-      table.rows.push_back(std::move(row));
+      table.Add(row);
     }
   }
   return table;
@@ -188,14 +128,11 @@ DataTable TableOf(const std::vector<SimulatedSea>& seas) {
       .columns = {"wind_speed_m_s", "footprint_m", "corrected_above_m", "mean_square_slope", "thu_m",
                   "thu_standard_error_m", "closed_form_thu_m", "tvu_m", "tvu_standard_error_m", "closed_form_tvu_m",
                   "bias_vertical_m", "bias_vertical_standard_error_m", "nadir_tvu_m", "nadir_tvu_standard_error_m",
-                  "nadir_bias_vertical_m", "nadir_bias_vertical_standard_error_m"},
-      .rows = {}};
+                  "nadir_bias_vertical_m", "nadir_bias_vertical_standard_error_m"}};
   for (const SimulatedSea& sea : seas) {
-    table.rows.push_back({kSimulated.wind_speed, kSimulated.footprint, LengthCell(sea.corrected_above),
-                          sea.mean_square_slope, sea.thu.value, sea.thu.standard_error, sea.closed_form_thu,
-                          sea.tvu.value, sea.tvu.standard_error, sea.closed_form_tvu, sea.bias_vertical.value,
-                          sea.bias_vertical.standard_error, sea.nadir_tvu.value, sea.nadir_tvu.standard_error,
-                          sea.nadir_bias_vertical.value, sea.nadir_bias_vertical.standard_error});
+    table.Add(kSimulated.wind_speed, kSimulated.footprint, LengthText(sea.corrected_above), sea.mean_square_slope,
+              sea.thu, sea.closed_form_thu, sea.tvu, sea.closed_form_tvu, sea.bias_vertical, sea.nadir_tvu,
+              sea.nadir_bias_vertical);
   }
   return table;
 }
@@ -204,7 +141,6 @@ Comparison CompareThu(const SimulatedSea& sea) {
   constexpr double kStandardErrors = 3;
   const Estimate ratio{sea.thu.value / sea.closed_form_thu, sea.thu.standard_error / sea.closed_form_thu};
   const double allowed = AllowedDeparture(sea.mean_square_slope, kIncidence);
-  const bool within = ExcessInStandardErrors(ratio, allowed) <= kStandardErrors;
   const std::string corrected = std::isinf(sea.corrected_above)
                                     ? "nothing corrected"
                                     : absl::StrFormat("corrected above %g m", sea.corrected_above);
@@ -214,7 +150,7 @@ Comparison CompareThu(const SimulatedSea& sea) {
           .published = 1,
           .ours = ratio.value,
           .standard_error = ratio.standard_error,
-          .verdict = within ? Verdict::kAgrees : Verdict::kDiffers,
+          .verdict = AgreesIf(ExcessInStandardErrors(ratio, allowed) <= kStandardErrors),
           .basis = absl::StrFormat(
               "from %.3f to %.3f, and %g standard errors: below 1 by 0.015, 0.3 of the remaining mean square "
               "slope and 0.02 at 20 degrees for the nonlinearity of Snell's law, above 1 for the discretization",
@@ -228,8 +164,7 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas, const std
   const auto percent = [&](Estimate SimulatedSea::*quantity) {
     return 100 * (least.*quantity).value / (whole.*quantity).value;
   };
-  const auto agree = std::count_if(comparisons.begin(), comparisons.end(),
-                                   [](const Comparison& c) { return c.verdict == Verdict::kAgrees; });
+  const auto agree = std::ranges::count(comparisons, Verdict::kAgrees, &Comparison::verdict);
   const double gain = 1 - 1 / kRefractiveIndex;
   const auto second_order = [&](const SimulatedSea& sea) {
     return -gain * gain / 2 * kSimulatedDepth * sea.mean_square_slope;

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "status/status_macros.h"
 #include "validation/published/paper_monte_carlo.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_tables.h"
@@ -26,13 +27,11 @@ constexpr double kClosedFormRms = 0.08, kMonteCarloRms = 0.12;
 // on average and 0.1 from the lowest of five lines.
 constexpr double kClosedFormRSquared = 0.97, kFineRSquared = 0.95, kPaperRSquared = 0.80;
 
-PowerLaw FallWithDiameter(const std::vector<RefractionGrid>& grids, Estimate RefractionGrid::Cell::*axis) {
+PowerLaw FallWithDiameter(const std::vector<RefractionGrid>& grids, AngleAxis axis) {
   std::vector<double> means;
   for (const RefractionGrid& grid : grids) means.push_back(MeanAngle(grid, axis).value);
   return FitPowerLaw(kPaperDiameters, means);
 }
-
-Verdict Agrees(bool agrees) { return agrees ? Verdict::kAgrees : Verdict::kDiffers; }
 
 void CompareTable3(const PaperMonteCarlo& runs, Study& study) {
   const LogRatio plain = AlongWindLogRatio(runs.closed_form, 1, runs.paper);
@@ -45,7 +44,7 @@ void CompareTable3(const PaperMonteCarlo& runs, Study& study) {
         {.quantity = absl::StrCat("Table 3 along wind, rms of ln(", what, " / paper)"),
          .unit = "1",
          .ours = ratio.rms,
-         .verdict = Agrees(ratio.rms <= tolerance),
+         .verdict = AgreesIf(ratio.rms <= tolerance),
          .basis = absl::StrFormat("at most %g over the clean cells; the worst differs by %+.3f. sqrt 2 is a "
                                   "guess at an error in the paper's program, not physics",
                                   tolerance, ratio.greatest)});
@@ -55,7 +54,7 @@ void CompareTable3(const PaperMonteCarlo& runs, Study& study) {
        .unit = "1",
        .published = 1,
        .ours = std::exp(plain.mean),
-       .verdict = Agrees(std::abs(plain.mean) <= kClosedFormRms),
+       .verdict = AgreesIf(std::abs(plain.mean) <= kClosedFormRms),
        .basis = absl::StrFormat(
            "within 8 %%: the physics of the model gives smaller angles than printed, by a factor of %.3f",
            std::exp(-plain.mean))});
@@ -66,7 +65,7 @@ void CompareTable3(const PaperMonteCarlo& runs, Study& study) {
       {.quantity = "Table 3 cross wind, rms of ln(sqrt 2 closed form / paper)",
        .unit = "1",
        .ours = cross.rms,
-       .verdict = Agrees(cross.rms <= kClosedFormRms),
+       .verdict = AgreesIf(cross.rms <= kClosedFormRms),
        .basis = "at most 0.08 over the clean cells, as along the wind: the printed angles hardly rise with "
                 "wind and fall with incidence, while ours rise with both"});
 }
@@ -78,7 +77,7 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
                                  .unit = "cases",
                                  .published = published.all == 0 ? kNoNumber : published.holds,
                                  .ours = static_cast<double>(ours.holds),
-                                 .verdict = Agrees(ours.holds == ours.all),
+                                 .verdict = AgreesIf(ours.holds == ours.all),
                                  .basis = "all cases, as the paper states for its results"});
   };
   compare("Along wind rises from one wind to the next", AlongWindRisesWithWind(printed),
@@ -97,7 +96,7 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
                                  .unit = "1",
                                  .published = LowestRSquared(printed),
                                  .ours = LowestRSquared(grid),
-                                 .verdict = Agrees(LowestRSquared(grid) >= least),
+                                 .verdict = AgreesIf(LowestRSquared(grid) >= least),
                                  .basis = absl::StrFormat("at least %.2f: %s", least, why)});
   };
   line("closed form", runs.closed_form, kClosedFormRSquared, "the theory is slightly curved");
@@ -117,7 +116,6 @@ void CompareModels(const PaperMonteCarlo& runs, Study& study) {
                                    .unit = unit,
                                    .published = paper,
                                    .ours = our,
-                                   .verdict = Verdict::kReported,
                                    .basis = "the fit to our unscaled closed form; the printed coefficients "
                                             "follow the printed angles, which are some 1.4 times ours"});
     };
@@ -126,30 +124,25 @@ void CompareModels(const PaperMonteCarlo& runs, Study& study) {
     add("coefficient of theta", "1", published.incidence, ours.incidence);
     add("constant", "degree", published.constant, ours.constant);
   };
-  coefficients("Eq. 27", kPublishedAlongWind, FitAngleModel(AlongWindSamples(runs.closed_form)));
-  coefficients("Eq. 28", kPublishedCrossWind, FitAngleModel(CrossWindSamples(runs.closed_form)));
+  coefficients("Eq. 27", kPublishedAlongWind, FitAngleModel(runs.closed_form, kAlongWind));
+  coefficients("Eq. 28", kPublishedCrossWind, FitAngleModel(runs.closed_form, kCrossWind));
   const auto exponent = [&](const char* name, double published, double ours) {
     study.comparisons.push_back({.quantity = absl::StrCat(name, ", exponent of the diameter"),
                                  .unit = "1",
                                  .published = published,
                                  .ours = ours,
-                                 .verdict = Verdict::kReported,
                                  .basis = "a power law through the means of the closed form over winds and "
                                           "incidences; as printed, Eq. 29 and 30 are not 1 at 0.25 m"});
   };
-  exponent("Eq. 29", kPublishedAlongWindExponent,
-           FallWithDiameter(runs.closed_form_by_diameter, &RefractionGrid::Cell::along).exponent);
-  exponent("Eq. 30", kPublishedCrossWindExponent,
-           FallWithDiameter(runs.closed_form_by_diameter, &RefractionGrid::Cell::cross).exponent);
+  exponent("Eq. 29", kPublishedAlongWindExponent, FallWithDiameter(runs.closed_form_by_diameter, kAlongWind).exponent);
+  exponent("Eq. 30", kPublishedCrossWindExponent, FallWithDiameter(runs.closed_form_by_diameter, kCrossWind).exponent);
 }
 
 std::vector<std::string> Text(const PaperMonteCarlo& runs, const PaperMonteCarloSize& size) {
   const LogRatio plain = AlongWindLogRatio(runs.closed_form, 1, runs.paper);
   const LogRatio scaled = AlongWindLogRatio(runs.closed_form, kSqrt2, runs.paper);
-  const auto narrow = runs.closed_form_by_diameter.front(), wide = runs.closed_form_by_diameter.back();
-  const auto ratio = [&](Estimate RefractionGrid::Cell::*axis) {
-    return MeanAngle(wide, axis).value / MeanAngle(narrow, axis).value;
-  };
+  const RefractionGrid &narrow = runs.closed_form_by_diameter.front(), &wide = runs.closed_form_by_diameter.back();
+  const auto ratio = [&](AngleAxis axis) { return MeanAngle(wide, axis).value / MeanAngle(narrow, axis).value; };
   return {
       absl::StrFormat(
           "The conditions are those of Table 1 on the fully developed sea: a uniform beam whose plane of "
@@ -178,8 +171,8 @@ std::vector<std::string> Text(const PaperMonteCarlo& runs, const PaperMonteCarlo
       absl::StrFormat("The angles fall with the diameter, because a wider footprint averages out more waves. "
                       "From 0.25 m to 4 m ours fall to %.2f (along) and %.2f (cross) of their value, those "
                       "of Eq. 29 and 30, as ratios, to %.2f and %.2f.",
-                      ratio(&RefractionGrid::Cell::along), ratio(&RefractionGrid::Cell::cross),
-                      PublishedAlongWindDiameterFactor(4), PublishedCrossWindDiameterFactor(4)),
+                      ratio(kAlongWind), ratio(kCrossWind), PublishedAlongWindDiameterFactor(4),
+                      PublishedCrossWindDiameterFactor(4)),
       "Three cells of Table 3 are damaged in our text copy of the paper. They are shown as read, marked as "
       "doubtful, and used only in the lines through the paper's cells.",
   };
@@ -188,10 +181,9 @@ std::vector<std::string> Text(const PaperMonteCarlo& runs, const PaperMonteCarlo
 }  // namespace
 
 absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options) {
-  absl::StatusOr<PublishedAngles> paper = ReadTable3(options.published);
-  if (!paper.ok()) return paper.status();
+  ASSIGN_OR_RETURN(PublishedAngles paper, ReadTable3(options.published));
   const PaperMonteCarloSize size = SizeOfPaperMonteCarlo(options.quick);
-  const PaperMonteCarlo runs = RunPaperMonteCarlo(*std::move(paper), size, options.seed);
+  const PaperMonteCarlo runs = RunPaperMonteCarlo(std::move(paper), size, options.seed);
 
   Study study;
   study.id = "table_3";

@@ -75,8 +75,7 @@ void CompareSlopes(Study& study) {
   DataTable table{.name = "real_sea_slopes",
                   .title = "Mean square slope of fully developed seas, compared with Cox and Munk (1954)",
                   .columns = {"wind_speed_m_s", "cox_munk_along", "apel_along", "elfouhaily_along", "cox_munk_cross",
-                              "apel_cross", "elfouhaily_cross"},
-                  .rows = {}};
+                              "apel_cross", "elfouhaily_cross"}};
   const auto compare = [&](const SpectrumModel& model, double wind, const char* direction, double ours,
                            const ObservedSlope& observed) {
     study.comparisons.push_back(
@@ -84,28 +83,24 @@ void CompareSlopes(Study& study) {
          .unit = "1",
          .published = observed.mean_square,
          .ours = ours,
-         .verdict =
-             std::abs(ours - observed.mean_square) <= 2 * observed.scatter ? Verdict::kAgrees : Verdict::kDiffers,
+         .verdict = AgreesIf(std::abs(ours - observed.mean_square) <= 2 * observed.scatter),
          .basis = absl::StrFormat("within %g, two standard deviations of Cox and Munk's observations about their "
                                   "line",
                                   2 * observed.scatter)});
   };
   for (int wind = 1; wind <= 15; ++wind) {
     const ObservedSlope along = CoxMunkAlongWind(wind), cross = CoxMunkCrossWind(wind);
-    std::vector<Cell> row_along = {along.mean_square}, row_cross = {cross.mean_square};
+    std::vector<Cell> ours_along, ours_cross;
     for (const SpectrumModel* model : kSpectra) {
       const Eigen::Matrix2d slopes = SlopeCovariance(Sea(*model, wind));
-      row_along.push_back(slopes(0, 0));
-      row_cross.push_back(slopes(1, 1));
+      ours_along.push_back(slopes(0, 0));
+      ours_cross.push_back(slopes(1, 1));
       if (wind == 1 || wind == 2 || wind == 5 || wind == 10 || wind == 14) {
         compare(*model, wind, "along the wind", slopes(0, 0), along);
         compare(*model, wind, "across the wind", slopes(1, 1), cross);
       }
     }
-    std::vector<Cell> row = {static_cast<double>(wind)};
-    row.insert(row.end(), row_along.begin(), row_along.end());
-    row.insert(row.end(), row_cross.begin(), row_cross.end());
-    table.rows.push_back(std::move(row));
+    table.Add(wind, along.mean_square, ours_along, cross.mean_square, ours_cross);
   }
   study.tables.push_back(std::move(table));
   for (const SpectrumModel* model : kSpectra) {
@@ -121,7 +116,7 @@ void CompareSlopes(Study& study) {
            .unit = "1",
            .published = scatter,
            .ours = rms,
-           .verdict = rms <= scatter ? Verdict::kAgrees : Verdict::kDiffers,
+           .verdict = AgreesIf(rms <= scatter),
            .basis =
                absl::StrFormat("no more than the standard deviation of the observations about the line; %s", winds)});
     }
@@ -135,14 +130,13 @@ void CompareHeights(Study& study) {
           "Significant wave height of fully developed seas, compared with Pierson and Moskowitz (1964), with "
           "the wind converted from 10 m to 19.5 m by a logarithmic profile, and unconverted",
       .columns = {"wind_speed_m_s", "pierson_moskowitz_m", "pierson_moskowitz_wind_as_it_is_m", "apel_m",
-                  "elfouhaily_m"},
-      .rows = {}};
+                  "elfouhaily_m"}};
   for (int wind = 1; wind <= 15; ++wind) {
     const double observed = PiersonMoskowitzWaveHeightOf(wind);
-    std::vector<Cell> row = {static_cast<double>(wind), observed, PiersonMoskowitzWaveHeight(wind)};
+    std::vector<Cell> ours;
     for (const SpectrumModel* model : kSpectra) {
       const double height = WaveHeight(Sea(*model, wind));
-      row.push_back(height);
+      ours.push_back(height);
       if (wind == 5 || wind == 10) {
         study.comparisons.push_back(
             {.quantity = absl::StrFormat("Significant wave height, %d m/s, fully developed, %s", wind,
@@ -154,7 +148,7 @@ void CompareHeights(Study& study) {
                       "at 10 m"});
       }
     }
-    table.rows.push_back(std::move(row));
+    table.Add(wind, observed, PiersonMoskowitzWaveHeight(wind), ours);
   }
   study.tables.push_back(std::move(table));
 }
@@ -162,15 +156,14 @@ void CompareHeights(Study& study) {
 void CompareHeightsByFetch(Study& study) {
   DataTable table{.name = "real_sea_heights_by_fetch",
                   .title = "Significant wave height by fetch, compared with JONSWAP (Hasselmann et al., 1973)",
-                  .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"},
-                  .rows = {}};
+                  .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"}};
   for (const double wind : {5.0, 10.0, 15.0}) {
     for (const double kilometres : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
       const double observed = JonswapWaveHeight(wind, 1e3 * kilometres);
-      std::vector<Cell> row = {wind, kilometres, observed};
+      std::vector<Cell> ours;
       for (const SpectrumModel* model : kSpectra) {
         const double height = WaveHeight(Sea(*model, wind, 1e3 * kilometres));
-        row.push_back(height);
+        ours.push_back(height);
         if (wind == 10 && (kilometres == 1 || kilometres == 10 || kilometres == 100)) {
           study.comparisons.push_back(
               {.quantity = absl::StrFormat("Significant wave height, 10 m/s, fetch %g km, %s", kilometres,
@@ -181,7 +174,7 @@ void CompareHeightsByFetch(Study& study) {
                .basis = "no verdict: a law fitted to scattered observations, whose scatter is not stated"});
         }
       }
-      table.rows.push_back(std::move(row));
+      table.Add(wind, kilometres, observed, ours);
     }
   }
   study.tables.push_back(std::move(table));

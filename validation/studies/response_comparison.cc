@@ -14,7 +14,7 @@
 #include "sea/sampled_spectrum.h"
 #include "sea/spectra/described_sea.h"
 #include "sea/spectra/jonswap.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
 namespace {
@@ -174,7 +174,7 @@ Comparison Judge(const std::vector<ComparedBeam>& beams, const Bound& bound, con
       .basis = "no verdict: under no beam is it large enough to matter"};
   if (found.beams == 0) return judged;
   const bool agrees = found.worst_beyond <= bound.each && found.rms <= std::hypot(bound.rms, found.standard_error);
-  judged.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;
+  judged.verdict = AgreesIf(agrees);
   const std::string of_all =
       std::isinf(bound.rms) ? "" : absl::StrFormat("%.2f %% rms besides standard errors, ", 100 * bound.rms);
   judged.basis = absl::StrFormat("within %s%.2f %% and %.1f standard errors for each of %d beams; at worst %.2f %%",
@@ -226,52 +226,43 @@ std::vector<ComparedBeam> CompareRandomBeams(const std::vector<ResponseSea>& sea
   return all;
 }
 
-const char* Name(ComparedQuantity quantity) {
-  switch (quantity) {
-    case ComparedQuantity::kAlong:
-      return "along";
-    case ComparedQuantity::kCross:
-      return "cross";
-    case ComparedQuantity::kThu:
-      return "thu";
-    case ComparedQuantity::kTvu:
-      return "tvu";
-    case ComparedQuantity::kBiasAlongBeam:
-      return "bias along";
-    case ComparedQuantity::kBiasVertical:
-      return "bias vertical";
-    case ComparedQuantity::kThuAtSurface:
-      return "thu at depth 0";
-  }
-  return "";
-}
+namespace {
+
+// What theory and tracing say of a quantity, and how small the tracing may be.
+struct TwoSides {
+  const char* name;
+  double (*theory)(const BeamResponse&);
+  Estimate (*traced)(const BeamUncertainty&);
+  double least;
+};
+
+using Ours = const BeamResponse&;
+using Traced = const BeamUncertainty&;
+constexpr double kMinAngle = RadiansOfDegrees(0.2), kMinLength = 0.0005 * kComparedDepth, kAt = kComparedDepth;
+
+// In the order of ComparedQuantity.
+constexpr std::array<TwoSides, 7> kSides = {{
+    {"along", [](Ours b) { return b.refraction_along_wind(); }, [](Traced b) { return b.refraction_along_wind; },
+     kMinAngle},
+    {"cross", [](Ours b) { return b.refraction_cross_wind(); }, [](Traced b) { return b.refraction_cross_wind; },
+     kMinAngle},
+    {"thu", [](Ours b) { return b.Thu(kAt); }, [](Traced b) { return b.thu[1]; }, 0},
+    {"tvu", [](Ours b) { return b.Tvu(kAt); }, [](Traced b) { return b.tvu[1]; }, kMinLength},
+    {"bias along", [](Ours b) { return b.BiasAlongBeam(kAt); }, [](Traced b) { return b.bias_along_beam[1]; },
+     kMinLength},
+    {"bias vertical", [](Ours b) { return b.BiasVertical(kAt); }, [](Traced b) { return b.bias_vertical[1]; }, 0},
+    {"thu at depth 0", [](Ours b) { return b.Thu(0); }, [](Traced b) { return b.thu[0]; }, 0.0005},
+}};
+
+}  // namespace
+
+const char* Name(ComparedQuantity quantity) { return kSides[static_cast<std::size_t>(quantity)].name; }
 
 Estimate RatioOf(const ComparedBeam& beam, ComparedQuantity quantity) {
-  const auto ratio = [](double theory, const Estimate& traced, double least) -> Estimate {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    if (std::abs(traced.value) < least) return {kNaN, kNaN};
-    return {theory / traced.value, traced.standard_error / std::abs(traced.value)};
-  };
-  const BeamResponse& ours = beam.theory;
-  const BeamUncertainty& traced = beam.traced;
-  const double min_angle = RadiansOfDegrees(0.2), min_length = 0.0005 * kComparedDepth;
-  switch (quantity) {
-    case ComparedQuantity::kAlong:
-      return ratio(ours.refraction_along_wind(), traced.refraction_along_wind, min_angle);
-    case ComparedQuantity::kCross:
-      return ratio(ours.refraction_cross_wind(), traced.refraction_cross_wind, min_angle);
-    case ComparedQuantity::kThu:
-      return ratio(ours.Thu(kComparedDepth), traced.thu[1], 0);
-    case ComparedQuantity::kTvu:
-      return ratio(ours.Tvu(kComparedDepth), traced.tvu[1], min_length);
-    case ComparedQuantity::kBiasAlongBeam:
-      return ratio(ours.BiasAlongBeam(kComparedDepth), traced.bias_along_beam[1], min_length);
-    case ComparedQuantity::kBiasVertical:
-      return ratio(ours.BiasVertical(kComparedDepth), traced.bias_vertical[1], 0);
-    case ComparedQuantity::kThuAtSurface:
-      return ratio(ours.Thu(0), traced.thu[0], 0.0005);
-  }
-  return {};
+  const TwoSides& sides = kSides[static_cast<std::size_t>(quantity)];
+  const Estimate traced = sides.traced(beam.traced);
+  if (std::abs(traced.value) < sides.least) return {kNoNumber, kNoNumber};
+  return {sides.theory(beam.theory) / traced.value, traced.standard_error / std::abs(traced.value)};
 }
 
 Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity, double standard_errors) {

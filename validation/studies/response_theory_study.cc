@@ -8,6 +8,7 @@
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
+#include "status/status_macros.h"
 #include "tables/s44.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
@@ -33,22 +34,12 @@ struct Table5 {
 };
 
 absl::StatusOr<Table5> ReadTable5(const std::filesystem::path& folder) {
-  const absl::StatusOr<PublishedTable> table = PublishedTable::Read(folder / "table5_thu_tvu.csv");
-  if (!table.ok()) return table.status();
-  Table5 result;
-  for (const auto& [name, column] : {std::pair{"depth_m", &result.depth}, std::pair{"thu_m", &result.thu},
-                                     std::pair{"iho_1b_thu_m", &result.thu_limit}, std::pair{"tvu_m", &result.tvu},
-                                     std::pair{"iho_1b_tvu_m", &result.tvu_limit}}) {
-    absl::StatusOr<std::vector<double>> numbers = table->Numbers(name);
-    if (!numbers.ok()) return numbers.status();
-    *column = *std::move(numbers);
-  }
-  return result;
+  ASSIGN_OR_RETURN(const PublishedTable table, PublishedTable::Read(folder / "table5_thu_tvu.csv"));
+  ASSIGN_OR_RETURN(const auto columns, table.Numbers({"depth_m", "thu_m", "iho_1b_thu_m", "tvu_m", "iho_1b_tvu_m"}));
+  return Table5{columns[0], columns[1], columns[2], columns[3], columns[4]};
 }
 
-Verdict Judge(double departure, double tolerance) {
-  return std::abs(departure) <= tolerance ? Verdict::kAgrees : Verdict::kDiffers;
-}
+Verdict Judge(double departure, double tolerance) { return AgreesIf(std::abs(departure) <= tolerance); }
 
 void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours, Study& study) {
   const auto compare = [&](const char* name, double depth, double published, double per_depth) {
@@ -113,14 +104,12 @@ DataTable BesideTable5(const Table5& paper, const AngleMethodUncertainty& quadra
       .title = "Table 5 as printed (columns of the paper), and by the angle method from the angles of Table 4",
       .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m", "quadrature_tvu_m",
                   "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m", "s44_1b_thu_limit_m",
-                  "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
-      .rows = {}};
+                  "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"}};
   for (std::size_t i = 0; i < paper.depth.size(); ++i) {
     const double d = paper.depth[i];
-    table.rows.push_back({d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth, paper.tvu[i],
-                          d * quadrature.tvu_per_depth, d * draws.tvu_per_depth, paper.thu_limit[i],
-                          ThuLimitAsPrintedByBirkebak(d), ThuLimit(S44Order::k1b, d), paper.tvu_limit[i],
-                          TvuLimit(S44Order::k1b, d)});
+    table.Add(d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth, paper.tvu[i],
+              d * quadrature.tvu_per_depth, d * draws.tvu_per_depth, paper.thu_limit[i], ThuLimitAsPrintedByBirkebak(d),
+              ThuLimit(S44Order::k1b, d), paper.tvu_limit[i], TvuLimit(S44Order::k1b, d));
   }
   return table;
 }
@@ -128,15 +117,13 @@ DataTable BesideTable5(const Table5& paper, const AngleMethodUncertainty& quadra
 }  // namespace
 
 absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
-  const absl::StatusOr<PublishedAngles> measured = ReadTable4(options.published);
-  if (!measured.ok()) return measured.status();
-  const absl::StatusOr<Table5> paper = ReadTable5(options.published);
-  if (!paper.ok()) return paper.status();
+  ASSIGN_OR_RETURN(const PublishedAngles measured, ReadTable4(options.published));
+  ASSIGN_OR_RETURN(const Table5 paper, ReadTable5(options.published));
 
   // Table 5 is made from the last row and column of Table 4.
-  const PublishedAngles::Cell& cell = measured->cells.back();
-  const double wind_speed = measured->wind_speeds.back();
-  const double incidence = RadiansOfDegrees(measured->incidences.back());
+  const PublishedAngles::Cell& cell = measured.cells.back();
+  const double wind_speed = measured.wind_speeds.back();
+  const double incidence = RadiansOfDegrees(measured.incidences.back());
   const double angle = RadiansOfDegrees(std::hypot(cell.along, cell.cross));
   const double refracted = StillWaterRefraction(incidence, kRefractiveIndex);
   const AngleMethodUncertainty quadrature = AngleMethod(refracted, angle);
@@ -151,18 +138,18 @@ absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
                       "water, %.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 "
                       "sigma = sqrt(along^2 + cross^2) = %.3f degrees from Table 4 at %g m/s. We evaluate them by "
                       "quadrature, which has no random error, and with one set of 10,000 draws as in the paper.",
-                      DegreesOfRadians(refracted), measured->incidences.back(), DegreesOfRadians(angle), wind_speed),
+                      DegreesOfRadians(refracted), measured.incidences.back(), DegreesOfRadians(angle), wind_speed),
       absl::StrFormat(
           "The paper does not say in which medium theta is measured. With the incidence in air the THU at 10 "
           "m would be %.2f m and the TVU %.2f m, while the paper prints %.2f m and %.2f m.",
-          10 * in_air.thu_per_depth, 10 * in_air.tvu_per_depth, paper->thu.back(), paper->tvu.back()),
+          10 * in_air.thu_per_depth, 10 * in_air.tvu_per_depth, paper.thu.back(), paper.tvu.back()),
       "The paper's limits for order 1b follow from its Eq. 22 and 23. Eq. 22 allows 5 m plus 2 % of the "
       "depth, S-44 itself 5 m plus 5 %: the paper is stricter, and its conclusion stands. These THU and TVU "
       "are 2 sigma values; the limits are for 95 %."};
-  CompareByQuadrature(*paper, quadrature, study);
-  CompareByDraws(*paper, draws, study);
-  CompareLimits(*paper, study);
-  study.tables = {BesideTable5(*paper, quadrature, draws)};
+  CompareByQuadrature(paper, quadrature, study);
+  CompareByDraws(paper, draws, study);
+  CompareLimits(paper, study);
+  study.tables = {BesideTable5(paper, quadrature, draws)};
   study.figures = {{.name = "table_5_thu_tvu",
                     .caption =
                         "THU and TVU over depth: Table 5 (points) and the angle method (lines), with the TVU limit "
@@ -177,15 +164,13 @@ DataTable EachBeam(const std::vector<ComparedBeam>& beams, std::string name, std
                   .title = std::move(title),
                   .columns = {"sea", "incidence_deg", "azimuth_deg", "footprint_m", "profile", "refractive_index",
                               "seen", "quantity", "ratio", "standard_error"},
-                  .rows = {},
                   .on_the_page = false};
   for (const ComparedBeam& each : beams) {
     for (const ComparedQuantity quantity : kComparedQuantities) {
       const Estimate ratio = RatioOf(each, quantity);
       if (std::isnan(ratio.value)) continue;
-      table.rows.push_back({each.sea, DegreesOfRadians(each.beam.incidence), DegreesOfRadians(each.beam.azimuth),
-                            each.beam.footprint, std::string(Name(each.beam.profile)), each.refractive_index, each.seen,
-                            std::string(Name(quantity)), ratio.value, ratio.standard_error});
+      table.Add(each.sea, DegreesOfRadians(each.beam.incidence), DegreesOfRadians(each.beam.azimuth),
+                each.beam.footprint, Name(each.beam.profile), each.refractive_index, each.seen, Name(quantity), ratio);
     }
   }
   return table;
@@ -197,20 +182,19 @@ DataTable EachSea(const std::vector<ComparedBeam>& beams) {
                       "Theory over tracing on each sea: departures from 1 in %, rms and standard error of the "
                       "tracing, at a depth of 20 m",
                   .columns = {"sea", "beams", "along_rms", "along_error", "cross_rms", "cross_error", "thu_rms",
-                              "thu_error", "tvu_rms", "tvu_error"},
-                  .rows = {}};
+                              "thu_error", "tvu_rms", "tvu_error"}};
   for (std::size_t first = 0; first < beams.size();) {
     std::size_t last = first;
     while (last < beams.size() && beams[last].sea == beams[first].sea) ++last;
     const std::vector<ComparedBeam> of_sea(beams.begin() + first, beams.begin() + last);
-    std::vector<Cell> row = {of_sea.front().sea, static_cast<double>(of_sea.size())};
+    std::vector<Cell> errors;
     for (const ComparedQuantity quantity :
          {ComparedQuantity::kAlong, ComparedQuantity::kCross, ComparedQuantity::kThu, ComparedQuantity::kTvu}) {
       const Agreement found = AgreementOf(of_sea, quantity, 0);
-      row.push_back(found.beams > 0 ? 100 * found.rms : kNoNumber);
-      row.push_back(found.beams > 0 ? 100 * found.standard_error : kNoNumber);
+      errors.push_back(found.beams > 0 ? 100 * found.rms : kNoNumber);
+      errors.push_back(found.beams > 0 ? 100 * found.standard_error : kNoNumber);
     }
-    table.rows.push_back(std::move(row));
+    table.Add(of_sea.front().sea, of_sea.size(), errors);
     first = last;
   }
   return table;
@@ -227,15 +211,12 @@ absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options) {
   study.id = "response_theory";
   study.title = "The response theory: any sea without a table";
   study.paragraphs = {
-      "A sea that is measured or described has no table. Its numbers come from its spectrum alone, by a "
-      "theory "
-      "without a fitted number: the mean refracted ray of a beam is a function of Gaussian slopes and "
-      "heights, "
+      "A sea that is measured or described has no table. Its numbers come from its spectrum alone, by a theory "
+      "without a fitted number: the mean refracted ray of a beam is a function of Gaussian slopes and heights, "
       "whose covariance under the footprint is an integral over the spectrum. The variance of the errors is "
       "exact to the fourth order in slope. docs/physics.md derives it in the section \"Finite slopes\".",
       "Here it is compared with the Monte Carlo, which traces rays and does not use it, on random beams: "
-      "incidences up to 30 degrees, footprints from 0.2 to 6 m, uniform and gaussian, refractive indices "
-      "from "
+      "incidences up to 30 degrees, footprints from 0.2 to 6 m, uniform and gaussian, refractive indices from "
       "1.33 to 1.345, on wind seas and described ones. A second comparison is on seas without waves shorter "
       "than some 0.2 m, all of which a grid can hold, with a grid twice as fine.",
       "Its limits: terms of the sixth order in slope are left out, 0.02 % of THU and 0.14 % of TVU at a mean "

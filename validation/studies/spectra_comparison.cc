@@ -40,8 +40,8 @@ SmallSlopeUncertainty ClosedFormAt(const Point& point, const SpectrumModel& mode
                     {.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint}, kRefractiveIndex);
 }
 
-Cell FetchCell(double fetch) {
-  return std::isinf(fetch) ? Cell(std::string("fully developed")) : Cell(absl::StrFormat("%g", fetch / 1e3));
+std::string FetchText(double fetch) {
+  return std::isinf(fetch) ? "fully developed" : absl::StrFormat("%g", fetch / 1e3);
 }
 
 // The value below which the fraction `part` of `values` lies.
@@ -70,7 +70,6 @@ RatioSummary CompareInClosedForm(Study& study) {
       .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_along_deg",
                   "elfouhaily_along_deg", "apel_cross_deg", "elfouhaily_cross_deg", "apel_thu_per_depth",
                   "elfouhaily_thu_per_depth", "apel_tvu_per_depth", "elfouhaily_tvu_per_depth", "thu_ratio"},
-      .rows = {},
       .on_the_page = false};
   std::vector<double> along, cross, thu, tvu;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -80,10 +79,10 @@ RatioSummary CompareInClosedForm(Study& study) {
     thu.push_back(e.thu_per_depth / a.thu_per_depth);
     if (a.tvu_per_depth > 0) tvu.push_back(e.tvu_per_depth / a.tvu_per_depth);
     const auto degrees = DegreesOfRadians;
-    table.rows.push_back({points[i].wind_speed, FetchCell(points[i].fetch), points[i].incidence, points[i].footprint,
-                          degrees(a.refraction_along_wind), degrees(e.refraction_along_wind),
-                          degrees(a.refraction_cross_wind), degrees(e.refraction_cross_wind), a.thu_per_depth,
-                          e.thu_per_depth, a.tvu_per_depth, e.tvu_per_depth, thu.back()});
+    table.Add(points[i].wind_speed, FetchText(points[i].fetch), points[i].incidence, points[i].footprint,
+              degrees(a.refraction_along_wind), degrees(e.refraction_along_wind), degrees(a.refraction_cross_wind),
+              degrees(e.refraction_cross_wind), a.thu_per_depth, e.thu_per_depth, a.tvu_per_depth, e.tvu_per_depth,
+              thu.back());
   }
   study.tables.push_back(std::move(table));
 
@@ -91,14 +90,13 @@ RatioSummary CompareInClosedForm(Study& study) {
                     .title = absl::StrFormat("The ratio of Elfouhaily's 2 sigma value to Apel's at %d points: winds of "
                                              "2-15 m/s, fetches from 1 km, 0-20 degrees, footprints of 0.25-2 m",
                                              static_cast<int>(points.size())),
-                    .columns = {"quantity", "least", "percent_5", "median", "percent_95", "greatest"},
-                    .rows = {}};
+                    .columns = {"quantity", "least", "percent_5", "median", "percent_95", "greatest"}};
   for (const auto& [name, ratios] : {std::pair{"refraction along wind", &along},
                                      {"refraction cross wind", &cross},
                                      {"THU", &thu},
                                      {"TVU, off nadir", &tvu}}) {
     const RatioSummary r = Summarize(*ratios);
-    summary.rows.push_back({std::string(name), r.least, r.low, r.median, r.high, r.greatest});
+    summary.Add(name, r.least, r.low, r.median, r.high, r.greatest);
     study.comparisons.push_back(
         {.quantity = absl::StrFormat("%s, Elfouhaily over Apel, median", name),
          .unit = "1",
@@ -120,8 +118,7 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
       .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_thu_m",
                   "apel_thu_standard_error_m", "elfouhaily_thu_m", "elfouhaily_thu_standard_error_m", "apel_tvu_m",
                   "apel_tvu_standard_error_m", "elfouhaily_tvu_m", "elfouhaily_tvu_standard_error_m", "thu_ratio",
-                  "thu_ratio_standard_error", "thu_ratio_closed_form"},
-      .rows = {}};
+                  "thu_ratio_standard_error", "thu_ratio_closed_form"}};
   std::uint32_t cell = 0;
   for (const Point& point : {Point{3, 1e4, 20, 0.5},
                              {6, kFullyDeveloped, 0, 0.5},
@@ -142,10 +139,8 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
                                                   apel.thu[0].standard_error / apel.thu[0].value);
     const double closed_form =
         ClosedFormAt(point, kElfouhailyModel).thu_per_depth / ClosedFormAt(point, kApelModel).thu_per_depth;
-    table.rows.push_back({point.wind_speed, FetchCell(point.fetch), point.incidence, point.footprint, apel.thu[0].value,
-                          apel.thu[0].standard_error, elfouhaily.thu[0].value, elfouhaily.thu[0].standard_error,
-                          apel.tvu[0].value, apel.tvu[0].standard_error, elfouhaily.tvu[0].value,
-                          elfouhaily.tvu[0].standard_error, ratio, ratio_error, closed_form});
+    table.Add(point.wind_speed, FetchText(point.fetch), point.incidence, point.footprint, apel.thu[0],
+              elfouhaily.thu[0], apel.tvu[0], elfouhaily.tvu[0], ratio, ratio_error, closed_form);
   }
   study.tables.push_back(std::move(table));
 }

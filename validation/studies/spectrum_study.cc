@@ -1,9 +1,9 @@
-#include "validation/studies/spectrum_study.h"
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -13,6 +13,7 @@
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "sea/spectra/apel_spectrum.h"
+#include "status/status_macros.h"
 #include "validation/laboratory/wave_staff.h"
 #include "validation/published/published_table.h"
 #include "validation/studies/studies.h"
@@ -65,8 +66,9 @@ double AreaWithin(const std::vector<Eigen::Vector2d>& polygon) {
   return twice / 2;
 }
 
-void AddSpot(const std::vector<Eigen::Vector2d>& ends, const std::vector<Eigen::Vector2d>& still_ends,
-             BeamPicture& picture) {
+// The plane where the rays end, through waves and through still water.
+std::vector<DataTable> SpotTables(const std::vector<Eigen::Vector2d>& ends,
+                                  const std::vector<Eigen::Vector2d>& still_ends) {
   constexpr int kBins = 120;
   constexpr double kBin = 0.003;  // m
   const Eigen::Vector2d still = Centroid(still_ends), moved = Centroid(ends);
@@ -78,20 +80,33 @@ void AddSpot(const std::vector<Eigen::Vector2d>& ends, const std::vector<Eigen::
     if ((bin.array() >= 0).all() && (bin.array() < kBins).all())
       ++count[static_cast<int>(bin.x()) * kBins + static_cast<int>(bin.y())];
   }
+  DataTable spot{.name = "figure_3_spot",
+                 .title = "Power over the plane 0.25 m down, relative to that of the spot in still water",
+                 .columns = {"x_m", "y_m", "power"},
+                 .on_the_page = false};
   for (int i = 0; i < kBins; ++i) {
     for (int j = 0; j < kBins; ++j) {
       const Eigen::Vector2d middle = still + kBin * Eigen::Vector2d(i + 0.5 - kBins / 2, j + 0.5 - kBins / 2);
-      picture.spot.rows.push_back({middle.x(), middle.y(), count[i * kBins + j] / rays_per_bin});
+      spot.Add(middle.x(), middle.y(), count[i * kBins + j] / rays_per_bin);
     }
   }
-  for (const Eigen::Vector2d& point : edge) picture.still_spot.rows.push_back({point.x(), point.y()});
-  picture.centroids.rows = {{std::string("still water"), still.x(), still.y()},
-                            {std::string("this realization"), moved.x(), moved.y()}};
+  DataTable still_spot{.name = "figure_3_still_spot",
+                       .title = "The edge of the spot in still water",
+                       .columns = {"x_m", "y_m"},
+                       .on_the_page = false};
+  for (const Eigen::Vector2d& point : edge) still_spot.Add(point.x(), point.y());
+  DataTable centroids{
+      .name = "figure_3_centroids",
+      .title = "The centroid of the spot 0.25 m down, relative to the point where the axis meets the water",
+      .columns = {"surface", "x_m", "y_m"}};
+  centroids.Add("still water", still.x(), still.y());
+  centroids.Add("this realization", moved.x(), moved.y());
+  return {std::move(spot), std::move(still_spot), std::move(centroids)};
 }
 
-}  // namespace
-
-BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
+// The beam of section 2.1.2 through one realization of the sea: 0.25 m wide, from 4 m above the water, at 15 degrees,
+// down to 0.25 m below the mean surface.
+std::vector<DataTable> PictureOf(const SeaState& sea, std::uint64_t seed) {
   const BeamOptions options{
       .incidence = RadiansOfDegrees(kIncidence), .footprint = kFootprint, .source_height = kSourceHeight};
   const SurfaceModel model(sea, options, ChooseDiscretization(sea, {options}));
@@ -101,14 +116,22 @@ BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
       surface.SurfaceUnder(beam);  // about the point where the axis meets the long waves
   const HeightField& heights = window.heights;
 
-  BeamPicture picture;
+  DataTable drawn_surface{.name = "figure_3_surface",
+                          .title = "Elevation of one realization around the beam",
+                          .columns = {"x_m", "y_m", "elevation_m"},
+                          .on_the_page = false};
   const int half = static_cast<int>(0.98 * heights.reach() / kDrawnSpacing);
   for (int i = -half; i <= half; ++i) {
     for (int j = -half; j <= half; ++j) {
       const Eigen::Vector2d at(i * kDrawnSpacing, j * kDrawnSpacing);
-      picture.surface.rows.push_back({at.x(), at.y(), heights.FacetAt(at).HeightAt(at)});
+      drawn_surface.Add(at.x(), at.y(), heights.FacetAt(at).HeightAt(at));
     }
   }
+  DataTable drawn_rays{.name = "figure_3_rays",
+                       .title = "Rays of the beam: points above the water, on the surface and 0.25 m below it",
+                       .columns = {"x_above_m", "y_above_m", "z_above_m", "x_surface_m", "y_surface_m", "z_surface_m",
+                                   "x_bottom_m", "y_bottom_m", "z_bottom_m"},
+                       .on_the_page = false};
   const double mean_level = -window.elevation;
   const double bottom_level = mean_level - kDepth;
   const HeightField::Facet still_water{mean_level, Eigen::Vector2d::Zero()};
@@ -123,14 +146,12 @@ BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
     if (r % kRaysPerDrawnRay != 0) continue;
     const Eigen::Vector2d above = ray.at_zero + kAbove * ray.per_height();
     const Eigen::Vector2d met = ray.at_zero + hit.height * ray.per_height();
-    picture.rays.rows.push_back(
-        {above.x(), above.y(), kAbove, met.x(), met.y(), hit.height, end.x(), end.y(), bottom_level});
+    drawn_rays.Add(above.x(), above.y(), kAbove, met.x(), met.y(), hit.height, end.x(), end.y(), bottom_level);
   }
-  AddSpot(ends, still_ends, picture);
-  return picture;
+  std::vector<DataTable> tables = {std::move(drawn_surface), std::move(drawn_rays)};
+  std::ranges::move(SpotTables(ends, still_ends), std::back_inserter(tables));
+  return tables;
 }
-
-namespace {
 
 // The caption of Figure 2.
 constexpr double kWind = 5;     // m/s
@@ -140,13 +161,12 @@ DataTable Spectrum(const SeaState& sea) {
   DataTable table{.name = "figure_2_spectrum",
                   .title = "S(k) of Apel's sea for 5 m/s and a fetch of 5.5 m, and B(k) = k^3 S(k)",
                   .columns = {"k_rad_per_m", "wavelength_m", "s_m3", "curvature"},
-                  .rows = {},
                   .on_the_page = false};
   const auto [lowest, highest] = sea.energetic_range();
   constexpr int kSteps = 400;
   for (int i = 0; i <= kSteps; ++i) {
     const double k = lowest * std::pow(highest / lowest, static_cast<double>(i) / kSteps);
-    table.rows.push_back({k, 2 * std::numbers::pi / k, sea.S(k), k * k * k * sea.S(k)});
+    table.Add(k, 2 * std::numbers::pi / k, sea.S(k), k * k * k * sea.S(k));
   }
   return table;
 }
@@ -155,13 +175,11 @@ DataTable Spreading(const SeaState& sea) {
   DataTable table{.name = "figure_2_spreading",
                   .title = "Spreading of waves about the wind, of travelling waves and of a frozen surface",
                   .columns = {"direction_deg", "spreading_per_rad", "frozen_per_rad"},
-                  .rows = {},
                   .on_the_page = false};
   const double k_p = sea.spectrum().peak_wavenumber();
   for (int degree = -180; degree <= 180; degree += 3) {
     const double psi = RadiansOfDegrees(degree);
-    table.rows.push_back(
-        {static_cast<double>(degree), sea.spectrum().Spreading(k_p, psi), sea.FrozenSpreading(k_p, psi)});
+    table.Add(degree, sea.spectrum().Spreading(k_p, psi), sea.FrozenSpreading(k_p, psi));
   }
   return table;
 }
@@ -170,43 +188,38 @@ DataTable DirectionalSpectrum(const SeaState& sea) {
   DataTable table{.name = "figure_2_directional",
                   .title = "Psi(kx, ky) = S(k) D(psi) / k by the direction of travel of the waves",
                   .columns = {"kx_rad_per_m", "ky_rad_per_m", "psi_m4"},
-                  .rows = {},
                   .on_the_page = false};
   constexpr int kHalf = 60;
   const double step = 3 * sea.spectrum().peak_wavenumber() / kHalf;
   for (int i = -kHalf; i <= kHalf; ++i) {
     for (int j = -kHalf; j <= kHalf; ++j) {
       const double k = step * std::hypot(i, j);
-      table.rows.push_back({i * step, j * step, k > 0 ? sea.DirectionalPsi(k, std::atan2(j, i)) : 0});
+      table.Add(i * step, j * step, k > 0 ? sea.DirectionalPsi(k, std::atan2(j, i)) : 0);
     }
   }
   return table;
 }
 
 absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options, Study& study) {
-  const absl::StatusOr<PublishedTable> table = PublishedTable::Read(options.published / "table2_wave_staff.csv");
-  if (!table.ok()) return table.status();
-  const auto fetch = table->Numbers("distance_downwind_m"), wavelength = table->Numbers("peak_wavelength_m"),
-             frequency = table->Numbers("peak_frequency_hz"), height = table->Numbers("significant_wave_height_m");
-  for (const auto* column : {&fetch, &wavelength, &frequency, &height})
-    if (!column->ok()) return column->status();
-  const std::size_t row = std::find(fetch->begin(), fetch->end(), kFetch) - fetch->begin();
-  if (row == fetch->size()) return absl::InvalidArgumentError("table2_wave_staff.csv: no row for a fetch of 5.5 m");
+  ASSIGN_OR_RETURN(const Table2 table, ReadTable2(options.published));
+  const std::size_t row = std::ranges::find(table.fetch, kFetch) - table.fetch.begin();
+  if (row == table.fetch.size())
+    return absl::InvalidArgumentError("table2_wave_staff.csv: no row for a fetch of 5.5 m");
   const char* basis = "no verdict: Table 2 does not state its wind";
   study.comparisons.push_back({.quantity = "Peak wavelength, 5 m/s, fetch 5.5 m, Eq. 3",
                                .unit = "m",
-                               .published = (*wavelength)[row],
+                               .published = table.peak_wavelength[row],
                                .ours = 2 * std::numbers::pi / sea.spectrum().peak_wavenumber(),
                                .basis = basis});
   study.comparisons.push_back({.quantity = "Peak frequency, 5 m/s, fetch 5.5 m, maximum of S over frequency",
                                .unit = "Hz",
-                               .published = (*frequency)[row],
+                               .published = table.peak_frequency[row],
                                .ours = PeakFrequency(sea),
                                .basis = basis});
   study.comparisons.push_back(
       {.quantity = "Significant wave height, 5 m/s, fetch 5.5 m",
        .unit = "m",
-       .published = (*height)[row],
+       .published = table.significant_wave_height[row],
        .ours = 4 * std::sqrt(ElevationVariance(sea)),
        .basis = "no verdict: Apel's level A does not depend on fetch, which makes young seas too low"});
   return absl::OkStatus();
@@ -252,7 +265,7 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
       "the side, with rays of a 0.25 m beam from 4 m above, at 15 degrees, refracted at the facets that they "
       "hit. The waves are shorter than the footprint: they hardly move the centroid of the spot but break it "
       "up into caustics, which the photodiodes of the paper's laboratory sampled."};
-  if (const absl::Status status = CompareWithTable2(sea, options, study); !status.ok()) return status;
+  RETURN_IF_ERROR(CompareWithTable2(sea, options, study));
   const double variance = VarianceOverThePlane(sea), omnidirectional = ElevationVariance(sea);
   constexpr double kQuadrature = 1e-4;  // of ElevationVariance
   study.comparisons.push_back(
@@ -260,12 +273,10 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
        .unit = "1",
        .published = 1,
        .ours = variance / omnidirectional,
-       .verdict = std::abs(variance / omnidirectional - 1) < kQuadrature ? Verdict::kAgrees : Verdict::kDiffers,
+       .verdict = AgreesIf(std::abs(variance / omnidirectional - 1) < kQuadrature),
        .basis = "within 1e-4, the error of the quadratures, because the spreading integrates to one"});
-  BeamPicture picture = PictureOf(sea, options.seed);
-  study.tables = {
-      Spectrum(sea),           Spreading(sea),          DirectionalSpectrum(sea),      std::move(picture.surface),
-      std::move(picture.rays), std::move(picture.spot), std::move(picture.still_spot), std::move(picture.centroids)};
+  study.tables = {Spectrum(sea), Spreading(sea), DirectionalSpectrum(sea)};
+  std::ranges::move(PictureOf(sea, options.seed), std::back_inserter(study.tables));
   study.figures = {
       {.name = "figure_2",
        .caption = "Figure 2: (a) the omnidirectional spectrum S(k), (b) the spreading, (c) the directional "

@@ -1,4 +1,4 @@
-// The studies of the report, beside those of validation/laboratory: each a function of its options alone.
+// The studies of the report: each a function of its options alone.
 #pragma once
 
 #include "absl/status/statusor.h"
@@ -9,8 +9,14 @@ namespace albtpu {
 // Figures 2 and 3 of the paper: the spectrum of a young sea, and a beam through a surface drawn from it.
 absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options);
 
+// Table 2: the waves of the tank, as a wave staff measured them.
+absl::StatusOr<Study> WaveStaffStudy(const StudyOptions& options);
+
 // Table 3, Figures 8 and 9, Eq. 27-30: the paper's Monte Carlo beside ours.
 absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options);
+
+// Table 4: refraction as photodiodes under a wave tank measured it.
+absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options);
 
 // Table 5, THU and TVU by the angle method beside the limits of IHO S-44: from the measured angles of Table 4 at 20
 // degrees and 5.25 m/s, by quadrature and with the paper's 10,000 draws.

@@ -76,7 +76,7 @@ Comparison Compared(std::string quantity, std::string unit, double published, co
           .published = published,
           .ours = ours.value,
           .standard_error = ours.standard_error > 0 ? ours.standard_error : kNoNumber,
-          .verdict = std::abs(ours.value - published) <= allowed ? Verdict::kAgrees : Verdict::kDiffers,
+          .verdict = AgreesIf(std::abs(ours.value - published) <= allowed),
           .basis = std::move(basis)};
 }
 
@@ -90,20 +90,28 @@ void AddMoments(Study& study) {
                                        {Ocean().MeanSquareAngle(), 0}, 2e-5, basis));
 }
 
+// The mean weight of `photons`, of which those that arrive have an excess of path, and the others no weight.
+template <typename Weight>
+Estimate MeanOver(const std::vector<float>& excesses, std::uint32_t photons, const Weight& weight_of) {
+  double sum = 0, squares = 0;
+  for (const float excess : excesses) {
+    const double weight = weight_of(excess);
+    sum += weight;
+    squares += weight * weight;
+  }
+  const double mean = sum / photons;
+  return {mean, std::sqrt((squares / photons - mean * mean) / photons)};
+}
+
 void AddSlab(const StudyOptions& options, Study& study) {
   const double depths[] = {1.8};
   const std::uint32_t photons = options.quick ? 200'000 : 2'000'000;
   const auto slab =
       WalkPhotons(PhaseFunction::HenyeyGreenstein(0.75), {.refractive_index = 1}, depths, photons, options.seed, 0, 0);
-  double sum = 0, squares = 0;
-  for (const float excess : slab[0].excess) {
-    const double weight = std::exp(-(double{excess} + depths[0]) / 9);
-    sum += weight;
-    squares += weight * weight;
-  }
-  const double mean = sum / photons, error = std::sqrt((squares / photons - mean * mean) / photons);
+  const Estimate energy =
+      MeanOver(slab[0].excess, photons, [&](float excess) { return std::exp(-(double{excess} + depths[0]) / 9); });
   study.comparisons.push_back(Compared("light through a slab: optical depth 2, albedo 0.9, Henyey-Greenstein 0.75", "",
-                                       0.66096, {mean, error}, 4 * error,
+                                       0.66096, energy, 4 * energy.standard_error,
                                        "within 4 standard errors of van de Hulst (1980)"));
 }
 
@@ -114,15 +122,10 @@ void AddSmallAngles(const StudyOptions& options, Study& study) {
   const std::uint32_t photons = options.quick ? 30'000 : 300'000;
   const auto planes = WalkPhotons(gaussian, {}, depths, photons, options.seed, 1, 0);
   const double absorption = 1 / std::pow(depths[0] * sigma, 2);
-  double sum = 0, squares = 0;
-  for (const float excess : planes[0].excess) {
-    const double weight = std::exp(-absorption * excess);
-    sum += weight;
-    squares += weight * weight;
-  }
-  const double mean = sum / photons, error = std::sqrt((squares / photons - mean * mean) / photons);
-  study.comparisons.push_back(Compared("energy after many small angles with absorption", "", 1 / std::cosh(1.0),
-                                       {mean, error}, 0.001 + 4 * error,
+  const Estimate energy =
+      MeanOver(planes[0].excess, photons, [&](float excess) { return std::exp(-absorption * excess); });
+  study.comparisons.push_back(Compared("energy after many small angles with absorption", "", 1 / std::cosh(1.0), energy,
+                                       0.001 + 4 * energy.standard_error,
                                        "within 0.001 and 4 standard errors of sech(1): exact for small angles"));
 }
 
@@ -179,8 +182,7 @@ void AddSystems(const StudyOptions& options, Study& study) {
                   .title = "Bottom reported too deep at 12 degrees, by detector, and the shift along the beam",
                   .columns = {"system", "attenuation_per_m", "depth_m", "peak_cm", "peak_error_cm",
                               "peak_found_apart_cm", "half_cm", "half_error_cm", "half_found_apart_cm", "centroid_cm",
-                              "peak_along_cm", "half_along_cm", "spot_m", "spot_found_apart_m", "energy"},
-                  .rows = {}};
+                              "peak_along_cm", "half_along_cm", "spot_m", "spot_found_apart_m", "energy"}};
   const WaterEffort effort{.photons = options.quick ? 40'000u : 200'000u, .seed = options.seed, .cell = 4};
   for (const Found& found : FoundApart()) {
     const WaterColumn column = ColumnOf(found.lidar, OfAttenuation(found.attenuation), 12, found.depth);
@@ -194,11 +196,10 @@ void AddSystems(const StudyOptions& options, Study& study) {
       return Estimate{-cm * vertical.value, cm * vertical.standard_error};
     };
     const Estimate peak = deep(Detector::kPeak), half = deep(Detector::kHalf);
-    table.rows.push_back({found.lidar.name, found.attenuation, found.depth, peak.value, peak.standard_error, found.peak,
-                          half.value, half.standard_error, found.half, deep(Detector::kCentroid).value,
-                          cm * detected.along[Index(Detector::kPeak)].value,
-                          cm * detected.along[Index(Detector::kHalf)].value, found.depth * bias.spot.value, found.spot,
-                          bias.energy.value});
+    table.Add(found.lidar.name, found.attenuation, found.depth, peak, found.peak, half, found.half,
+              deep(Detector::kCentroid).value, cm * detected.along[Index(Detector::kPeak)].value,
+              cm * detected.along[Index(Detector::kHalf)].value, found.depth * bias.spot.value, found.spot,
+              bias.energy.value);
     const std::string where = absl::StrCat(found.lidar.name, ", ", found.attenuation, " 1/m, ", found.depth, " m");
     const std::string basis = "within 0.2 cm, its rounding and 3 standard errors of a program apart from this one";
     study.comparisons.push_back(Compared(absl::StrCat("too deep by the peak: ", where), "cm", found.peak, peak,

@@ -13,6 +13,19 @@
 namespace albtpu {
 namespace {
 
+// The standard deviation [rad] of the incidence of a beam from `sensor` to `water_point` by the error of the position:
+// a displacement e changes the angle from the vertical by e . (horizontal, up unit vector across the beam) / range.
+double IncidenceSigma(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& sensor,
+                      const Eigen::Vector3d& water_point) {
+  const Eigen::Vector3d beam = water_point - sensor;
+  const double range = beam.norm(), distance = beam.head<2>().norm();
+  if (!(distance > 0)) return std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2) / range;
+  Eigen::Vector3d across;
+  across << beam.head<2>() * (beam.z() / distance), -distance;
+  across /= range * range;
+  return std::sqrt(across.dot(covariance * across));
+}
+
 using testing::FlightPlan;
 using testing::IncidenceOf;
 using testing::RaysOf;

@@ -92,7 +92,7 @@ AirPulse PulseAt(const Pulses& pulses, std::size_t i, const BudgetOptions& optio
           .index = options.index};
 }
 
-Matrix3d SeaShare(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
+Matrix3d SeaContribution(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
   const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
   const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
   const double turn = at(BudgetInput::kSeaAxis) * kDegree, azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
@@ -165,7 +165,7 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
       std::array<Matrix3d, kErrorGroups> groups = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
       for (const AirSource& source : AirSources(PulseAt(pulses, i, options), located, kErrors))
         groups[static_cast<std::size_t>(source.group)] += source.Covariance();
-      const Matrix3d air = groups[0] + groups[1] + groups[2], sea = SeaShare(pulses, i, options);
+      const Matrix3d air = groups[0] + groups[1] + groups[2], sea = SeaContribution(pulses, i, options);
       groups[0] += sea;
       groups[2](2, 2) += 0.08 * 0.08;
       Matrix3d total = groups[0] + groups[1] + groups[2];

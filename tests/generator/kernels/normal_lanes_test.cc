@@ -1,4 +1,4 @@
-#include "generator/kernels/normal_lanes.h"
+#include "tests/generator/kernels/normal_lanes.h"
 
 #include <gtest/gtest.h>
 

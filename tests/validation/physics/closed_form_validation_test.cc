@@ -1,5 +1,5 @@
 // The Monte Carlo against the small-slope theory over the domain of surveys: it agrees within the bounds of
-// corrected_waves_study.h and some standard errors, which with the control variate are less than 0.5 % at the corners.
+// closed_form_ratio.h and some standard errors, which with the control variate are less than 0.5 % at the corners.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
 namespace {

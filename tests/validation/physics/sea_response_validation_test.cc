@@ -13,7 +13,7 @@
 #include "sea/angle.h"
 #include "sea/files/sea_file.h"
 #include "sea/spectra/described_sea.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/response_comparison.h"
 #include "validation/studies/studies.h"
 

@@ -114,7 +114,7 @@ const std::vector<TracedErrors>& Traced() {
 
 // The covariance of the share of the sea surface, made of THU, TVU and the two refractions, is that of the traced
 // errors.
-TEST(SeaShare, HasTheCovarianceOfTracedBeams) {
+TEST(SeaContribution, HasTheCovarianceOfTracedBeams) {
   constexpr std::size_t kDepth = 2;
   const double depth = kDepths[kDepth];
   for (std::size_t t = 1; t < kIncidences.size(); ++t) {  // Near nadir TVU is of second order.

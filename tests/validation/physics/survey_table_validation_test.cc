@@ -25,7 +25,7 @@
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
 #include "tables/file/table_io.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
 namespace {

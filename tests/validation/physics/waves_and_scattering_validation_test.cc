@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sea/angle.h"
-#include "validation/studies/waves_and_scattering.h"
+#include "tests/validation/physics/waves_and_scattering.h"
 
 namespace albtpu {
 namespace {
@@ -27,14 +27,14 @@ TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
   const Case& c = GetParam();
   // Albedo 0.8; the attenuation is that of diffuse light by Kirk's factor of 0.256.
   const double absorption = c.attenuation / std::sqrt(1 + 0.256 * 4);
-  const Comparison found = Compare(PhaseFunction::FournierForand(0.0183),
-                                   {.trip = {.incidence = RadiansOfDegrees(12),
-                                             .scattering = 4 * absorption,
-                                             .absorption = absorption,
-                                             .field_of_view = c.field_of_view,
-                                             .footprint = c.footprint},
-                                    .nanoseconds = c.nanoseconds},
-                                   kRealizations, kPhotons, 1);
+  const ComparedEffects found = Compare(PhaseFunction::FournierForand(0.0183),
+                                        {.trip = {.incidence = RadiansOfDegrees(12),
+                                                  .scattering = 4 * absorption,
+                                                  .absorption = absorption,
+                                                  .field_of_view = c.field_of_view,
+                                                  .footprint = c.footprint},
+                                         .nanoseconds = c.nanoseconds},
+                                        kRealizations, kPhotons, 1);
   for (const Detector detector : kDetectors) {
     const std::size_t d = Index(detector);
     const ReportedBottom &waves = found.waves[d], &both = found.both[d], &scattering = found.scattering[d];

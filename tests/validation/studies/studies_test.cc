@@ -3,11 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <string>
 
 #include "absl/strings/match.h"
 #include "sea/spectra/wave_spectrum.h"
 #include "sea/spectra/wind_sea.h"
-#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/real_sea_study.h"
 
 namespace albtpu {
@@ -104,6 +105,33 @@ TEST(AngleMethodStudy, NeedsTheTablesOfThePaper) {
   const absl::Status status = AngleMethodStudy({.published = "/nowhere"}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(status.message()), HasSubstr("/nowhere"));
+}
+
+TEST(LaboratoryStudy, NamesAMissingPublishedTable) {
+  StudyOptions options;
+  options.published = "nowhere";
+  EXPECT_EQ(LaboratoryStudy(options).status().code(), absl::StatusCode::kNotFound);
+  EXPECT_NE(std::string(LaboratoryStudy(options).status().message()).find("nowhere/table4_empirical.csv"),
+            std::string::npos);
+}
+
+TEST(WaveStaffStudy, NamesAMissingPublishedTable) {
+  StudyOptions options;
+  options.published = "nowhere";
+  EXPECT_NE(std::string(WaveStaffStudy(options).status().message()).find("nowhere/table2_wave_staff.csv"),
+            std::string::npos);
+}
+
+TEST(WaveStaffStudy, ComparesEveryPublishedNumber) {
+  StudyOptions options;
+  options.published = PAPER_FOLDER;
+  options.quick = true;
+  const auto study = WaveStaffStudy(options);
+  EXPECT_EQ(study->comparisons.size(), 18u);  // six fetches, three quantities
+  for (const DataTable& table : study->tables) {
+    ASSERT_FALSE(table.rows.empty()) << table.name;
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
+  }
 }
 
 }  // namespace

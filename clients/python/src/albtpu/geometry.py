@@ -152,7 +152,7 @@ def _true_azimuth(turn: Doubles, convergence: Doubles) -> Doubles:
 
 
 def _distance_to_water(distance: Doubles, height: Doubles, depth: Doubles, index: float) -> Doubles:
-    """The horizontal distance from the sensor at which a beam meets the water: budget/beams/refracted_path-inl.h."""
+    """The horizontal distance from the sensor at which a beam meets the water: budget/beams/refracted_path.h."""
     square, excess = index * index, (index - 1) * (index + 1)
     gentlest, flattest = 1 / index, 1 / math.sqrt(excess) if excess > 0 else math.inf
     all_gentle = height + depth * gentlest

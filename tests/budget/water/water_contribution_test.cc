@@ -1,4 +1,4 @@
-#include "budget/water/water_share.h"
+#include "budget/water/water_contribution.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,11 +36,11 @@ WaterOptics Coastal(double attenuation = 0.15) {
 const WaterReceiver kNarrow{.detector = EchoDetector::kPeak, .field_of_view = 3, .pulse_length = 1.5};
 const WaterReceiver kWide{.detector = EchoDetector::kPeak, .field_of_view = 16, .pulse_length = 5};
 
-WaterShare Share(const WaterReceiver& receiver, const BiasTreatment& treatment = {},
-                 const WaterOptics& optics = Coastal()) {
-  absl::StatusOr<WaterShare> share = WaterShare::Create(Shipped(), optics, receiver, treatment);
-  EXPECT_TRUE(share.ok()) << share.status();
-  return *std::move(share);
+WaterContribution Contribution(const WaterReceiver& receiver, const BiasTreatment& treatment = {},
+                               const WaterOptics& optics = Coastal()) {
+  absl::StatusOr<WaterContribution> contribution = WaterContribution::Create(Shipped(), optics, receiver, treatment);
+  EXPECT_TRUE(contribution.ok()) << contribution.status();
+  return *std::move(contribution);
 }
 
 // The obvious way: many waters drawn one by one, each looked up for this beam alone.
@@ -90,12 +90,12 @@ double Covariance(const std::vector<double>& x, const std::vector<double>& y) {
   return sum / static_cast<double>(x.size());
 }
 
-TEST(WaterShare, HasTheMomentsOfManyWaters) {
+TEST(WaterContribution, HasTheMomentsOfManyWaters) {
   for (const WaterReceiver& receiver : {kNarrow, kWide}) {
-    const WaterShare share = Share(receiver);
+    const WaterContribution contribution = Contribution(receiver);
     for (const auto& [incidence, depth] : {std::pair(12.0, 10.0), std::pair(20.0, 4.0)}) {
       Twin twin(receiver, incidence, depth);
-      const WaterAnswerOfSurvey answer = *share.At(incidence, depth);
+      const WaterAnswerOfSurvey answer = *contribution.At(incidence, depth);
       const double sigma = std::sqrt(Covariance(twin.vertical, twin.vertical));
       const double sigma_along = std::sqrt(Covariance(twin.along, twin.along));
       EXPECT_NEAR(answer.mean_vertical, Mean(twin.vertical), 0.05 * sigma);
@@ -115,9 +115,9 @@ TEST(WaterShare, HasTheMomentsOfManyWaters) {
 
 // Mean, u and the interval that a program apart from this one found at 12 degrees and 10 m, too deep being positive
 // there. Its attenuation of 0.15 1/m is by Kirk's factor of 0.256; the same a and b have 0.1265 here.
-TEST(WaterShare, AgreesWithWhatWasFoundApart) {
-  const WaterAnswerOfSurvey wide = *Share(kWide, {}, Coastal(0.1265)).At(12, 10);
-  const WaterAnswerOfSurvey narrow = *Share(kNarrow, {}, Coastal(0.1265)).At(12, 10);
+TEST(WaterContribution, AgreesWithWhatWasFoundApart) {
+  const WaterAnswerOfSurvey wide = *Contribution(kWide, {}, Coastal(0.1265)).At(12, 10);
+  const WaterAnswerOfSurvey narrow = *Contribution(kNarrow, {}, Coastal(0.1265)).At(12, 10);
   EXPECT_NEAR(-wide.mean_vertical, 0.178, 0.02);
   EXPECT_NEAR(wide.sigma_vertical, 0.118, 0.015);
   EXPECT_NEAR(-wide.high_vertical, 0.048, 0.01);
@@ -128,28 +128,28 @@ TEST(WaterShare, AgreesWithWhatWasFoundApart) {
   EXPECT_NEAR(-narrow.low_vertical, 0.132, 0.03);
 }
 
-TEST(WaterShare, LeavesWhatTheTreatmentLeaves) {
-  const WaterAnswerOfSurvey none = *Share(kWide).At(12, 10);
+TEST(WaterContribution, LeavesWhatTheTreatmentLeaves) {
+  const WaterAnswerOfSurvey none = *Contribution(kWide).At(12, 10);
   EXPECT_EQ(none.bias_vertical, none.mean_vertical);
   EXPECT_EQ(none.left_vertical, none.sigma_vertical);
-  const WaterAnswerOfSurvey correct = *Share(kWide, {.handling = BiasHandling::kCorrect}).At(12, 10);
+  const WaterAnswerOfSurvey correct = *Contribution(kWide, {.handling = BiasHandling::kCorrect}).At(12, 10);
   EXPECT_EQ(correct.bias_vertical, 0);
   EXPECT_EQ(correct.left_vertical, none.sigma_vertical);
   const WaterAnswerOfSurvey vendor =
-      *Share(kWide, {.handling = BiasHandling::kVendor, .residual_fraction = 0.2}).At(12, 10);
+      *Contribution(kWide, {.handling = BiasHandling::kVendor, .residual_fraction = 0.2}).At(12, 10);
   EXPECT_EQ(vendor.bias_vertical, 0);
   EXPECT_NEAR(vendor.left_vertical, 0.2 * std::hypot(none.mean_vertical, none.sigma_vertical), 1e-5);
   // One comparison without noise at 5 m leaves 1.3 cm at 10 m of a wide receiver, and 0.8 cm of a narrow one.
   const auto calibrated = [](const WaterReceiver& receiver, double offset, double sigma) {
-    return *Share(receiver, {.handling = BiasHandling::kCalibrated,
-                             .calibration_depth = 5,
-                             .calibration_offset = offset,
-                             .calibration_sigma = sigma})
+    return *Contribution(receiver, {.handling = BiasHandling::kCalibrated,
+                                    .calibration_depth = 5,
+                                    .calibration_offset = offset,
+                                    .calibration_sigma = sigma})
                 .At(12, 10);
   };
-  const double wide_offset = Share(kWide).At(12, 5)->mean_vertical;
+  const double wide_offset = Contribution(kWide).At(12, 5)->mean_vertical;
   EXPECT_NEAR(calibrated(kWide, wide_offset, 0).left_vertical, 0.013, 0.006);
-  EXPECT_NEAR(calibrated(kNarrow, Share(kNarrow).At(12, 5)->mean_vertical, 0).left_vertical, 0.008, 0.005);
+  EXPECT_NEAR(calibrated(kNarrow, Contribution(kNarrow).At(12, 5)->mean_vertical, 0).left_vertical, 0.008, 0.005);
   EXPECT_EQ(calibrated(kWide, wide_offset, 0).bias_vertical, 0);
   // The noise of the comparison grows with the bias.
   EXPECT_NEAR(std::pow(calibrated(kWide, wide_offset, 0.01).left_vertical, 2),
@@ -158,26 +158,26 @@ TEST(WaterShare, LeavesWhatTheTreatmentLeaves) {
               3e-5);
 }
 
-TEST(WaterShare, ComputesColumnsAsSinglePulses) {
-  const WaterShare share = Share(kNarrow);
+TEST(WaterContribution, ComputesColumnsAsSinglePulses) {
+  const WaterContribution contribution = Contribution(kNarrow);
   std::vector<float> incidence, depth;
   std::mt19937 random(3);
   std::uniform_real_distribution<float> even(0, 1);
   for (int i = 0; i < 1000; ++i) {
     incidence.push_back(35 * even(random));
-    depth.push_back(1.2f * static_cast<float>(share.greatest_depth()) * even(random));
+    depth.push_back(1.2f * static_cast<float>(contribution.greatest_depth()) * even(random));
   }
   std::vector<std::vector<float>> columns(6, std::vector<float>(incidence.size()));
-  share.Compute(incidence, depth,
-                {.bias_along = columns[0],
-                 .bias_vertical = columns[1],
-                 .sigma_along = columns[2],
-                 .sigma_vertical = columns[3],
-                 .correlation = columns[4],
-                 .stretch = columns[5]});
+  contribution.Compute(incidence, depth,
+                       {.bias_along = columns[0],
+                        .bias_vertical = columns[1],
+                        .sigma_along = columns[2],
+                        .sigma_vertical = columns[3],
+                        .correlation = columns[4],
+                        .stretch = columns[5]});
   int beyond = 0;
   for (std::size_t i = 0; i < incidence.size(); ++i) {
-    const std::optional<WaterAnswerOfSurvey> answer = share.At(incidence[i], depth[i]);
+    const std::optional<WaterAnswerOfSurvey> answer = contribution.At(incidence[i], depth[i]);
     EXPECT_EQ(answer.has_value(), std::isfinite(columns[3][i]));
     if (!answer.has_value()) {
       ++beyond;
@@ -193,32 +193,32 @@ TEST(WaterShare, ComputesColumnsAsSinglePulses) {
   EXPECT_GT(beyond, 100);
 }
 
-TEST(WaterShare, IsNothingInNoWater) {
-  const WaterAnswerOfSurvey answer = *Share(kNarrow).At(15, 0);
+TEST(WaterContribution, IsNothingInNoWater) {
+  const WaterAnswerOfSurvey answer = *Contribution(kNarrow).At(15, 0);
   EXPECT_EQ(answer.bias_vertical, 0);
   EXPECT_EQ(answer.left_along, 0);
-  EXPECT_FALSE(Share(kNarrow).At(15, -1).has_value());
+  EXPECT_FALSE(Contribution(kNarrow).At(15, -1).has_value());
 }
 
-TEST(WaterShare, KnowsItsDomain) {
-  const WaterShare share = Share(kNarrow);
-  EXPECT_NEAR(share.greatest_depth(), 4 / (0.15 * std::exp(0.26)), 1e-3);
-  EXPECT_EQ(share.greatest_footprint(), 3 / 2.5);
+TEST(WaterContribution, KnowsItsDomain) {
+  const WaterContribution contribution = Contribution(kNarrow);
+  EXPECT_NEAR(contribution.greatest_depth(), 4 / (0.15 * std::exp(0.26)), 1e-3);
+  EXPECT_EQ(contribution.greatest_footprint(), 3 / 2.5);
   // A receiver that sees 1 m sees too little of the echo below 20 m.
   WaterReceiver keyhole = kNarrow;
   keyhole.field_of_view = 1;
-  EXPECT_LE(Share(keyhole, {}, Coastal(0.06)).greatest_depth(), 20.001);
+  EXPECT_LE(Contribution(keyhole, {}, Coastal(0.06)).greatest_depth(), 20.001);
 }
 
 // 7.0 cm of a pulse of 1.5 ns and 23 cm of one of 5 ns, over the root of the photons, seen straight down.
-TEST(WaterShare, CountsPhotons) {
-  EXPECT_NEAR(Share(kNarrow).PhotonNoise(100, 1, 1), 0.0070, 2e-4);
-  EXPECT_NEAR(Share(kWide).PhotonNoise(1, 1, 1), 0.233, 3e-3);
+TEST(WaterContribution, CountsPhotons) {
+  EXPECT_NEAR(Contribution(kNarrow).PhotonNoise(100, 1, 1), 0.0070, 2e-4);
+  EXPECT_NEAR(Contribution(kWide).PhotonNoise(1, 1, 1), 0.233, 3e-3);
 }
 
-TEST(WaterShare, RefusesWhatItCannotCompute) {
+TEST(WaterContribution, RefusesWhatItCannotCompute) {
   const auto problem = [](const WaterReceiver& receiver, const BiasTreatment& treatment) {
-    return std::string(WaterShare::Create(Shipped(), Coastal(), receiver, treatment).status().message());
+    return std::string(WaterContribution::Create(Shipped(), Coastal(), receiver, treatment).status().message());
   };
   EXPECT_THAT(problem({.detector = EchoDetector::kPeak, .field_of_view = 3, .pulse_length = 0}, {}),
               HasSubstr("pulse_length"));
@@ -226,10 +226,10 @@ TEST(WaterShare, RefusesWhatItCannotCompute) {
   EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kCalibrated, .calibration_depth = 100}), HasSubstr("beyond"));
   WaterOptics bright = Coastal();
   bright.scattering_over_absorption = 50;
-  EXPECT_THAT(WaterShare::Create(Shipped(), bright, kWide, {}).status().message(), HasSubstr("albedo of 0.96"));
+  EXPECT_THAT(WaterContribution::Create(Shipped(), bright, kWide, {}).status().message(), HasSubstr("albedo of 0.96"));
   WaterOptics fine = Coastal();
   fine.least_fraction = 0.002;
-  EXPECT_THAT(WaterShare::Create(Shipped(), fine, kWide, {}).status().message(), HasSubstr("0.01 to 0.03"));
+  EXPECT_THAT(WaterContribution::Create(Shipped(), fine, kWide, {}).status().message(), HasSubstr("0.01 to 0.03"));
   WaterReceiver half = kNarrow;
   half.detector = EchoDetector::kHalf;
   EXPECT_THAT(

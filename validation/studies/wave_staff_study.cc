@@ -1,5 +1,3 @@
-#include "validation/laboratory/laboratory_studies.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,13 +10,15 @@
 #include "generator/math/statistics.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/wave_spectrum.h"
+#include "status/status_macros.h"
 #include "validation/laboratory/wave_staff.h"
 #include "validation/published/published_table.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kWind = 5.25;                          // m/s; Table 2 does not state its wind
+constexpr double kWindOfTable2 = 5.25;                  // m/s; Table 2 does not state its wind
 constexpr double kWinds[] = {2, 2.5, 3, 3.5, 4, 5.25};  // m/s, Table 1
 constexpr double kModelFetch = 30;                      // m, of the spectrum fitted in Fig. 7
 
@@ -27,27 +27,6 @@ constexpr double kModelFetch = 30;                      // m, of the spectrum fi
 constexpr double kRate = 30;  // Hz
 constexpr int kSamples = 5 * 60 * 30;
 constexpr int kSegment = 256;
-
-struct Table2 {
-  std::vector<double> fetch, peak_frequency, peak_wavelength, significant_wave_height;
-};
-
-absl::StatusOr<Table2> ReadTable2(const std::filesystem::path& published) {
-  const auto table = PublishedTable::Read(published / "table2_wave_staff.csv");
-  if (!table.ok()) return table.status();
-  Table2 result;
-  const std::pair<const char*, std::vector<double>*> columns[] = {
-      {"distance_downwind_m", &result.fetch},
-      {"peak_frequency_hz", &result.peak_frequency},
-      {"peak_wavelength_m", &result.peak_wavelength},
-      {"significant_wave_height_m", &result.significant_wave_height}};
-  for (const auto& [name, values] : columns) {
-    auto numbers = table->Numbers(name);
-    if (!numbers.ok()) return numbers.status();
-    *values = *std::move(numbers);
-  }
-  return result;
-}
 
 // Computed from the spectrum.
 struct Waves {
@@ -91,12 +70,10 @@ DataTable TableOfFetches(const Table2& published, const std::vector<Waves>& ours
   DataTable table{"table_2",
                   "Waves by fetch: published, and by Apel's spectrum at 5.25 m/s",
                   {"fetch_m", "published_peak_wavelength_m", "peak_wavelength_m", "published_peak_frequency_hz",
-                   "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"},
-                  {}};
+                   "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"}};
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    table.rows.push_back({published.fetch[i], published.peak_wavelength[i], ours[i].peak_wavelength,
-                          published.peak_frequency[i], ours[i].peak_frequency, published.significant_wave_height[i],
-                          ours[i].significant_wave_height});
+    table.Add(published.fetch[i], published.peak_wavelength[i], ours[i].peak_wavelength, published.peak_frequency[i],
+              ours[i].peak_frequency, published.significant_wave_height[i], ours[i].significant_wave_height);
   }
   return table;
 }
@@ -106,14 +83,13 @@ DataTable TableOfWinds(const Table2& published) {
       "table_2_winds",
       "Apel's spectrum at the winds of the paper, for the fetches of Table 2 and for the 30 m that the paper "
       "fitted",
-      {"wind_speed_m_s", "fetch_m", "peak_wavelength_m", "peak_frequency_hz", "significant_wave_height_m"},
-      {}};
+      {"wind_speed_m_s", "fetch_m", "peak_wavelength_m", "peak_frequency_hz", "significant_wave_height_m"}};
   std::vector<double> fetches = published.fetch;
   fetches.push_back(kModelFetch);
   for (const double wind : kWinds) {
     for (const double fetch : fetches) {
       const Waves waves = WavesOf(SeaState(wind, fetch));
-      table.rows.push_back({wind, fetch, waves.peak_wavelength, waves.peak_frequency, waves.significant_wave_height});
+      table.Add(wind, fetch, waves.peak_wavelength, waves.peak_frequency, waves.significant_wave_height);
     }
   }
   return table;
@@ -130,12 +106,10 @@ DataTable TableOfDispersion(const Table2& published) {
   DataTable table{"table_2_dispersion",
                   "The wavelength at the published peak frequency, with gravity alone and with surface tension",
                   {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
-                   "with_surface_tension_m"},
-                  {}};
+                   "with_surface_tension_m"}};
   for (std::size_t i = 0; i < published.fetch.size(); ++i) {
     const double f = published.peak_frequency[i];
-    table.rows.push_back(
-        {published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f), CapillaryGravityWavelength(f)});
+    table.Add(published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f), CapillaryGravityWavelength(f));
   }
   return table;
 }
@@ -147,14 +121,10 @@ DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
                   {"fetch_m", "spectrum_peak_frequency_hz", "staff_peak_frequency_hz",
                    "staff_peak_frequency_standard_error_hz", "spectrum_significant_wave_height_m",
                    "staff_significant_wave_height_m", "staff_significant_wave_height_standard_error_m",
-                   "staff_highest_third_m", "staff_highest_third_standard_error_m"},
-                  {}};
+                   "staff_highest_third_m", "staff_highest_third_standard_error_m"}};
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    const StaffReading& staff = staffs[i];
-    table.rows.push_back({published.fetch[i], ours[i].peak_frequency, staff.peak_frequency.value,
-                          staff.peak_frequency.standard_error, ours[i].significant_wave_height,
-                          staff.significant_wave_height.value, staff.significant_wave_height.standard_error,
-                          staff.highest_third.value, staff.highest_third.standard_error});
+    table.Add(published.fetch[i], ours[i].peak_frequency, staffs[i].peak_frequency, ours[i].significant_wave_height,
+              staffs[i].significant_wave_height, staffs[i].highest_third);
   }
   return table;
 }
@@ -166,11 +136,11 @@ DataTable TableOfSpectra(const Table2& published, const std::vector<StaffReading
                   {},
                   false};
   for (std::size_t i = 0; i < staffs.size(); ++i) {
-    const SeaState sea(kWind, published.fetch[i]);
+    const SeaState sea(kWindOfTable2, published.fetch[i]);
     const RecordSpectrum& spectrum = staffs[i].spectrum;
     for (std::size_t m = 1; m < spectrum.density.size(); ++m) {
       const double f = static_cast<double>(m) * spectrum.resolution;
-      table.rows.push_back({published.fetch[i], f, FrequencySpectrum(sea, f), spectrum.density[m]});
+      table.Add(published.fetch[i], f, FrequencySpectrum(sea, f), spectrum.density[m]);
     }
   }
   return table;
@@ -181,34 +151,17 @@ std::vector<Comparison> Comparisons(const Table2& published, const std::vector<W
   std::vector<Comparison> comparisons;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const auto compare = [&](const char* quantity, const char* unit, double theirs, double own) {
-      Comparison comparison;
-      comparison.quantity = absl::StrFormat("%s, fetch %g m", quantity, published.fetch[i]);
-      comparison.unit = unit;
-      comparison.published = theirs;
-      comparison.ours = own;
-      comparison.basis = basis;
-      comparisons.push_back(comparison);
+      comparisons.push_back({.quantity = absl::StrFormat("%s, fetch %g m", quantity, published.fetch[i]),
+                             .unit = unit,
+                             .published = theirs,
+                             .ours = own,
+                             .basis = basis});
     };
     compare("peak wavelength", "m", published.peak_wavelength[i], ours[i].peak_wavelength);
     compare("peak frequency", "Hz", published.peak_frequency[i], ours[i].peak_frequency);
     compare("significant wave height", "m", published.significant_wave_height[i], ours[i].significant_wave_height);
   }
   return comparisons;
-}
-
-struct Range {
-  double least, most;
-};
-
-// The range of value(i) over the rows of the table.
-template <typename Value>
-Range RangeOf(std::size_t rows, const Value& value) {
-  Range range{value(0), value(0)};
-  for (std::size_t i = 1; i < rows; ++i) {
-    range.least = std::min<double>(range.least, value(i));
-    range.most = std::max<double>(range.most, value(i));
-  }
-  return range;
 }
 
 // Whether gravity alone gives the published wavelength at the published frequency, within their rounding of 0.05 Hz
@@ -221,21 +174,17 @@ bool GravityExplains(double wavelength, double frequency) {
 std::vector<std::string> Paragraphs(const Table2& published, const std::vector<Waves>& ours,
                                     const std::vector<StaffReading>& staffs, int records) {
   const std::size_t rows = ours.size();
-  const Range length =
-      RangeOf(rows, [&](std::size_t i) { return ours[i].peak_wavelength / published.peak_wavelength[i] - 1; });
-  const Range height = RangeOf(
-      rows, [&](std::size_t i) { return ours[i].significant_wave_height / published.significant_wave_height[i]; });
-  const Range steepness =
-      RangeOf(rows, [&](std::size_t i) { return published.significant_wave_height[i] / published.peak_wavelength[i]; });
-  const Range lengthening = RangeOf(rows, [&](std::size_t i) {
-    const double f = published.peak_frequency[i];
-    return CapillaryGravityWavelength(f) / GravityWavelength(f) - 1;
-  });
-  const Range highest_third = RangeOf(
-      rows, [&](std::size_t i) { return staffs[i].highest_third.value / staffs[i].significant_wave_height.value; });
+  Range length, height, steepness, lengthening, highest_third;
   int explained = 0;
-  for (std::size_t i = 0; i < rows; ++i)
-    explained += GravityExplains(published.peak_wavelength[i], published.peak_frequency[i]);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double f = published.peak_frequency[i];
+    length.Add(ours[i].peak_wavelength / published.peak_wavelength[i] - 1);
+    height.Add(ours[i].significant_wave_height / published.significant_wave_height[i]);
+    steepness.Add(published.significant_wave_height[i] / published.peak_wavelength[i]);
+    lengthening.Add(CapillaryGravityWavelength(f) / GravityWavelength(f) - 1);
+    highest_third.Add(staffs[i].highest_third.value / staffs[i].significant_wave_height.value);
+    explained += GravityExplains(published.peak_wavelength[i], f);
+  }
   return {absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest wind of the paper, the "
                           "peak wavelengths of Apel's spectrum differ from the published ones by %+.0f to %+.0f "
                           "%%; weaker winds make shorter waves (second table).",
@@ -266,14 +215,13 @@ std::vector<std::string> Paragraphs(const Table2& published, const std::vector<W
 }  // namespace
 
 absl::StatusOr<Study> WaveStaffStudy(const StudyOptions& options) {
-  const absl::StatusOr<Table2> published = ReadTable2(options.published);
-  if (!published.ok()) return published.status();
+  ASSIGN_OR_RETURN(const Table2 published, ReadTable2(options.published));
 
   const int records = options.quick ? 10 : 100;
   std::vector<Waves> ours;
   std::vector<StaffReading> staffs;
-  for (std::size_t i = 0; i < published->fetch.size(); ++i) {
-    const SeaState sea(kWind, published->fetch[i]);
+  for (std::size_t i = 0; i < published.fetch.size(); ++i) {
+    const SeaState sea(kWindOfTable2, published.fetch[i]);
     ours.push_back(WavesOf(sea));
     staffs.push_back(Measure(sea, records, options.seed, static_cast<std::uint32_t>(i)));
   }
@@ -281,10 +229,10 @@ absl::StatusOr<Study> WaveStaffStudy(const StudyOptions& options) {
   Study study;
   study.id = "table_2";
   study.title = "Table 2: the wave staff";
-  study.paragraphs = Paragraphs(*published, ours, staffs, records);
-  study.comparisons = Comparisons(*published, ours);
-  study.tables = {TableOfFetches(*published, ours), TableOfWinds(*published), TableOfDispersion(*published),
-                  TableOfStaff(*published, ours, staffs), TableOfSpectra(*published, staffs)};
+  study.paragraphs = Paragraphs(published, ours, staffs, records);
+  study.comparisons = Comparisons(published, ours);
+  study.tables = {TableOfFetches(published, ours), TableOfWinds(published), TableOfDispersion(published),
+                  TableOfStaff(published, ours, staffs), TableOfSpectra(published, staffs)};
   study.figures = {
       {"table_2",
        "Peak wavelength and significant wave height over fetch: measured, and by Apel's spectrum at the "

@@ -1,11 +1,11 @@
-#include "generator/kernels/normal_lanes.h"
+#include "tests/generator/kernels/normal_lanes.h"
 
 #include <algorithm>
 #include <cstddef>
 
 // This file is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "generator/kernels/normal_lanes.cc"
+#define HWY_TARGET_INCLUDE "tests/generator/kernels/normal_lanes.cc"
 #include <hwy/foreach_target.h>
 
 #include "generator/kernels/normal_lanes-inl.h"

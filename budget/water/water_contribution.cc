@@ -1,4 +1,4 @@
-#include "budget/water/water_share.h"
+#include "budget/water/water_contribution.h"
 
 #include <tbb/parallel_for.h>
 
@@ -121,20 +121,21 @@ double QuantileOf(std::vector<double>& values, double fraction) {
 
 }  // namespace
 
-absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, const WaterOptics& optics,
-                                              const WaterReceiver& receiver, const BiasTreatment& treatment) {
+absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTable& table, const WaterOptics& optics,
+                                                            const WaterReceiver& receiver,
+                                                            const BiasTreatment& treatment) {
   if (absl::Status status = CheckOptics(table, optics); !status.ok()) return status;
-  WaterShare share;
-  share.receiver_ = receiver;
-  share.max_incidence_ = table.Range(WaterAxis::kIncidence).second;
-  share.max_footprint_ = receiver.field_of_view / kFootprintsInView;
+  WaterContribution contribution;
+  contribution.receiver_ = receiver;
+  contribution.max_incidence_ = table.Range(WaterAxis::kIncidence).second;
+  contribution.max_footprint_ = receiver.field_of_view / kFootprintsInView;
   const double by_turbidity =
       table.Range(WaterAxis::kOpticalDepth).second / (optics.attenuation * std::exp(optics.attenuation_log_sigma));
   const double by_view = receiver.field_of_view / table.Range(WaterAxis::kFieldOfView).first;
   const double by_pulse =
       PulseLengthOverDepth(receiver.pulse_length, table.Range(WaterAxis::kPulseLength).first, receiver.group_index);
-  share.max_depth_ = std::min({by_turbidity, by_view, by_pulse});
-  if (!(share.max_depth_ > 0)) {
+  contribution.max_depth_ = std::min({by_turbidity, by_view, by_pulse});
+  if (!(contribution.max_depth_ > 0)) {
     return absl::InvalidArgumentError(
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
@@ -149,22 +150,24 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
     });
     return 2 * static_cast<std::size_t>(seeing) >= lookups.size();
   };
-  if (!sees(share.max_depth_)) {
+  if (!sees(contribution.max_depth_)) {
     double seen = 0;
     for (int step = 0; step < 30; ++step) {
-      const double middle = (seen + share.max_depth_) / 2;
-      (sees(middle) ? seen : share.max_depth_) = middle;
+      const double middle = (seen + contribution.max_depth_) / 2;
+      (sees(middle) ? seen : contribution.max_depth_) = middle;
     }
   }
-  if (absl::Status status = CheckTreatment(treatment, share.max_depth_); !status.ok()) return status;
+  if (absl::Status status = CheckTreatment(treatment, contribution.max_depth_); !status.ok()) return status;
   const double first = table.Range(WaterAxis::kIncidence).first;
-  share.incidences_ = static_cast<std::size_t>((share.max_incidence_ - first) / kIncidenceStep) + 1;
-  share.incidence_step_ =
-      share.incidences_ > 1 ? (share.max_incidence_ - first) / static_cast<double>(share.incidences_ - 1) : 1;
-  share.nodes_.resize(share.incidences_ * kDepths);
-  std::vector<char> disagrees(share.incidences_, 0);
-  tbb::parallel_for(std::size_t{0}, share.incidences_, [&](std::size_t i) {
-    const double incidence = std::min(first + static_cast<double>(i) * share.incidence_step_, share.max_incidence_);
+  contribution.incidences_ = static_cast<std::size_t>((contribution.max_incidence_ - first) / kIncidenceStep) + 1;
+  contribution.incidence_step_ = contribution.incidences_ > 1 ? (contribution.max_incidence_ - first) /
+                                                                    static_cast<double>(contribution.incidences_ - 1)
+                                                              : 1;
+  contribution.nodes_.resize(contribution.incidences_ * kDepths);
+  std::vector<char> disagrees(contribution.incidences_, 0);
+  tbb::parallel_for(std::size_t{0}, contribution.incidences_, [&](std::size_t i) {
+    const double incidence =
+        std::min(first + static_cast<double>(i) * contribution.incidence_step_, contribution.max_incidence_);
     // The factor by which each water's bias must be multiplied to equal the measured one.
     std::vector<double> scales(draws.size(), 1.0);
     double noise = 0;
@@ -183,7 +186,7 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
     std::vector<double> verticals;
     for (std::size_t k = 0; k < kDepths; ++k) {
       const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
-      const double depth = share.max_depth_ * root * root;
+      const double depth = contribution.max_depth_ * root * root;
       Moments before, scaled;
       Looked sums;
       verticals.clear();
@@ -199,7 +202,7 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
       }
       std::array<double, kNumbers> node = {};
       if (verticals.empty()) {
-        for (std::size_t n = 0; n < kNumbers; ++n) share.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
+        for (std::size_t n = 0; n < kNumbers; ++n) contribution.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
         continue;
       }
       node[kMeanVertical] = before.mean_vertical();
@@ -234,7 +237,7 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
           break;
         }
       }
-      Node& kept = share.nodes_[i * kDepths + k];
+      Node& kept = contribution.nodes_[i * kDepths + k];
       for (std::size_t n = 0; n < kNumbers; ++n) kept[n] = static_cast<float>(node[n]);
     }
   });
@@ -244,10 +247,10 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
                                                    "with other signs in other waters); calibrate at "
                                                    "another depth, or by another detector"));
   }
-  return share;
+  return contribution;
 }
 
-WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
+WaterContribution::Node WaterContribution::Blend(double incidence, double depth) const {
   const double x =
       incidences_ > 1
           ? std::clamp((incidence - (max_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
@@ -269,7 +272,7 @@ WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
   return blend;
 }
 
-std::optional<WaterAnswerOfSurvey> WaterShare::At(double incidence, double depth) const {
+std::optional<WaterAnswerOfSurvey> WaterContribution::At(double incidence, double depth) const {
   if (!(incidence >= 0 && incidence <= max_incidence_ && depth >= 0 && depth <= max_depth_)) return std::nullopt;
   const Node node = Blend(incidence, depth);
   const auto root = [&](Number n) { return depth * std::sqrt(std::max(0.0f, node[n])); };
@@ -291,8 +294,8 @@ std::optional<WaterAnswerOfSurvey> WaterShare::At(double incidence, double depth
   return answer;
 }
 
-void WaterShare::Compute(std::span<const float> incidence, std::span<const float> depth,
-                         const WaterColumns& columns) const {
+void WaterContribution::Compute(std::span<const float> incidence, std::span<const float> depth,
+                                const WaterColumns& columns) const {
   const std::size_t size = std::max(incidence.size(), depth.size());
   const auto put = [](std::span<float> column, std::size_t i, double value) {
     if (!column.empty()) column[i] = static_cast<float>(value);
@@ -314,7 +317,7 @@ void WaterShare::Compute(std::span<const float> incidence, std::span<const float
   }
 }
 
-double WaterShare::PhotonNoise(double photons, double stretch, double cosine_refracted) const {
+double WaterContribution::PhotonNoise(double photons, double stretch, double cosine_refracted) const {
   const double sigma_time = receiver_.pulse_length * stretch * kSigmaOfWidth;
   return cosine_refracted * kLightSpeed * sigma_time / (2 * receiver_.group_index * std::sqrt(photons));
 }

@@ -1,4 +1,4 @@
-#include "validation/studies/waves_and_scattering.h"
+#include "tests/validation/physics/waves_and_scattering.h"
 
 #include <tbb/parallel_for.h>
 
@@ -156,14 +156,14 @@ ComparedEffects Compare(const PhaseFunction& phase, const WavesAndScattering& at
       both[i][set] = simulation.Report(surface, true, set);
     }
   });
-  ComparedEffects comparison;
-  for (std::size_t d = 0; d < comparison.both.size(); ++d) {
-    comparison.waves[d] = Moments(waves, d, clear);
-    comparison.both[d] = Moments(both, d, clear);
+  ComparedEffects reported;
+  for (std::size_t d = 0; d < reported.both.size(); ++d) {
+    reported.waves[d] = Moments(waves, d, clear);
+    reported.both[d] = Moments(both, d, clear);
     const Eigen::Vector2d alone = (scattering[0][0][d] + scattering[0][1][d]) / 2 - clear[d];
-    comparison.scattering[d] = {alone[0], alone[1], 0, 0};
+    reported.scattering[d] = {alone[0], alone[1], 0, 0};
   }
-  return comparison;
+  return reported;
 }
 
 }  // namespace albtpu

@@ -62,7 +62,7 @@ struct WaterColumns {
   std::span<float> stretch;                      // of the echo
 };
 
-class WaterShare {
+class WaterContribution {
  public:
   // Draws waters (Guide to the Expression of Uncertainty in Measurement, Supplement 1: JCGM 101:2008), looks each up in
   // the table, and keeps mean and spread over incidence and depth. About half a second of one core.
@@ -70,8 +70,8 @@ class WaterShare {
   // InvalidArgument with what would be right: a water outside the table, a receiver beyond the table at all depths, a
   // residual fraction outside 0 to 1, a calibration beyond the table or at a depth where the waters do not agree on the
   // sign of the bias.
-  static absl::StatusOr<WaterShare> Create(const WaterColumnTable& table, const WaterOptics& optics,
-                                           const WaterReceiver& receiver, const BiasTreatment& treatment);
+  static absl::StatusOr<WaterContribution> Create(const WaterColumnTable& table, const WaterOptics& optics,
+                                                  const WaterReceiver& receiver, const BiasTreatment& treatment);
 
   // Largest incidence [degree], and depth [m] down to which the contribution is known: where the median water reaches
   // the largest optical depth of the table less one standard deviation (more turbid draws are extrapolated in
@@ -117,7 +117,7 @@ class WaterShare {
   static constexpr std::size_t kNumbers = 15;
   using Node = std::array<float, kNumbers>;
 
-  WaterShare() = default;
+  WaterContribution() = default;
   Node Blend(double incidence, double depth) const;
 
   WaterReceiver receiver_;

@@ -1,4 +1,4 @@
-// The numbers of a NormalStream in single precision, about ten times as fast. normal_lanes-inl.h computes them.
+// The numbers of generator/kernels/normal_lanes-inl.h as a function.
 #pragma once
 
 #include <span>

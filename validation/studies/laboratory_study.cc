@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,10 +10,11 @@
 #include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "sea/sea_state.h"
-#include "validation/laboratory/laboratory_studies.h"
+#include "status/status_macros.h"
 #include "validation/laboratory/tank_frames.h"
 #include "validation/laboratory/virtual_tank.h"
-#include "validation/published/published_table.h"
+#include "validation/published/published_angles.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -29,43 +30,26 @@ struct TankCell {                // of Table 4; 2 sigma in degrees
   CentroidScatter array, full_beam;
 };
 
-absl::StatusOr<std::vector<TankCell>> ReadTable4(const StudyOptions& options) {
-  const auto table = PublishedTable::Read(options.published / "table4_empirical.csv");
-  if (!table.ok()) return table.status();
-  std::vector<TankCell> cells(table->size());
-  const std::pair<const char*, double TankCell::*> columns[] = {{"wind_speed_m_s", &TankCell::wind_speed},
-                                                                {"incidence_deg", &TankCell::incidence},
-                                                                {"along_wind_deg", &TankCell::published_along},
-                                                                {"cross_wind_deg", &TankCell::published_across}};
-  for (const auto& [name, member] : columns) {
-    const auto numbers = table->Numbers(name);
-    if (!numbers.ok()) return numbers.status();
-    for (std::size_t i = 0; i < cells.size(); ++i) cells[i].*member = (*numbers)[i];
-  }
-  if (options.quick) {  // two incidences, three winds
-    cells.erase(std::remove_if(cells.begin(), cells.end(),
-                               [](const TankCell& cell) {
-                                 const bool wind =
-                                     cell.wind_speed == 2.5 || cell.wind_speed == 3.5 || cell.wind_speed == 4;
-                                 return wind || cell.incidence == 10 || cell.incidence == 15;
-                               }),
-                cells.end());
+std::vector<TankCell> CellsOf(const PublishedAngles& table_4) {
+  std::vector<TankCell> cells;
+  for (std::size_t w = 0; w < table_4.wind_speeds.size(); ++w) {
+    for (std::size_t i = 0; i < table_4.incidences.size(); ++i) {
+      const PublishedAngles::Cell& cell = table_4.At(w, i);
+      cells.push_back({table_4.wind_speeds[w], table_4.incidences[i], cell.along, cell.cross, {}, {}});
+    }
   }
   return cells;
 }
 
-std::vector<double> WindsOf(const std::vector<TankCell>& cells) {
-  std::vector<double> winds;
-  for (const TankCell& cell : cells) winds.push_back(cell.wind_speed);
-  std::sort(winds.begin(), winds.end());
-  winds.erase(std::unique(winds.begin(), winds.end()), winds.end());
-  return winds;
+bool IsOfQuickRun(const TankCell& cell) {  // two incidences, three winds
+  const bool wind = cell.wind_speed == 2 || cell.wind_speed == 3 || cell.wind_speed == 5.25;
+  return wind && (cell.incidence == 0 || cell.incidence == 20);
 }
 
 // Independent frames; all incidences of one wind see the same waves.
-void Measure(std::vector<TankCell>& cells, std::uint64_t seed) {
+void Measure(std::vector<TankCell>& cells, const std::vector<double>& winds, std::uint64_t seed) {
   std::uint32_t draw = 0;
-  for (const double wind : WindsOf(cells)) {
+  for (const double wind : winds) {
     TankExperiment experiment;
     experiment.beams.clear();
     experiment.frames = kFrames;
@@ -90,13 +74,10 @@ DataTable TableOfCells(const std::vector<TankCell>& cells) {
                   "the same frames",
                   {"wind_speed_m_s", "incidence_deg", "published_along_wind_deg", "along_wind_deg",
                    "along_wind_standard_error_deg", "published_cross_wind_deg", "cross_wind_deg",
-                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"},
-                  {}};
+                   "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"}};
   for (const TankCell& c : cells) {
-    table.rows.push_back({c.wind_speed, c.incidence, c.published_along, c.array.along_wind.value,
-                          c.array.along_wind.standard_error, c.published_across, c.array.cross_wind.value,
-                          c.array.cross_wind.standard_error, c.full_beam.along_wind.value,
-                          c.full_beam.cross_wind.value});
+    table.Add(c.wind_speed, c.incidence, c.published_along, c.array.along_wind, c.published_across, c.array.cross_wind,
+              c.full_beam.along_wind.value, c.full_beam.cross_wind.value);
   }
   return table;
 }
@@ -136,15 +117,12 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
   std::vector<Comparison> comparisons;
   const auto compare = [&](std::string quantity, double published, const Estimate& ours,
                            std::string basis) -> Comparison& {
-    Comparison comparison;
-    comparison.quantity = std::move(quantity);
-    comparison.unit = "deg";
-    comparison.published = published;
-    comparison.ours = ours.value;
-    comparison.standard_error = ours.standard_error;
-    comparison.basis = std::move(basis);
-    comparisons.push_back(std::move(comparison));
-    return comparisons.back();
+    return comparisons.emplace_back(Comparison{.quantity = std::move(quantity),
+                                               .unit = "deg",
+                                               .published = published,
+                                               .ours = ours.value,
+                                               .standard_error = ours.standard_error,
+                                               .basis = std::move(basis)});
   };
   const std::string basis =
       "no verdict: only the order of magnitude can be compared, since aperture and profile are not published";
@@ -163,33 +141,20 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
                                 trends.published.standard_error));
     trend.unit = "deg/(m/s)";
     const double error = std::hypot(trends.published.standard_error, trends.ours.standard_error);
-    trend.verdict =
-        std::abs(trends.published.value - trends.ours.value) <= 3 * error ? Verdict::kAgrees : Verdict::kDiffers;
+    trend.verdict = AgreesIf(std::abs(trends.published.value - trends.ours.value) <= 3 * error);
   }
   return comparisons;
 }
 
-struct CellRange {
-  double least, most;
-};
-template <typename Value>
-CellRange RangeOfCells(const std::vector<TankCell>& cells, const Value& value) {
-  CellRange range{value(cells.front()), value(cells.front())};
-  for (const TankCell& cell : cells) {
-    range.least = std::min(range.least, value(cell));
-    range.most = std::max(range.most, value(cell));
-  }
-  return range;
-}
-
 std::string SizeParagraph(const std::vector<TankCell>& cells) {
-  const CellRange published = RangeOfCells(cells, [](const TankCell& c) { return c.published_along; });
-  const CellRange ours = RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value; });
-  const CellRange beam = RangeOfCells(cells, [](const TankCell& c) { return c.full_beam.along_wind.value; });
-  const CellRange excess =
-      RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value / c.full_beam.along_wind.value; });
-  const CellRange shape =
-      RangeOfCells(cells, [](const TankCell& c) { return c.array.along_wind.value / c.array.cross_wind.value; });
+  Range published, ours, beam, excess, shape;
+  for (const TankCell& c : cells) {
+    published.Add(c.published_along);
+    ours.Add(c.array.along_wind.value);
+    beam.Add(c.full_beam.along_wind.value);
+    excess.Add(c.array.along_wind.value / c.full_beam.along_wind.value);
+    shape.Add(c.array.along_wind.value / c.array.cross_wind.value);
+  }
   return absl::StrFormat(
       "The 2 sigma along the wind that the simulated array measures ranges from %.1f to %.1f degrees over "
       "the cells; the paper measured %.1f to %.1f. The ratio of along wind to cross wind is %.2f to %.2f. In "
@@ -255,19 +220,18 @@ std::string GridParagraph(const std::vector<TankVariation>& variations) {
 
 // The evolving sea over independent frames of the same wind, at nadir.
 std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const std::vector<TankCell>& cells) {
-  double least = std::numeric_limits<double>::infinity(), most = 0, alike = 0;
+  Range ratio;
+  double alike = 0;
   for (const EvolvingTank& tank : evolving) {
     const auto cell = std::find_if(cells.begin(), cells.end(), [&](const TankCell& c) {
       return c.wind_speed == tank.wind_speed && c.incidence == 0;
     });
     assert(cell != cells.end());
-    const double ratio = tank.array.along_wind.value / cell->array.along_wind.value;
-    least = std::min(least, ratio);
-    most = std::max(most, ratio);
+    ratio.Add(tank.array.along_wind.value / cell->array.along_wind.value);
     alike = std::max(alike, std::abs(tank.array_correlation));
   }
-  const std::string ratios =
-      evolving.size() == 1 ? absl::StrFormat("%.2f", least) : absl::StrFormat("between %.2f and %.2f", least, most);
+  const std::string ratios = evolving.size() == 1 ? absl::StrFormat("%.2f", ratio.least)
+                                                  : absl::StrFormat("between %.2f and %.2f", ratio.least, ratio.most);
   return absl::StrFormat(
       "With waves that evolve in time, at 20 frames per second for 20 s as in the laboratory, the 2 sigma "
       "along the wind at nadir is %s of that of independent frames (the table has the winds). Successive "
@@ -279,12 +243,15 @@ std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const s
 }  // namespace
 
 absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options) {
-  absl::StatusOr<std::vector<TankCell>> cells = ReadTable4(options);
-  if (!cells.ok()) return cells.status();
-  Measure(*cells, options.seed);
+  ASSIGN_OR_RETURN(const PublishedAngles table_4, ReadTable4(options.published));
+  std::vector<TankCell> cells = CellsOf(table_4);
+  if (options.quick) std::erase_if(cells, std::not_fn(IsOfQuickRun));
+  std::vector<double> winds = table_4.wind_speeds;
+  if (options.quick) winds = {2, 3, 5.25};
+  Measure(cells, winds, options.seed);
   const std::vector<TankVariation> variations = TankSensitivity(options.quick, options.seed);
-  const std::vector<EvolvingTank> evolving =
-      WatchEvolvingTank(options.quick ? std::vector<double>{2} : WindsOf(*cells), kFrames, options.seed);
+  if (options.quick) winds = {2};
+  const std::vector<EvolvingTank> evolving = WatchEvolvingTank(winds, kFrames, options.seed);
 
   Study study;
   study.id = "table_4";
@@ -297,14 +264,14 @@ absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options) {
       "spectrum at 30 m of fetch, scaled to the significant wave height of 9 mm measured in Table 2. In 400 "
       "independent frames the centroids of the 36 samples (Eq. 20 and 21, read as first moments) are "
       "converted to angles by Eq. 18 and 19 as printed.",
-      SizeParagraph(*cells), TrendParagraph(*cells, variations), SensitivityParagraph(variations),
-      EvolvingParagraph(evolving, *cells)};
+      SizeParagraph(cells), TrendParagraph(cells, variations), SensitivityParagraph(variations),
+      EvolvingParagraph(evolving, cells)};
   study.paragraphs.push_back(
       options.quick ? "Quick run: three of six winds and two of four incidences, evolving waves at one wind, "
                       "no other grids, patches and draws; the full run has them."
                     : GridParagraph(variations));
-  study.comparisons = Comparisons(*cells);
-  study.tables = {TableOfCells(*cells), TableOf(variations), TableOf(evolving), LightUnderWaves(options.seed)};
+  study.comparisons = Comparisons(cells);
+  study.tables = {TableOfCells(cells), TableOf(variations), TableOf(evolving), LightUnderWaves(options.seed)};
   study.figures = {
       {"table_4",
        "2 sigma refraction over wind, along and across the wind: measured, by the virtual array, and of the "
