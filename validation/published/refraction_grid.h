@@ -55,8 +55,8 @@ double LargestRelativeStandardError(const RefractionGrid& grid);
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);
 
-// The mean over all winds and incidences, as in Figure 9. The incidences of a wind share their surfaces, so their errors
-// are taken as fully correlated.
+// The mean over all winds and incidences, as in Figure 9. The incidences of a wind share their surfaces, so their
+// errors are taken as fully correlated.
 Estimate MeanAngle(const RefractionGrid& grid, AngleAxis axis);
 
 // Lines through the along-wind angles over wind, one for each incidence.
