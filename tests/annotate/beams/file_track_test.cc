@@ -1,6 +1,7 @@
 #include "annotate/beams/file_track.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180;
+
 constexpr double kWater = 0;  // m
 
 // Points below an SBET of two minutes, of which minute 0:20 to 1:20 has pulses with two returns under water. The
@@ -202,6 +204,18 @@ TEST(TrackFromReturns, RefusesTooFewRays) {
   file.rays.resize(10);
   EXPECT_THAT(std::string(FromReturns(file).status().message()),
               HasSubstr("(10 pulses with two returns under water are too few"));
+}
+
+TEST(LocalFrame, TurnsEachAxisIntoMetresFromTheOrigin) {
+  const LocalFrame frame = {
+      .origin_x = 1000, .origin_y = 2000, .metres_per_x = 0.25, .metres_per_y = 0.5, .metres_per_z = 0.125};
+  EXPECT_EQ(frame.At(1000, 2000, 0), Eigen::Vector3d::Zero());
+  EXPECT_EQ(frame.At(1004, 1998, 16), Eigen::Vector3d(1, -1, 2));
+}
+
+TEST(LocalFrame, KeepsHeightsInTheirDatum) {
+  const LocalFrame frame = {.origin_x = 1000, .origin_y = 2000};
+  EXPECT_EQ(frame.Z(-23.5), -23.5);
 }
 
 }  // namespace

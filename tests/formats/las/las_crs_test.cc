@@ -100,17 +100,5 @@ TEST(LasCrs, DescribesWhatTheRecordsState) {
   EXPECT_TRUE(describe().user.empty());
 }
 
-// The text of a real file, of a NOAA survey of 2016. Its angles have metres as their unit.
-constexpr char kFaultyWkt[] =
-    R"wkt(PROJCS["NAD83 / UTM zone 17N",GEOGCS["NAD83 / UTM zone 17N",DATUM["NAD83",SPHEROID[")wkt"
-    R"wkt(GRS80",6378137.000,298.257222100,AUTHORITY["EPSG","0"]],AUTHORITY["EPSG","0"]],PRIME)wkt"
-    R"wkt(M["Greenwich",0.0000000000000000,AUTHORITY["EPSG","8901"]],UNIT["Meter",1.0000000000)wkt"
-    R"wkt(0000000000,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","26917"]],PROJECTION["Transver)wkt"
-    R"wkt(se_Mercator"],PARAMETER["latitude_of_origin",0.0000000000000000],PARAMETER["central_)wkt"
-    R"wkt(meridian",-81.0000000000000000],PARAMETER["scale_factor",0.9996000000000000],PARAMET)wkt"
-    R"wkt(ER["false_easting",500000.000],PARAMETER["false_northing",0.000],UNIT["Meter",1.0000)wkt"
-    R"wkt(0000000000000000,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORT)wkt"
-    R"wkt(H],AXIS["Height",UP],AUTHORITY["EPSG","26917"]])wkt";
-
 }  // namespace
 }  // namespace albtpu::formats
