@@ -28,7 +28,7 @@ BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Ei
   BeamPath path;
   for (int step = 0; step < kMaxSteps; ++step) {
     path.water_point = sensor + path.slant_range * beam;
-    const Geodetic here = GeodeticFrom(kWgs84, path.water_point);
+    const Geodetic here = GeodeticFrom(path.water_point);
     const WavySurface::Local local = scene.waves.At(scene.chart.EastNorth(here), time);
     const Eigen::Matrix3d axes = EastNorthUp(here.latitude, here.longitude);
     const Eigen::Vector3d east = axes.col(0), north = axes.col(1), up = axes.col(2);
@@ -46,7 +46,7 @@ BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Ei
 double DistanceToGround(const Scene& scene, const Eigen::Vector3d& begin, const Eigen::Vector3d& beam) {
   double distance = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Geodetic here = GeodeticFrom(kWgs84, begin + distance * beam);
+    const Geodetic here = GeodeticFrom(begin + distance * beam);
     const double above = here.height - scene.coast.HeightAt(scene.chart.EastNorth(here));
     if (std::abs(above) < kResolution) break;
     distance += above / -beam.dot(EastNorthUp(here.latitude, here.longitude).col(2));

@@ -14,7 +14,6 @@
 #include <numeric>
 
 #include "tests/flights/survey_files.h"
-#include "tests/flights/trajectory_files.h"
 
 namespace albtpu::testing {
 namespace {

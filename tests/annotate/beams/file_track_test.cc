@@ -151,7 +151,7 @@ absl::StatusOr<FileTrack> FromReturns(const TrackedFile& file) { return TrackFro
 
 // Rays of a straight flight without errors, 400 m above the water at 60 m/s.
 TrackedFile FlownFile(double pairs_per_second) {
-  const SimulatedFlight flight({.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .wander = 0});
+  const SimulatedFlight flight({.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .drift = 0});
   TrackedFile file;
   file.name = "in.las";
   file.rays = RaysOf(flight.Rays());
