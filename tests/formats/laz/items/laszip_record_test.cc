@@ -9,8 +9,6 @@
 
 #include "formats/laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
-#include "tests/formats/laz/laz_bytes.h"
-#include "tests/formats/laz/laz_sample.h"
 
 namespace albtpu::laz {
 namespace {
