@@ -4,14 +4,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "tests/flights/survey_files.h"
 
 namespace albtpu::testing {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Ellipsoid, GeodeticCoordinatesReturn) {
   for (double latitude = -1.5; latitude < 1.5; latitude += 0.25) {

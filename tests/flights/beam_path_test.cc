@@ -11,8 +11,6 @@
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 TEST(Refract, FollowsSnellsLawInThePlaneOfIncidence) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.1, -0.2, 1).normalized();
   for (double angle = 0.05; angle < 1.5; angle += 0.1) {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 
 namespace albtpu::testing {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 // Radii of curvature of the ellipsoid [m] at `latitude` [rad]: along the meridian, and across it.
 double MeridianRadius(double latitude);

@@ -1,12 +1,12 @@
 #include "tests/flights/map_grid.h"
 
 #include <cassert>
-#include <numbers>
+
+#include "tests/flights/ellipsoid.h"
 
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, exact (US Metric Law of 1866).
 
 // By its parameters: the programs find theirs by codes and well-known text.

@@ -9,42 +9,23 @@
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSecondsOfWeek = 604800;
 
 // ASPRS, LAS Domain Profile for Topo-Bathy Lidar; for formats 0 to 5, whose classes end at 31, what NOAA's older files
 // have.
 int ClassOf(ReturnKind kind, int point_format) {
-  const bool legacy = point_format < 6;
-  switch (kind) {
-    case ReturnKind::kBottom:
-      return legacy ? 26 : 40;
-    case ReturnKind::kSurface:
-      return legacy ? 27 : 41;
-    case ReturnKind::kColumn:
-      return legacy ? 25 : 45;
-    case ReturnKind::kLand:
-      return 2;
-  }
-  return 0;
-}
-
-void AppendShort(std::string& bytes, int number) {
-  bytes += static_cast<char>(number & 0xFF);
-  bytes += static_cast<char>(number >> 8 & 0xFF);
+  constexpr int kClasses[] = {40, 41, 45, 2}, kLegacyClasses[] = {26, 27, 25, 2};
+  return (point_format < 6 ? kLegacyClasses : kClasses)[static_cast<std::size_t>(kind)];
 }
 
 // OGC GeoTIFF 1.1: a projected (3072) or geographic (2048) system by its code; 4096 vertical system, 4099 unit of
 // heights.
-std::string GeoKeys(const MapGrid& grid, bool orthometric) {
-  std::vector<int> keys = {1024, 1, 3072, grid.epsg, 3076, grid.linear_unit, 4099, grid.linear_unit};
-  if (grid.projection == nullptr) keys = {1024, 2, 2048, grid.epsg, 4099, grid.linear_unit};
-  if (orthometric) keys.insert(keys.end() - 2, {4096, 5703});
-  std::string bytes;
-  for (const int number : {1, 1, 0, static_cast<int>(keys.size() / 2)}) AppendShort(bytes, number);
-  for (std::size_t i = 0; i < keys.size(); i += 2)
-    for (const int number : {keys[i], 0, 1, keys[i + 1]}) AppendShort(bytes, number);
-  return bytes;
+std::string GeoKeysOf(const MapGrid& grid, bool orthometric) {
+  std::vector<std::pair<int, int>> keys = {{1024, 1}, {3072, grid.epsg}, {3076, grid.linear_unit}};
+  if (grid.projection == nullptr) keys = {{1024, 2}, {2048, grid.epsg}};
+  if (orthometric) keys.push_back({4096, 5703});
+  keys.push_back({4099, grid.linear_unit});
+  return GeoKeys(keys);
 }
 
 constexpr double kVelocitySigma = 0.005;  // m/s
@@ -85,7 +66,7 @@ LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& 
   spec.scale = options.scale;
   spec.adjusted_time = options.adjusted_time;
   if (options.geotiff_keys)
-    spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys(grid, orthometric)});
+    spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeysOf(grid, orthometric)});
   else
     spec.vlrs.push_back({"LASF_Projection", 2112, grid.LasWkt(orthometric) + '\0'});
   // Offsets are round numbers. Degrees need a finer resolution than heights, but a record of the builder has one for

@@ -142,9 +142,10 @@ class LikelyCauseTest : public ::testing::Test {
     return summary_.Tally();
   }
 
-  // "WHY; SUGGESTION", or empty.
+  // "WHY; SUGGESTION", or empty. Begins a new summary.
   std::string Cause() {
     const std::optional<LikelyCause> cause = FindLikelyCause(Tally(), context_);
+    summary_ = UncertaintySummary{AnswerStyle{}};
     return cause.has_value() ? cause->why + "; " + cause->suggestion : "";
   }
 
@@ -189,7 +190,6 @@ TEST_F(LikelyCauseTest, NamesADivergenceInRadiansOrMicroradians) {
   pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1.5e-3, 20))};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("is below 0.25 m, the first node"), HasSubstr("divergence in rad?"),
                              HasSubstr("give the altitude in m and the divergence in mrad, full angle")));
-  summary_ = UncertaintySummary{AnswerStyle{}};
   pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1500, 20))};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("divergence in urad?"), Not(HasSubstr("feet"))));
 }
@@ -226,7 +226,6 @@ TEST_F(LikelyCauseTest, NamesTheFileOfWaterLevelsThatDoesNotCoverThePoints) {
 TEST_F(LikelyCauseTest, NamesAWindInKnots) {
   pulses_[AxisId::kWindSpeed] = {12};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("wind_speed 12 m/s is above 10 m/s"), HasSubstr("in knots?")));
-  summary_ = UncertaintySummary{AnswerStyle{}};
   pulses_[AxisId::kWindSpeed] = {36};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("in km/h?"), Not(HasSubstr("knots"))));
 }
@@ -244,7 +243,6 @@ TEST_F(LikelyCauseTest, NamesDepthsThatAreNegativeDownwards) {
 TEST_F(LikelyCauseTest, CallsWaterTooDeepUnlessTheDepthIsFarOutside) {
   pulses_[AxisId::kDepth] = {25, 30, 40};
   EXPECT_THAT(Cause(), AllOf(HasSubstr("too deep for this table"), Not(HasSubstr("in cm"))));
-  summary_ = UncertaintySummary{AnswerStyle{}};
   pulses_[AxisId::kDepth] = {200, 800, 1900};
   EXPECT_THAT(Cause(), HasSubstr("is the depth in cm?"));
 }
@@ -264,10 +262,8 @@ TEST_F(LikelyCauseTest, NamesTheWrongSignWherePointsSeemTooDeep) {
 TEST_F(LikelyCauseTest, NamesAWaterLevelInCentimetresOrFeet) {
   SetHeights({-31, -28, -25}, -2309);
   EXPECT_THAT(Cause(), HasSubstr("is --water-level in cm?"));
-  summary_ = UncertaintySummary{AnswerStyle{}};
   SetHeights({-31, -28, -25}, -23.09 / 0.3048);
   EXPECT_THAT(Cause(), HasSubstr("is --water-level in feet?"));
-  summary_ = UncertaintySummary{AnswerStyle{}};
   SetHeights({15, 18, 21}, 2309);
   EXPECT_THAT(Cause(), HasSubstr("is --water-level in cm?"));
 }
@@ -275,6 +271,7 @@ TEST_F(LikelyCauseTest, NamesAWaterLevelInCentimetresOrFeet) {
 TEST_F(LikelyCauseTest, AsksForTheDatumWhereNoMistakeExplainsTheDepths) {
   SetHeights({315, 318, 321}, 0);
   EXPECT_THAT(Cause(), HasSubstr("check --water-level and its vertical datum"));
+  SetHeights({315, 318, 321}, 0);
   context_.water_level.reset();
   EXPECT_THAT(Cause(), HasSubstr("check the water surface and its vertical datum"));
 }

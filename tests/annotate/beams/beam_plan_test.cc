@@ -4,34 +4,37 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "tests/formats/trajectories/flight_text.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {
 namespace {
 
-using albtpu::testing::Flight;
-using albtpu::testing::SmrmsgBytes;
+using namespace albtpu::testing;  // Flight, RowAt and the fields of a row.
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+class TrajectoryFilesTest : public ::testing::Test {
+ protected:
+  // Of a flight at points that have the times from `first` to `last`.
+  formats::TrajectoryTimeline TimelineOf(const Flight& flight, double first, double last,
+                                         formats::TrajectoryClock clock = formats::TrajectoryClock::kGps) {
+    const auto files = formats::LoadTrajectories(
+        std::vector<std::string>{folder_.Write("flight.sbet", SbetBytes(Fly(flight))).string()});
+    auto timeline =
+        formats::TrajectoryTimeline::Create(*files, clock, {{first, last}, formats::PointTimeForm::kWeekSeconds});
+    EXPECT_TRUE(timeline.ok()) << timeline.status();
+    return *std::move(timeline);
+  }
+  const TemporaryFolder folder_;
+};
 
-class TrajectoryMotionsTest : public ::testing::Test {
+class TrajectoryMotionsTest : public TrajectoryFilesTest {
  protected:
   TrajectoryMotions Motions(const Flight& flight, const TrajectoryErrors& errors) {
-    const auto files = formats::LoadTrajectories(std::vector<std::string>{
-        folder_.Write("flight.sbet", albtpu::testing::SbetBytes(albtpu::testing::Fly(flight))).string()});
-    auto timeline = formats::TrajectoryTimeline::Create(
-        *files, formats::TrajectoryClock::kGps,
-        {{flight.start, flight.start + flight.duration}, formats::PointTimeForm::kWeekSeconds});
-    EXPECT_TRUE(timeline.ok()) << timeline.status();
-    return {*std::move(timeline), errors};
+    return {TimelineOf(flight, flight.start, flight.start + flight.duration), errors};
   }
-  const albtpu::testing::TemporaryFolder folder_;
 };
 
 TEST_F(TrajectoryMotionsTest, StatesAttitudeVelocityAndRatesOfTheFlight) {
@@ -44,8 +47,8 @@ TEST_F(TrajectoryMotionsTest, StatesAttitudeVelocityAndRatesOfTheFlight) {
     EXPECT_NEAR(motion->velocity[1], 60 * std::sin(30 * kDegree), 0.3);
     EXPECT_NEAR(motion->velocity[2], 0, 1e-6);
     EXPECT_NEAR(motion->heading, 35, 0.2);
-    EXPECT_NEAR(motion->roll, albtpu::testing::RowAt(flight, time)[albtpu::testing::kRoll] / kDegree, 1e-3);
-    EXPECT_NEAR(motion->pitch, albtpu::testing::RowAt(flight, time)[albtpu::testing::kPitch] / kDegree, 1e-3);
+    EXPECT_NEAR(motion->roll, RowAt(flight, time)[kRoll] / kDegree, 1e-3);
+    EXPECT_NEAR(motion->pitch, RowAt(flight, time)[kPitch] / kDegree, 1e-3);
     EXPECT_TRUE(std::isnan(motion->position_sigma[0]));
   }
   EXPECT_FALSE(motions.At(flight.start - 1).has_value());
@@ -56,9 +59,8 @@ TEST_F(TrajectoryMotionsTest, SinksWhereTheHeightFalls) {
   const Flight flight{.weave = 0, .climb = 10};
   const TrajectoryMotions motions = Motions(flight, {});
   for (const double time : {11.0, 17.0}) {
-    const auto before = albtpu::testing::RowAt(flight, time - 0.01),
-               after = albtpu::testing::RowAt(flight, time + 0.01);
-    const double climbing = (after[albtpu::testing::kHeight] - before[albtpu::testing::kHeight]) / 0.02;
+    const auto before = RowAt(flight, time - 0.01), after = RowAt(flight, time + 0.01);
+    const double climbing = (after[kHeight] - before[kHeight]) / 0.02;
     EXPECT_GT(std::abs(climbing), 0.5);
     EXPECT_NEAR(motions.At(flight.start + time)->velocity[2], -climbing, 0.01);
   }
@@ -68,7 +70,7 @@ TEST_F(TrajectoryMotionsTest, SinksWhereTheHeightFalls) {
 TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
   const Flight flight;
   const auto errors = LoadTrajectoryErrors(
-      std::vector<std::string>{folder_.Write("smrmsg.out", albtpu::testing::SmrmsgBytes(flight.start, 61)).string()});
+      std::vector<std::string>{folder_.Write("smrmsg.out", SmrmsgBytes(flight.start, 61)).string()});
   const std::optional<SensorMotion> motion = Motions(flight, *errors).At(flight.start + 20);
   ASSERT_TRUE(motion.has_value());
   for (int i = 0; i < 3; ++i) {
@@ -112,34 +114,20 @@ TEST(CourseMotions, AreTheTrueVelocityAndCourseOfATrack) {
   EXPECT_FALSE(motions.At(11).has_value());
 }
 
-class TrajectoryErrorsTest : public ::testing::Test {
+class TrajectoryErrorsTest : public TrajectoryFilesTest {
  protected:
-  std::string Sbet(double start) {
-    return albtpu::testing::SbetBytes(albtpu::testing::Fly({.start = start, .duration = 60, .rate = 20}));
-  }
   absl::StatusOr<TrajectoryErrors> Load(const std::vector<std::filesystem::path>& paths) {
-    std::vector<std::string> names;
-    for (const std::filesystem::path& path : paths) names.push_back(path.string());
-    return LoadTrajectoryErrors(names);
+    return LoadTrajectoryErrors(std::vector<std::string>(paths.begin(), paths.end()));
   }
   std::string Refusal(const std::filesystem::path& path) { return std::string(Load({path}).status().message()); }
-  // A flight from 300 000 to 300 060 s, of which points have the times from `first` to `last`.
-  formats::TrajectoryTimeline Timeline(double first, double last,
-                                       formats::TrajectoryClock clock = formats::TrajectoryClock::kGps) {
-    const absl::StatusOr<formats::TrajectoryFiles> files =
-        formats::LoadTrajectories(std::vector<std::string>{folder_.Write("flight.sbet", Sbet(300000)).string()});
-    auto timeline =
-        formats::TrajectoryTimeline::Create(*files, clock, {{first, last}, formats::PointTimeForm::kWeekSeconds});
-    EXPECT_TRUE(timeline.ok()) << timeline.status();
-    return *std::move(timeline);
-  }
-  const albtpu::testing::TemporaryFolder folder_;
+
+  const Flight flight_ = {.duration = 60, .rate = 20};
 };
 
 TEST_F(TrajectoryErrorsTest, TakesTheErrorFilesOfAFolderByName) {
   folder_.Write("b_SMRMSG.out", SmrmsgBytes(200, 2));
   folder_.Write("a_rms.txt", SmrmsgBytes(100, 2));
-  folder_.Write("flight.sbet", Sbet(300000));
+  folder_.Write("flight.sbet", SbetBytes(Fly(flight_)));
   const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.path()});
   std::vector<double> starts;
   for (const auto& file : *errors) starts.push_back(file->TimeAt(0));
@@ -154,7 +142,7 @@ TEST_F(TrajectoryErrorsTest, TakesAFileOfAnyName) {
 TEST_F(TrajectoryErrorsTest, RefusesWhatIsNoErrorFile) {
   EXPECT_THAT(Refusal(folder_.path()), HasSubstr("no error file in this folder"));
   EXPECT_THAT(Refusal(folder_ / "absent"), HasSubstr("absent"));
-  EXPECT_THAT(Refusal(folder_.Write("flight.sbet", Sbet(300000))), HasSubstr("flight.sbet: "));
+  EXPECT_THAT(Refusal(folder_.Write("flight.sbet", SbetBytes(Fly(flight_)))), HasSubstr("flight.sbet: "));
   folder_.Write("a_smrmsg.out", SmrmsgBytes(100, 2));
   folder_.Write("b_smrmsg.out", "not one");
   EXPECT_THAT(Refusal(folder_.path()), HasSubstr("b_smrmsg.out: "));
@@ -170,26 +158,26 @@ void ExpectFactor(const std::optional<TrajectoryPrecision>& precision, double fa
 
 TEST_F(TrajectoryErrorsTest, StateTheMedianWhereTheFileHasItsPoints) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(300000, 61))});
-  ExpectFactor(PrecisionOf(*errors, Timeline(300010, 300020)), 2.5);
-  ExpectFactor(PrecisionOf(*errors, Timeline(300040, 300050)), 5.5);
+  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
+  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300040, 300050)), 5.5);
 }
 
 TEST_F(TrajectoryErrorsTest, FollowTheClockOfTheirTrajectory) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(300000, 61))});
   // Times of the trajectory and its errors are UTC; those of the points are 18 s ahead.
-  ExpectFactor(PrecisionOf(*errors, Timeline(300028, 300038, formats::TrajectoryClock::kUtc)), 2.5);
+  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300028, 300038, formats::TrajectoryClock::kUtc)), 2.5);
 }
 
 TEST_F(TrajectoryErrorsTest, ComeFromTheFileThatCoversTheTime) {
   const auto errors =
       Load({folder_.Write("first", SmrmsgBytes(100000, 61)), folder_.Write("second", SmrmsgBytes(300000, 61))});
-  ExpectFactor(PrecisionOf(*errors, Timeline(300010, 300020)), 2.5);
+  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
 }
 
 TEST_F(TrajectoryErrorsTest, AreNotKnownAtOtherTimes) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(100000, 61))});
-  EXPECT_FALSE(PrecisionOf(*errors, Timeline(300010, 300020)).has_value());
-  EXPECT_FALSE(PrecisionOf({}, Timeline(300010, 300020)).has_value());
+  EXPECT_FALSE(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)).has_value());
+  EXPECT_FALSE(PrecisionOf({}, TimelineOf(flight_, 300010, 300020)).has_value());
 }
 
 }  // namespace

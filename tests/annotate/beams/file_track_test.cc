@@ -5,11 +5,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "tests/budget/beams/ray_flight.h"
-#include "tests/formats/trajectories/flight_text.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {
@@ -18,8 +16,6 @@ namespace {
 using namespace albtpu::testing;  // Flight, RowAt and the fields of a row.
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr double kWater = 0;  // m
 
@@ -84,13 +80,10 @@ TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
   // Linear steps of 0.02 s and single precision of the rays' own geometry: 1 mm of 400 m is 1.4e-4 degrees.
   EXPECT_NEAR((*found->json)["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
-  const std::vector<double> times = {flight_.start + 50};
-  SensorPosition position;
-  TrackOutcome outcome;
-  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
-  EXPECT_EQ(outcome, TrackOutcome::kKnown);
-  EXPECT_NEAR(position.x, file_.frame.origin_x, 1e-3);
-  EXPECT_NEAR(position.z, RowAt(flight_, 50)[kHeight], 1e-3);
+  const auto [positions, outcomes] = Ask(*found->track, {flight_.start + 50});
+  EXPECT_EQ(outcomes[0], TrackOutcome::kKnown);
+  EXPECT_NEAR(positions[0].x, file_.frame.origin_x, 1e-3);
+  EXPECT_NEAR(positions[0].z, RowAt(flight_, 50)[kHeight], 1e-3);
 }
 
 TEST_F(TrackFromFilesTest, SaysWhenRaysAreTooFewToCompare) {
@@ -181,12 +174,9 @@ TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
   file.frame.origin_y = 3e6;
   found = FromReturns(file);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from ")));
-  const std::vector<double> times = {1010};
-  SensorPosition position;
-  TrackOutcome outcome;
-  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
-  EXPECT_EQ(outcome, TrackOutcome::kKnown);
-  EXPECT_LT(position.convergence,
+  const auto [positions, outcomes] = Ask(*found->track, {1010});
+  EXPECT_EQ(outcomes[0], TrackOutcome::kKnown);
+  EXPECT_LT(positions[0].convergence,
             -0.4 * kDegree);  // West of the central meridian: 1 degree x sin(27 degrees).
 }
 

@@ -45,6 +45,18 @@ class SimulatedFlight {
 
 std::vector<AirRay> RaysOf(const std::vector<SimulatedRay>& simulated);
 
+// What a track knows of these times.
+struct TrackAnswer {
+  std::vector<SensorPosition> positions;
+  std::vector<TrackOutcome> outcomes;
+};
+template <typename Track>
+TrackAnswer Ask(const Track& track, const std::vector<double>& times) {
+  TrackAnswer answer = {std::vector<SensorPosition>(times.size()), std::vector<TrackOutcome>(times.size())};
+  track.PositionsAt(times, answer.positions, answer.outcomes);
+  return answer;
+}
+
 // The incidence of the beam from `sensor` to `water_point`.
 double IncidenceOf(const Eigen::Vector3d& sensor, const Eigen::Vector3d& water_point);
 

@@ -2,25 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include "formats/laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {
 namespace {
 
-using laz::Store;
-std::string GeoKeys(std::initializer_list<std::pair<int, int>> keys) {
-  std::string bytes(8 * (keys.size() + 1), '\0');
-  std::size_t at = 8;
-  for (const auto& [key, value] : keys) {
-    Store(static_cast<std::uint16_t>(key), bytes.data() + at);
-    Store<std::uint16_t>(1, bytes.data() + at + 4);
-    Store(static_cast<std::uint16_t>(value), bytes.data() + at + 6);
-    at += 8;
-  }
-  return bytes;
-}
+using albtpu::testing::GeoKeys;
 
 TEST(LasCrs, FindsFeetInWellKnownText) {
   for (const char* wkt : {

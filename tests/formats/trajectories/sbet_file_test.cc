@@ -9,20 +9,14 @@
 #include <utility>
 
 #include "formats/trajectories/ascii_motion.h"
-#include "tests/formats/trajectories/flight_text.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {
 namespace {
 
 using namespace albtpu::testing;  // SbetRow and its fields.
-using albtpu::testing::Bytes;
-using albtpu::testing::SmrmsgBytes;
-using albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class SbetFileTest : public ::testing::Test {
  protected:

@@ -7,7 +7,7 @@
 
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {
@@ -15,8 +15,6 @@ namespace {
 
 using namespace albtpu::testing;  // Flight, Fly, SbetRow and its fields.
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class TrajectoryTimelineTest : public ::testing::Test {
  protected:
