@@ -4,19 +4,16 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
-#include "tests/flights/trajectory_files.h"
+#include "tests/flights/survey_files.h"
 
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 TEST(Ellipsoid, GeodeticCoordinatesReturn) {
   for (double latitude = -1.5; latitude < 1.5; latitude += 0.25) {
     for (const double height : {-50.0, 0.0, 600.0}) {
-      const Geodetic there = GeodeticFrom(kWgs84, EarthCentred(kWgs84, {latitude, 2, height}));
+      const Geodetic there = GeodeticFrom(EarthCentred({latitude, 2, height}));
       EXPECT_NEAR(there.latitude, latitude, 1e-15);
       EXPECT_NEAR(there.longitude, 2, 1e-15);
       EXPECT_NEAR(there.height, height, 2e-9);
@@ -32,8 +29,8 @@ TEST(Aircraft, VelocityIsTheDerivativeOfPosition) {
   const Aircraft aircraft(chart, {.course = 2, .height = 380, .crab_angle = 0.1}, random);
   for (double time = -3; time < 40; time += 1.37) {
     const AircraftState here = aircraft.At(time);
-    const Eigen::Vector3d change = EarthCentred(kWgs84, aircraft.At(time + 1e-3).position) -
-                                   EarthCentred(kWgs84, aircraft.At(time - 1e-3).position);
+    const Eigen::Vector3d change =
+        EarthCentred(aircraft.At(time + 1e-3).position) - EarthCentred(aircraft.At(time - 1e-3).position);
     const Eigen::Matrix3d axes = EastNorthUp(here.position.latitude, here.position.longitude);
     EXPECT_NEAR(here.velocity.x(), axes.col(1).dot(change) / 2e-3, 2e-6);
     EXPECT_NEAR(here.velocity.y(), axes.col(0).dot(change) / 2e-3, 2e-6);

@@ -11,8 +11,6 @@
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 TEST(Refract, FollowsSnellsLawInThePlaneOfIncidence) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.1, -0.2, 1).normalized();
   for (double angle = 0.05; angle < 1.5; angle += 0.1) {
@@ -36,22 +34,22 @@ TEST(BeamPath, MeetsCurvedWaterSteeperThanFlat) {
   const WavySurface flat(0, 0, random);
   const Scene scene{chart, coast, flat};
   const double height = 500, angle = 20 * kDegree;
-  const Eigen::Vector3d sensor = EarthCentred(kWgs84, {0.5, 0.1, height});
+  const Eigen::Vector3d sensor = EarthCentred({0.5, 0.1, height});
   const Eigen::Matrix3d axes = EastNorthUp(0.5, 0.1);
   for (const double azimuth : {0.3, 1.9, -2.4}) {
     const Eigen::Vector3d beam = axes * Eigen::Vector3d(std::sin(angle) * std::sin(azimuth),
                                                         std::sin(angle) * std::cos(azimuth), -std::cos(angle));
     const BeamPath path = PathToWater(scene, sensor, beam, 0);
-    const Geodetic water = GeodeticFrom(kWgs84, path.water_point);
+    const Geodetic water = GeodeticFrom(path.water_point);
     EXPECT_NEAR(water.height, 0, 4e-9);
-    const double radius = kWgs84.PrimeVerticalRadius(0.5);
+    const double radius = PrimeVerticalRadius(0.5);
     EXPECT_NEAR(std::sin(path.incidence), (radius + height) / radius * std::sin(angle), 4e-7);
     EXPECT_GT(path.incidence, angle + 2e-5);
     EXPECT_NEAR((path.water_point - sensor).norm(), path.slant_range, 1e-8);
     EXPECT_NEAR(path.azimuth, azimuth, 3e-5);  // Meridians converge: 180 m / R tan(latitude).
     // Straight on under water, to the ground.
     const double distance = DistanceToGround(scene, path.water_point, path.water_direction);
-    const Geodetic ground = GeodeticFrom(kWgs84, path.water_point + distance * path.water_direction);
+    const Geodetic ground = GeodeticFrom(path.water_point + distance * path.water_direction);
     EXPECT_NEAR(ground.height, coast.HeightAt(chart.EastNorth(ground)), 4e-9);
   }
 }
@@ -95,7 +93,7 @@ TEST(Simulate, PlacesReturnsWhereTheirTruthSays) {
     const double in_water = std::asin(std::sin(pulse.incidence) / kIndexOfWater);
     const double distance = pulse.slant_range * std::sin(pulse.incidence) + found.depth * std::tan(in_water);
     const Eigen::Matrix3d axes = EastNorthUp(pulse.sensor.latitude, pulse.sensor.longitude);
-    const Eigen::Vector3d between = EarthCentred(kWgs84, found.position) - EarthCentred(kWgs84, pulse.sensor);
+    const Eigen::Vector3d between = EarthCentred(found.position) - EarthCentred(pulse.sensor);
     // The vertical turns by 160 m / R = 2.5e-5 on the way; over 430 m that is 11 mm, half of it before the water.
     EXPECT_NEAR(std::hypot(axes.col(0).dot(between), axes.col(1).dot(between)), distance, 0.02);
     EXPECT_NEAR(std::atan2(axes.col(0).dot(between), axes.col(1).dot(between)),

@@ -1,21 +1,25 @@
 #include "tests/flights/map_grid.h"
 
-#include <numbers>
+#include <cassert>
+
+#include "tests/flights/ellipsoid.h"
 
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, exact (US Metric Law of 1866).
+
+// By its parameters: the programs find theirs by codes and well-known text.
+std::shared_ptr<PJ> Projection(const std::string& parameters) {
+  std::shared_ptr<PJ> projection(proj_create(PJ_DEFAULT_CTX, parameters.c_str()), &proj_destroy);
+  assert(projection != nullptr);
+  return projection;
+}
 
 MapGrid UtmNorth(int zone) {
   const int meridian = 6 * zone - 183;
   const std::string number = std::to_string(zone), unit = R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]])";
-  return {.name = "utm" + number + "n",
-          .projection = TransverseMercator({.ellipsoid = kWgs84,
-                                            .central_meridian = meridian * kDegree,
-                                            .scale_factor = 0.9996,
-                                            .false_easting = 500000}),
+  return {.projection = Projection("+proj=utm +zone=" + number + " +ellps=WGS84"),
           .epsg = 32600 + zone,
           .wkt = R"(PROJCS["WGS 84 / UTM zone )" + number +
                  R"(N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
@@ -33,12 +37,8 @@ MapGrid UtmNorth(int zone) {
 
 MapGrid FloridaEastFeet() {
   const std::string unit = R"(UNIT["US survey foot",0.304800609601219,AUTHORITY["EPSG","9003"]])";
-  return {.name = "florida-east-ft",
-          .projection = TransverseMercator({.ellipsoid = kGrs80,
-                                            .central_meridian = -81 * kDegree,
-                                            .latitude_of_origin = (24 + 20.0 / 60) * kDegree,
-                                            .scale_factor = 0.999941177,
-                                            .false_easting = 656166.667 * kSurveyFoot}),
+  return {.projection = Projection("+proj=tmerc +lat_0=24.3333333333333333 +lon_0=-81 +k_0=0.999941177 "
+                                   "+x_0=200000.00010160020 +ellps=GRS80"),  // 656 166.667 feet.
           .metres_per_unit = kSurveyFoot,
           .epsg = 2236,
           .linear_unit = 9003,
@@ -55,9 +55,7 @@ MapGrid FloridaEastFeet() {
 }
 
 MapGrid Geographic() {
-  return {.name = "geographic",
-          .projection = std::nullopt,
-          .epsg = 4326,
+  return {.epsg = 4326,
           .wkt = R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
                  R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4326"]])",
           .vertical_wkt = UtmNorth(17).vertical_wkt};
@@ -66,9 +64,12 @@ MapGrid Geographic() {
 }  // namespace
 
 GridPoint MapGrid::At(double latitude, double longitude) const {
-  if (!projection.has_value()) return {.x = longitude / kDegree, .y = latitude / kDegree};
-  const MapPoint point = projection->Project(latitude, longitude);
-  return {point.easting / metres_per_unit, point.northing / metres_per_unit, point.convergence, point.scale};
+  if (projection == nullptr) return {.x = longitude / kDegree, .y = latitude / kDegree};
+  const PJ_COORD place = proj_coord(longitude, latitude, 0, 0);
+  const PJ_COORD point = proj_trans(projection.get(), PJ_FWD, place);
+  const PJ_FACTORS factors = proj_factors(projection.get(), place);
+  return {point.xy.x / metres_per_unit, point.xy.y / metres_per_unit, factors.meridian_convergence,
+          factors.meridional_scale};
 }
 
 std::string MapGrid::LasWkt(bool orthometric) const {
@@ -78,7 +79,7 @@ std::string MapGrid::LasWkt(bool orthometric) const {
 
 std::optional<MapGrid> FindMapGrid(std::string_view name) {
   for (const int zone : {16, 17, 18})
-    if (MapGrid grid = UtmNorth(zone); grid.name == name) return grid;
+    if (name == "utm" + std::to_string(zone) + "n") return UtmNorth(zone);
   if (name == "geographic") return Geographic();
   if (name == "florida-east-ft") return FloridaEastFeet();
   return std::nullopt;

@@ -1,11 +1,12 @@
 // The coordinate systems that simulated surveys are delivered in.
 #pragma once
 
+#include <proj.h>
+
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "tests/flights/transverse_mercator.h"
 
 namespace albtpu::testing {
 
@@ -17,13 +18,12 @@ struct GridPoint {
 };
 
 struct MapGrid {
-  std::string name;
-  std::optional<TransverseMercator> projection;  // None: longitude and latitude in degrees.
-  double metres_per_unit = 1;                    // Of projected coordinates, and of all heights.
-  int epsg = 0;                                  // Of the horizontal coordinates.
-  int linear_unit = 9001;                        // EPSG code of the unit.
-  std::string wkt;                               // Well-known text 1 of the horizontal coordinates.
-  std::string vertical_wkt;                      // VERT_CS of orthometric heights (NAVD 88) in the unit of the heights.
+  std::shared_ptr<PJ> projection = {};  // PROJ's, in metres. None: longitude and latitude in degrees.
+  double metres_per_unit = 1;           // Of projected coordinates, and of all heights.
+  int epsg = 0;                         // Of the horizontal coordinates.
+  int linear_unit = 9001;               // EPSG code of the unit.
+  std::string wkt;                      // Well-known text 1 of the horizontal coordinates.
+  std::string vertical_wkt;             // VERT_CS of orthometric heights (NAVD 88) in the unit of the heights.
 
   GridPoint At(double latitude, double longitude) const;
 

@@ -32,7 +32,7 @@ ReportedPoints::ReportedPoints(const ReportingErrors& errors, const Eigen::Vecto
 
 Eigen::Vector3d ReportedPoints::Refracted(const BeamPath& path, const Eigen::Vector3d& beam) {
   if (errors_.slope_along == 0 && errors_.slope_across == 0) return path.water_direction;
-  const Geodetic here = GeodeticFrom(kWgs84, path.water_point);
+  const Geodetic here = GeodeticFrom(path.water_point);
   const Eigen::Matrix3d axes = EastNorthUp(here.latitude, here.longitude);
   const double sine = std::sin(errors_.wind_from), cosine = std::cos(errors_.wind_from);
   const Eigen::Vector3d along = axes.col(0) * sine + axes.col(1) * cosine, up = axes.col(2);
@@ -51,14 +51,14 @@ void ReportedPoints::Receive(int line, double since_start, const AircraftState& 
   reported.heading += at(5);
   const Eigen::Matrix3d body = reported.BodyAxes();
   const Eigen::Matrix3d axes = EastNorthUp(reported.position.latitude, reported.position.longitude);
-  const Eigen::Vector3d sensor = EarthCentred(kWgs84, reported.position) + body * lever_arm_ + at(0) * axes.col(1) +
+  const Eigen::Vector3d sensor = EarthCentred(reported.position) + body * lever_arm_ + at(0) * axes.col(1) +
                                  at(1) * axes.col(0) - at(2) * axes.col(2);
   Eigen::Vector3d scanned = in_body;
   for (const Eigen::Vector3d& across : Across(in_body)) scanned += errors_.scan * random_.Normal() * across;
   const Eigen::Vector3d beam = body * scanned.normalized();
   surface_noise_ = range_noise_ * random_.Normal();
   at_water_ = sensor + (path.slant_range + surface_noise_) * beam;
-  const Geodetic here = GeodeticFrom(kWgs84, at_water_);
+  const Geodetic here = GeodeticFrom(at_water_);
   in_water_ = Refract(beam, EastNorthUp(here.latitude, here.longitude).col(2));
 }
 

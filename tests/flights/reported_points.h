@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tests/flights/beam_path.h"
-#include "tests/flights/smooth_motion.h"
 
 namespace albtpu::testing {
 

@@ -10,16 +10,12 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <numeric>
 
 #include "tests/flights/survey_files.h"
-#include "tests/flights/trajectory_files.h"
 
 namespace albtpu::testing {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Options {
   std::filesystem::path folder;

@@ -28,49 +28,33 @@ Coast MakeCoast(const SurveyOptions& options) {
 
 std::vector<Aircraft> MakeAircraft(const SurveyOptions& options, const AreaChart& chart, RandomNumbers& random) {
   std::vector<Aircraft> aircraft;
-  const double length = options.speed * options.seconds;
-  for (int line = 0; line < options.lines; ++line) {
-    const bool back = line % 2 == 1;
-    const double along = back ? length : 0, across = line * kLineSpacing * options.altitude;
-    const double sine = std::sin(options.course), cosine = std::cos(options.course);
+  const double length = options.speed * options.seconds, spacing = kLineSpacing * options.altitude;
+  const double sine = std::sin(options.course), cosine = std::cos(options.course);
+  // A line that begins `along` and `across` from the beginning of the first one.
+  const auto add = [&](double along, double across, double turn) {
     aircraft.emplace_back(chart,
                           Aircraft::Options{.east = along * sine + across * cosine,
                                             .north = along * cosine - across * sine,
-                                            .course = options.course + (back ? std::numbers::pi : 0),
+                                            .course = options.course + turn,
                                             .height = options.water_level + options.altitude,
                                             .speed = options.speed,
                                             .crab_angle = options.crab_angle},
                           random);
-  }
+  };
+  for (int line = 0; line < options.lines; ++line)
+    line % 2 == 1 ? add(length, line * spacing, std::numbers::pi) : add(0, line * spacing, 0);
   // Evenly over the lines, and as far beyond the block on one side as on the other.
-  const double width = (options.lines - 1) * kLineSpacing * options.altitude;
-  for (int line = 0; line < options.cross_lines; ++line) {
-    const double along = (line + 0.5) / options.cross_lines * length, across = (width - length) / 2;
-    const double sine = std::sin(options.course), cosine = std::cos(options.course);
-    aircraft.emplace_back(chart,
-                          Aircraft::Options{.east = along * sine + across * cosine,
-                                            .north = along * cosine - across * sine,
-                                            .course = options.course + std::numbers::pi / 2,
-                                            .height = options.water_level + options.altitude,
-                                            .speed = options.speed,
-                                            .crab_angle = options.crab_angle},
-                          random);
-  }
+  const double width = (options.lines - 1) * spacing;
+  for (int line = 0; line < options.cross_lines; ++line)
+    add((line + 0.5) / options.cross_lines * length, (width - length) / 2, std::numbers::pi / 2);
   return aircraft;
-}
-
-Eigen::Matrix3d Boresight(const Eigen::Vector3d& angles) {
-  return (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
 }
 
 // What one pulse returns, added to `survey`.
 class PulseSimulator {
  public:
   PulseSimulator(const Scene& scene, SimulatedSurvey& survey, RandomNumbers& random)
-      : scene_(scene), survey_(survey), random_(random), scanner_axes_(Boresight(survey.options.boresight)) {
+      : scene_(scene), survey_(survey), random_(random), scanner_axes_(Attitude(survey.options.boresight)) {
     const SurveyOptions& options = survey.options;
     if (options.errors.any())
       processing_.emplace(options.errors, options.lever_arm, options.range_noise, survey.lines(), options.seed);
@@ -80,7 +64,7 @@ class PulseSimulator {
     const SurveyOptions& options = survey_.options;
     const AircraftState aircraft = survey_.aircraft[static_cast<std::size_t>(line)].At(since_start);
     const Eigen::Matrix3d body = aircraft.BodyAxes();
-    const Eigen::Vector3d sensor = EarthCentred(kWgs84, aircraft.position) + body * options.lever_arm;
+    const Eigen::Vector3d sensor = EarthCentred(aircraft.position) + body * options.lever_arm;
     const Eigen::Vector3d in_body = scanner_axes_ * BeamDirection(options.scanner, options.scan_rate * since_start);
     const Eigen::Vector3d beam = body * in_body;
 
@@ -91,7 +75,7 @@ class PulseSimulator {
     }
     SimulatedPulse pulse{.time = survey_.LineStart(line) + since_start,
                          .line = line + 1,
-                         .sensor = GeodeticFrom(kWgs84, sensor),
+                         .sensor = GeodeticFrom(sensor),
                          .incidence = path.incidence,
                          .azimuth = path.azimuth,
                          .slant_range = path.slant_range,
@@ -110,17 +94,17 @@ class PulseSimulator {
 
  private:
   double DepthOf(const Eigen::Vector3d& point) const {
-    return survey_.options.water_level - GeodeticFrom(kWgs84, point).height;
+    return survey_.options.water_level - GeodeticFrom(point).height;
   }
 
   // From `point`, which lies `way` m behind the water.
   void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth, double way) {
     if (processing_.has_value() && kind != ReturnKind::kLand) {
-      found_.push_back({.kind = kind, .position = GeodeticFrom(kWgs84, processing_->Reported(way)), .depth = depth});
+      found_.push_back({.kind = kind, .position = GeodeticFrom(processing_->Reported(way)), .depth = depth});
       return;
     }
     const double noise = survey_.options.range_noise * random_.Normal();
-    found_.push_back({.kind = kind, .position = GeodeticFrom(kWgs84, point + noise * beam), .depth = depth});
+    found_.push_back({.kind = kind, .position = GeodeticFrom(point + noise * beam), .depth = depth});
   }
 
   void UnderWater(const BeamPath& path, const Eigen::Vector3d& beam, double to_bottom, double depth) {

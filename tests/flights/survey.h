@@ -9,7 +9,6 @@
 #include "tests/flights/aircraft.h"
 #include "tests/flights/map_grid.h"
 #include "tests/flights/reported_points.h"
-#include "tests/flights/scanner.h"
 
 namespace albtpu::testing {
 

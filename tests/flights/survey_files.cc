@@ -2,47 +2,55 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <initializer_list>
 #include <numbers>
 
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSecondsOfWeek = 604800;
 
 // ASPRS, LAS Domain Profile for Topo-Bathy Lidar; for formats 0 to 5, whose classes end at 31, what NOAA's older files
 // have.
 int ClassOf(ReturnKind kind, int point_format) {
-  const bool legacy = point_format < 6;
-  switch (kind) {
-    case ReturnKind::kBottom:
-      return legacy ? 26 : 40;
-    case ReturnKind::kSurface:
-      return legacy ? 27 : 41;
-    case ReturnKind::kColumn:
-      return legacy ? 25 : 45;
-    case ReturnKind::kLand:
-      return 2;
-  }
-  return 0;
-}
-
-void AppendShort(std::string& bytes, int number) {
-  bytes += static_cast<char>(number & 0xFF);
-  bytes += static_cast<char>(number >> 8 & 0xFF);
+  constexpr int kClasses[] = {40, 41, 45, 2}, kLegacyClasses[] = {26, 27, 25, 2};
+  return (point_format < 6 ? kLegacyClasses : kClasses)[static_cast<std::size_t>(kind)];
 }
 
 // OGC GeoTIFF 1.1: a projected (3072) or geographic (2048) system by its code; 4096 vertical system, 4099 unit of
 // heights.
-std::string GeoKeys(const MapGrid& grid, bool orthometric) {
-  std::vector<int> keys = {1024, 1, 3072, grid.epsg, 3076, grid.linear_unit, 4099, grid.linear_unit};
-  if (!grid.projection.has_value()) keys = {1024, 2, 2048, grid.epsg, 4099, grid.linear_unit};
-  if (orthometric) keys.insert(keys.end() - 2, {4096, 5703});
-  std::string bytes;
-  for (const int number : {1, 1, 0, static_cast<int>(keys.size() / 2)}) AppendShort(bytes, number);
-  for (std::size_t i = 0; i < keys.size(); i += 2)
-    for (const int number : {keys[i], 0, 1, keys[i + 1]}) AppendShort(bytes, number);
-  return bytes;
+std::string GeoKeysOf(const MapGrid& grid, bool orthometric) {
+  std::vector<std::pair<int, int>> keys = {{1024, 1}, {3072, grid.epsg}, {3076, grid.linear_unit}};
+  if (grid.projection == nullptr) keys = {{1024, 2}, {2048, grid.epsg}};
+  if (orthometric) keys.push_back({4096, 5703});
+  keys.push_back({4099, grid.linear_unit});
+  return GeoKeys(keys);
+}
+
+constexpr double kVelocitySigma = 0.005;  // m/s
+constexpr double kArcMinute = kDegree / 60;
+
+void Append(std::string& bytes, std::initializer_list<double> numbers) {
+  bytes.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
+}
+
+// In (-pi, pi].
+double Wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+
+// Calls visit(time of the week, state) at `rate`, without the gap. All times are multiples of the interval.
+template <typename Visit>
+void VisitRecords(const SimulatedSurvey& survey, const TrajectoryOptions& options, double rate, Visit visit) {
+  for (std::size_t line = 0; line < survey.aircraft.size(); ++line) {
+    const int last = static_cast<int>((survey.options.seconds + options.margin) * rate);
+    for (int i = static_cast<int>(-options.margin * rate); i <= last; ++i) {
+      const double since_start = i / rate;
+      const bool in_gap = line == 0 && since_start > options.gap_start && since_start < options.gap_start + options.gap;
+      if (in_gap) continue;
+      visit(survey.LineStart(static_cast<int>(line)) + since_start + options.clock,
+            survey.aircraft[line].At(since_start));
+    }
+  }
 }
 
 double Degrees(double azimuth) { return std::fmod(azimuth / kDegree + 360, 360); }
@@ -58,12 +66,12 @@ LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& 
   spec.scale = options.scale;
   spec.adjusted_time = options.adjusted_time;
   if (options.geotiff_keys)
-    spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys(grid, orthometric)});
+    spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeysOf(grid, orthometric)});
   else
     spec.vlrs.push_back({"LASF_Projection", 2112, grid.LasWkt(orthometric) + '\0'});
   // Offsets are round numbers. Degrees need a finer resolution than heights, but a record of the builder has one for
   // all; at 1e-8, heights reach 21 m from their offset.
-  const bool degrees = !grid.projection.has_value();
+  const bool degrees = grid.projection == nullptr;
   const GridPoint origin = grid.At(survey.options.latitude, survey.options.longitude);
   const double round = degrees ? 1 : 10000;
   if (degrees) spec.scale = 1e-8;
@@ -120,6 +128,51 @@ std::string TruthOf(const SimulatedSurvey& survey, const std::vector<std::size_t
     bytes.append(reinterpret_cast<const char*>(row), sizeof row);
   }
   return bytes;
+}
+
+// The wander angle alpha turns the horizontal axes: platform heading = true heading + alpha, and
+//     v_N = v_x cos(alpha) - v_y sin(alpha),   v_E = -(v_x sin(alpha) + v_y cos(alpha)),   v_U = v_z,
+// here solved for v_x and v_y. It changes with longitude as the meridians converge. Accelerations and body rates are
+// not simulated and 0.
+std::string SbetFile(const SimulatedSurvey& survey, const TrajectoryOptions& options) {
+  std::string bytes;
+  VisitRecords(survey, options, options.rate, [&](double time, const AircraftState& state) {
+    const Geodetic& position = state.position;
+    const double alpha =
+        options.wander - (position.longitude - survey.options.longitude) * std::sin(survey.options.latitude);
+    const double north = state.velocity.x(), east = state.velocity.y();
+    Append(bytes,
+           {time, position.latitude, position.longitude, position.height,
+            north * std::cos(alpha) - east * std::sin(alpha), -north * std::sin(alpha) - east * std::cos(alpha),
+            state.velocity.z(), state.roll, state.pitch, Wrapped(state.heading + alpha), alpha, 0, 0, 0, 0, 0, 0});
+  });
+  return bytes;
+}
+
+std::string SmrmsgFile(const SimulatedSurvey& survey, const TrajectoryOptions& options) {
+  std::string bytes;
+  VisitRecords(survey, options, options.error_rate, [&](double time, const AircraftState&) {
+    Append(bytes, {time, kPositionSigma, kPositionSigma, kHeightSigma, kVelocitySigma, kVelocitySigma, kVelocitySigma,
+                   kRollSigma / kArcMinute, kRollSigma / kArcMinute, kHeadingSigma / kArcMinute});
+  });
+  return bytes;
+}
+
+std::string AsciiTrajectory(const SimulatedSurvey& survey, const TrajectoryOptions& options) {
+  const MapGrid grid = *FindMapGrid(survey.options.grid);
+  std::string text;
+  VisitRecords(survey, options, options.rate, [&](double time, const AircraftState& state) {
+    const Geodetic& position = state.position;
+    const GridPoint point = grid.projection != nullptr ? grid.At(position.latitude, position.longitude) : GridPoint{};
+    char line[400];
+    std::snprintf(line, sizeof line, "%.6f %.12f %.12f %.5f %.5f %.5f %.7f %.7f %.7f %.3f %.3f %.3f %.5f %.5f %.5f\n",
+                  time, position.longitude / kDegree, position.latitude / kDegree, point.x * grid.metres_per_unit,
+                  point.y * grid.metres_per_unit, position.height, state.roll / kDegree, state.pitch / kDegree,
+                  Wrapped(state.heading) / kDegree, kPositionSigma, kPositionSigma, kHeightSigma, kRollSigma / kDegree,
+                  kRollSigma / kDegree, kHeadingSigma / kDegree);
+    text += line;
+  });
+  return text;
 }
 
 }  // namespace albtpu::testing

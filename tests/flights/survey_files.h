@@ -1,4 +1,5 @@
-// The points of a simulated survey as LAS files, and what is true of each of them.
+// The files of a simulated survey: its points as LAS, what is true of each of them, and its trajectory in the formats
+// that surveys have.
 #pragma once
 
 #include <cstddef>
@@ -42,5 +43,23 @@ inline constexpr const char* kTruthColumns[] = {
 };
 std::string TruthOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns,
                     const PointOptions& options);
+
+struct TrajectoryOptions {
+  double rate = 200;              // Hz
+  double error_rate = 2;          // Hz, of SMRMSG
+  double margin = 3;              // s before and after each line
+  double wander = 0.349;          // rad; the wander angle where the survey begins
+  double gap_start = 0, gap = 0;  // s since the beginning of the first line; length in s: no records inside
+  double clock = 0;               // s, added to all times: -18 for UTC
+};
+
+// As Applanix's POSPac writes them: records of 17 and of 10 little-endian doubles without a header. PDAL's readers.sbet
+// and readers.smrmsg document both.
+std::string SbetFile(const SimulatedSurvey& survey, const TrajectoryOptions& options);
+std::string SmrmsgFile(const SimulatedSurvey& survey, const TrajectoryOptions& options);
+
+// Lines of t lon lat X Y Z roll pitch heading sigma_X sigma_Y sigma_Z sigma_roll sigma_pitch sigma_heading: degrees,
+// metres of the grid's projection (0 if there is none), and metres above the ellipsoid.
+std::string AsciiTrajectory(const SimulatedSurvey& survey, const TrajectoryOptions& options);
 
 }  // namespace albtpu::testing

@@ -4,12 +4,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "annotate/answers/answer_counts.h"
+#include "annotate/answers/batch.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "service/client/local_source.h"
+#include "tests/tables/synthetic_table.h"
+
 namespace albtpu::annotate {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
+using ::testing::Not;
 
 CauseContext Context() {
   CauseContext context;
@@ -110,6 +117,191 @@ TEST(RunVerdict, NotesThatNoPulseIsShallow) {
             "water level and its vertical datum");
   verdict.Add("b.csv", Answers(10, 0, 19.9));
   EXPECT_EQ(verdict.DeepNote(), "");
+}
+
+// A survey whose pulses are all inside the table: mistakes in its inputs are made on purpose.
+class LikelyCauseTest : public ::testing::Test {
+ protected:
+  LikelyCauseTest() {
+    pulses_.size = 3;
+    pulses_[AxisId::kWindSpeed] = {6};
+    pulses_[AxisId::kFetch] = {3e4f};
+    pulses_[AxisId::kIncidence] = {18, 19, 20};
+    pulses_[AxisId::kFootprint] = {0.6f};
+    pulses_[AxisId::kDepth] = {2, 8, 19};
+    context_.axes = source_.table().axes;
+    context_.footprint_from_beam = false;
+  }
+
+  AnswerTally Tally() {
+    AnswerSelection selection;
+    UncertaintySummary::Select(selection);
+    AnswerBatch answers;
+    EXPECT_TRUE(AnswerPulses(source_, {}, pulses_, selection, answers).ok());
+    summary_.Add(pulses_, answers);
+    return summary_.Tally();
+  }
+
+  // "WHY; SUGGESTION", or empty. Begins a new summary.
+  std::string Cause() {
+    const std::optional<LikelyCause> cause = FindLikelyCause(Tally(), context_);
+    summary_ = UncertaintySummary{AnswerStyle{}};
+    return cause.has_value() ? cause->why + "; " + cause->suggestion : "";
+  }
+
+  // The depths of points at heights z [m] under a water level; those above it have no pulse.
+  void SetHeights(const std::vector<float>& heights, double water_level) {
+    context_.water_level = water_level;
+    pulses_[AxisId::kDepth].clear();
+    for (const float height : heights) {
+      const auto depth = static_cast<float>(water_level - height);
+      if (depth < 0)
+        summary_.AddAboveWater(depth);
+      else
+        pulses_[AxisId::kDepth].push_back(depth);
+    }
+    pulses_.size = pulses_[AxisId::kDepth].size();
+    pulses_[AxisId::kIncidence] = {18};
+    if (pulses_.size == 0) pulses_[AxisId::kDepth] = {0};
+  }
+
+  client::LocalSource source_{"", albtpu::testing::SyntheticTable()};
+  PulseBatch pulses_{.size = 0, .axis = {}};
+  UncertaintySummary summary_{AnswerStyle{}};
+  CauseContext context_;
+};
+
+TEST_F(LikelyCauseTest, IsNoneWhereAllPulsesGetANumber) { EXPECT_EQ(Cause(), ""); }
+
+TEST_F(LikelyCauseTest, NamesAFootprintInCentimetres) {
+  pulses_[AxisId::kFootprint] = {60};
+  EXPECT_EQ(Cause(),
+            "footprint 60 m is above 2 m, the last node of the table; is the footprint in cm? give the "
+            "footprint in m");
+}
+
+TEST_F(LikelyCauseTest, NamesAFootprintInMillimetres) {
+  pulses_[AxisId::kFootprint] = {600};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("in mm?"), Not(HasSubstr("in cm?"))));
+}
+
+TEST_F(LikelyCauseTest, NamesADivergenceInRadiansOrMicroradians) {
+  context_.footprint_from_beam = true;
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1.5e-3, 20))};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("is below 0.25 m, the first node"), HasSubstr("divergence in rad?"),
+                             HasSubstr("give the altitude in m and the divergence in mrad, full angle")));
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400, 1500, 20))};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("divergence in urad?"), Not(HasSubstr("feet"))));
+}
+
+TEST_F(LikelyCauseTest, NamesAnAltitudeInFeet) {
+  context_.footprint_from_beam = true;
+  pulses_[AxisId::kFootprint] = {static_cast<float>(FootprintAtIncidence(400 / 0.3048, 2, 20))};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("altitude in feet?"), Not(HasSubstr("urad"))));
+}
+
+TEST_F(LikelyCauseTest, AsksForBothWhereTheOriginOfTheFootprintIsNotKnown) {
+  context_.footprint_from_beam.reset();
+  pulses_[AxisId::kFootprint] = {600};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("footprint in mm?"), HasSubstr("divergence in urad?")));
+}
+
+TEST_F(LikelyCauseTest, NamesAnIncidenceInRadians) {
+  // Only where the table begins above nadir: elsewhere 0.3 is as good an incidence as 20.
+  context_.axes[Index(AxisId::kIncidence)].first = 5;
+  AnswerTally tally;
+  tally.without_number["OUT_OF_DOMAIN:incidence:below"] = {3, AnswerTally::Spread{0.31, 0.33, 0.35}};
+  EXPECT_EQ(FindLikelyCause(tally, context_)->suggestion,
+            "is the incidence in rad? give the incidence in degrees from the vertical");
+}
+
+TEST_F(LikelyCauseTest, NamesTheFileOfWaterLevelsThatDoesNotCoverThePoints) {
+  AnswerTally tally;
+  tally.without_number[std::string(OutcomeName(NoPulse::kNoSurface))].count = 3;
+  EXPECT_THAT(FindLikelyCause(tally, context_)->suggestion, HasSubstr("--water-classes"));
+  context_.water_level_by_time = true;
+  EXPECT_THAT(FindLikelyCause(tally, context_)->why, HasSubstr("the file of --water-level has no level"));
+}
+
+TEST_F(LikelyCauseTest, NamesAWindInKnots) {
+  pulses_[AxisId::kWindSpeed] = {12};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("wind_speed 12 m/s is above 10 m/s"), HasSubstr("in knots?")));
+  pulses_[AxisId::kWindSpeed] = {36};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("in km/h?"), Not(HasSubstr("knots"))));
+}
+
+TEST_F(LikelyCauseTest, NamesAFetchInKilometres) {
+  pulses_[AxisId::kFetch] = {30};
+  EXPECT_THAT(Cause(), HasSubstr("is the fetch in km? give the fetch in m"));
+}
+
+TEST_F(LikelyCauseTest, NamesDepthsThatAreNegativeDownwards) {
+  pulses_[AxisId::kDepth] = {-2, -8, -19};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("depth -19 to -2 m is below 0 m"), HasSubstr("negative downwards?")));
+}
+
+TEST_F(LikelyCauseTest, CallsWaterTooDeepUnlessTheDepthIsFarOutside) {
+  pulses_[AxisId::kDepth] = {25, 30, 40};
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("too deep for this table"), Not(HasSubstr("in cm"))));
+  pulses_[AxisId::kDepth] = {200, 800, 1900};
+  EXPECT_THAT(Cause(), HasSubstr("is the depth in cm?"));
+}
+
+TEST_F(LikelyCauseTest, NamesAWaterLevelOfTheWrongSign) {
+  // Water at 23.09 m, the bottom 2 to 8 m below it.
+  SetHeights({15, 18, 21}, -23.09);
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("they lie 38.09 to 44.09 m above the water surface"),
+                             HasSubstr("sign of --water-level wrong?"), HasSubstr("the median depth would be")));
+}
+
+TEST_F(LikelyCauseTest, NamesTheWrongSignWherePointsSeemTooDeep) {
+  SetHeights({-31, -28, -25}, 23.09);
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("is above 20 m"), HasSubstr("sign of --water-level wrong?")));
+}
+
+TEST_F(LikelyCauseTest, NamesAWaterLevelInCentimetresOrFeet) {
+  SetHeights({-31, -28, -25}, -2309);
+  EXPECT_THAT(Cause(), HasSubstr("is --water-level in cm?"));
+  SetHeights({-31, -28, -25}, -23.09 / 0.3048);
+  EXPECT_THAT(Cause(), HasSubstr("is --water-level in feet?"));
+  SetHeights({15, 18, 21}, 2309);
+  EXPECT_THAT(Cause(), HasSubstr("is --water-level in cm?"));
+}
+
+TEST_F(LikelyCauseTest, AsksForTheDatumWhereNoMistakeExplainsTheDepths) {
+  SetHeights({315, 318, 321}, 0);
+  EXPECT_THAT(Cause(), HasSubstr("check --water-level and its vertical datum"));
+  SetHeights({315, 318, 321}, 0);
+  context_.water_level.reset();
+  EXPECT_THAT(Cause(), HasSubstr("check the water surface and its vertical datum"));
+}
+
+TEST_F(LikelyCauseTest, ExplainsPointsWithoutAPulse) {
+  pulses_.size = 0;
+  summary_.Add(NoPulse::kNoSurface, 2);
+  EXPECT_THAT(Cause(), HasSubstr("no water surface is known there; check --water-classes"));
+  summary_.Add(NoPulse::kUncertainTrajectory, 3);
+  EXPECT_THAT(Cause(), HasSubstr("give its --trajectory"));
+  summary_.Add(NoPulse::kNoTrajectory, 4);
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("no position at their times"), HasSubstr("--trajectory-time")));
+  summary_.Add(NoPulse::kNoSea, 5);
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("no record near their times"), HasSubstr("longest_gap")));
+}
+
+TEST_F(LikelyCauseTest, NamesCoordinatesThatAreNotNumbers) {
+  pulses_[AxisId::kDepth] = {NAN, NAN, 1};
+  EXPECT_EQ(Cause(), "a coordinate is not a finite number; correct the coordinates");
+}
+
+TEST_F(LikelyCauseTest, ExplainsTheMostFrequentOutcome) {
+  pulses_[AxisId::kDepth] = {99, -8, -19};
+  EXPECT_THAT(Cause(), HasSubstr("negative downwards?"));
+}
+
+TEST_F(LikelyCauseTest, ExplainsOutcomesOfSummariesThatStateNoCoordinates) {
+  AnswerTally tally;
+  tally.without_number["OUT_OF_DOMAIN:depth"] = {3, {}};
+  EXPECT_THAT(FindLikelyCause(tally, context_)->why, HasSubstr("OUT_OF_DOMAIN:depth"));
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
 #include "annotate/beams/file_track.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "tests/budget/beams/ray_flight.h"
-#include "tests/formats/trajectories/flight_text.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {
@@ -18,7 +17,6 @@ using namespace albtpu::testing;  // Flight, RowAt and the fields of a row.
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kWater = 0;  // m
 
 // Points below an SBET of two minutes, of which minute 0:20 to 1:20 has pulses with two returns under water. The
@@ -82,13 +80,10 @@ TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
   // Linear steps of 0.02 s and single precision of the rays' own geometry: 1 mm of 400 m is 1.4e-4 degrees.
   EXPECT_NEAR((*found->json)["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
-  const std::vector<double> times = {flight_.start + 50};
-  SensorPosition position;
-  TrackOutcome outcome;
-  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
-  EXPECT_EQ(outcome, TrackOutcome::kKnown);
-  EXPECT_NEAR(position.x, file_.frame.origin_x, 1e-3);
-  EXPECT_NEAR(position.z, RowAt(flight_, 50)[kHeight], 1e-3);
+  const auto [positions, outcomes] = Ask(*found->track, {flight_.start + 50});
+  EXPECT_EQ(outcomes[0], TrackOutcome::kKnown);
+  EXPECT_NEAR(positions[0].x, file_.frame.origin_x, 1e-3);
+  EXPECT_NEAR(positions[0].z, RowAt(flight_, 50)[kHeight], 1e-3);
 }
 
 TEST_F(TrackFromFilesTest, SaysWhenRaysAreTooFewToCompare) {
@@ -149,7 +144,7 @@ absl::StatusOr<FileTrack> FromReturns(const TrackedFile& file) { return TrackFro
 
 // Rays of a straight flight without errors, 400 m above the water at 60 m/s.
 TrackedFile FlownFile(double pairs_per_second) {
-  const SimulatedFlight flight({.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .wander = 0});
+  const SimulatedFlight flight({.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .drift = 0});
   TrackedFile file;
   file.name = "in.las";
   file.rays = RaysOf(flight.Rays());
@@ -179,12 +174,9 @@ TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
   file.frame.origin_y = 3e6;
   found = FromReturns(file);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from ")));
-  const std::vector<double> times = {1010};
-  SensorPosition position;
-  TrackOutcome outcome;
-  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
-  EXPECT_EQ(outcome, TrackOutcome::kKnown);
-  EXPECT_LT(position.convergence,
+  const auto [positions, outcomes] = Ask(*found->track, {1010});
+  EXPECT_EQ(outcomes[0], TrackOutcome::kKnown);
+  EXPECT_LT(positions[0].convergence,
             -0.4 * kDegree);  // West of the central meridian: 1 degree x sin(27 degrees).
 }
 
@@ -202,6 +194,18 @@ TEST(TrackFromReturns, RefusesTooFewRays) {
   file.rays.resize(10);
   EXPECT_THAT(std::string(FromReturns(file).status().message()),
               HasSubstr("(10 pulses with two returns under water are too few"));
+}
+
+TEST(LocalFrame, TurnsEachAxisIntoMetresFromTheOrigin) {
+  const LocalFrame frame = {
+      .origin_x = 1000, .origin_y = 2000, .metres_per_x = 0.25, .metres_per_y = 0.5, .metres_per_z = 0.125};
+  EXPECT_EQ(frame.At(1000, 2000, 0), Eigen::Vector3d::Zero());
+  EXPECT_EQ(frame.At(1004, 1998, 16), Eigen::Vector3d(1, -1, 2));
+}
+
+TEST(LocalFrame, KeepsHeightsInTheirDatum) {
+  const LocalFrame frame = {.origin_x = 1000, .origin_y = 2000};
+  EXPECT_EQ(frame.Z(-23.5), -23.5);
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 namespace albtpu::annotate {
 namespace {
 
+using testing::Ask;
+using testing::TrackAnswer;
+
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kEarthRadius = 6.36e6;  // m, rounded down.
 
@@ -37,21 +40,11 @@ RayTrack TrackAt(double east, double north) {
   return FitTrack(rays);
 }
 
-struct Answer {
-  std::vector<SensorPosition> positions;
-  std::vector<TrackOutcome> outcomes;
-};
-Answer Ask(const SensorTrack& track, const std::vector<double>& times) {
-  Answer answer = {std::vector<SensorPosition>(times.size()), std::vector<TrackOutcome>(times.size())};
-  track.PositionsAt(times, answer.positions, answer.outcomes);
-  return answer;
-}
-
 // Every position is that of the track of the rays, in the unit of the file.
 void ExpectPositionsInUnitsOf(const LocalFrame& frame, const formats::MapFrame* map) {
   const FittedTrack track(TrackAt(300, -200), frame, map);
   const std::vector<double> times = {1001, 1005, 1014};
-  const Answer local = Ask(track.track(), times), answer = Ask(track, times);
+  const TrackAnswer local = Ask(track.track(), times), answer = Ask(track, times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     ASSERT_EQ(answer.outcomes[i], TrackOutcome::kKnown);
     const SensorPosition& position = answer.positions[i];

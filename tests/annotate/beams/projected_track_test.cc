@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <thread>
 
 #include "formats/trajectories/sbet_file.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/budget/beams/ray_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {
@@ -17,18 +17,6 @@ namespace {
 
 using namespace albtpu::testing;  // Flight, Fly, SbetRow and its fields.
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-struct Answer {
-  std::vector<SensorPosition> positions;
-  std::vector<TrackOutcome> outcomes;
-};
-Answer Ask(const SensorTrack& track, const std::vector<double>& times) {
-  Answer answer = {std::vector<SensorPosition>(times.size()), std::vector<TrackOutcome>(times.size())};
-  track.PositionsAt(times, answer.positions, answer.outcomes);
-  return answer;
-}
 
 class ProjectedTrackTest : public ::testing::Test {
  protected:
@@ -49,7 +37,7 @@ class ProjectedTrackTest : public ::testing::Test {
   }
   // Every answer is that of the slow way: find the record by halving, interpolate it, project it.
   void ExpectSlowAnswers(const ProjectedTrack& track, const std::vector<double>& times, double unit) {
-    const Answer answer = Ask(track, times);
+    const TrackAnswer answer = Ask(track, times);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const std::optional<formats::TrajectoryRecord> record = track.timeline().RecordAt(times[i]);
       ASSERT_EQ(answer.outcomes[i], record.has_value() ? TrackOutcome::kKnown : TrackOutcome::kOutside) << times[i];
@@ -103,7 +91,7 @@ TEST_F(ProjectedTrackTest, KnowsEveryRecord) {
   std::vector<double> times;
   for (const SbetRow& row : rows) times.push_back(row[kTime]);
   ExpectSlowAnswers(*track, times, 1);
-  const Answer answer = Ask(*track, times);
+  const TrackAnswer answer = Ask(*track, times);
   EXPECT_TRUE(std::all_of(answer.outcomes.begin(), answer.outcomes.end(),
                           [](TrackOutcome outcome) { return outcome == TrackOutcome::kKnown; }));
 }
@@ -112,8 +100,8 @@ TEST_F(ProjectedTrackTest, KnowsNothingInAGapOrOutside) {
   std::vector<SbetRow> rows = Fly(Flight());
   std::erase_if(rows, [](const SbetRow& row) { return row[kTime] > 300020.0001 && row[kTime] < 300022.9999; });
   const auto track = Track({Open("a", rows)}, "EPSG:32617", {299990, 300070});
-  const Answer answer = Ask(*track, {299999.9, 300000, 300020, 300020.01, 300022.99, 300023, 300060, 300060.01,
-                                     std::nan(""), -INFINITY, INFINITY, 300010});
+  const TrackAnswer answer = Ask(*track, {299999.9, 300000, 300020, 300020.01, 300022.99, 300023, 300060, 300060.01,
+                                          std::nan(""), -INFINITY, INFINITY, 300010});
   using enum TrackOutcome;
   EXPECT_THAT(answer.outcomes, ::testing::ElementsAre(kOutside, kKnown, kKnown, kOutside, kOutside, kKnown, kKnown,
                                                       kOutside, kOutside, kOutside, kOutside, kKnown));
@@ -132,7 +120,7 @@ TEST_F(ProjectedTrackTest, JoinsFiles) {
       {Open("a", part(300000, 300021.505, 1)), Open("b", part(300019, 300045, 37)), Open("c", part(300044, 300060, 1))},
       "EPSG:32617", {299990, 300070});
   const std::vector<double> times = RandomTimes(300000, 300060, 5000);
-  const Answer answer = Ask(*track, times);
+  const TrackAnswer answer = Ask(*track, times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     ASSERT_EQ(answer.outcomes[i], TrackOutcome::kKnown) << times[i];
     const SbetRow row = RowAt(Flight(), times[i] - 300000);
@@ -162,11 +150,11 @@ TEST_F(ProjectedTrackTest, SubtractsTheGeoidSeparation) {
 TEST_F(ProjectedTrackTest, GivesTheSameNumbersToEveryThread) {
   const auto track = Track({Open("a", Fly({.duration = 120}))}, "EPSG:32617", {300000, 300120});
   const std::vector<double> times = RandomTimes(300000, 300120, 20000);
-  std::array<Answer, 4> answers;
+  std::array<TrackAnswer, 4> answers;
   std::vector<std::thread> threads;
-  for (Answer& answer : answers) threads.emplace_back([&] { answer = Ask(*track, times); });
+  for (TrackAnswer& answer : answers) threads.emplace_back([&] { answer = Ask(*track, times); });
   for (std::thread& thread : threads) thread.join();
-  for (const Answer& answer : answers) {
+  for (const TrackAnswer& answer : answers) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       ASSERT_EQ(answer.outcomes[i], TrackOutcome::kKnown);
       ASSERT_EQ(answer.positions[i].x, answers[0].positions[i].x);

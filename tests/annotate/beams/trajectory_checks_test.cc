@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "formats/trajectories/sbet_file.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {

@@ -17,6 +17,7 @@ using albtpu::testing::LasSpec;
 using albtpu::testing::TemporaryFolder;
 
 constexpr int kBottom = 40, kSurface = 41;
+const LasPrescanOptions kPairs = {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}};
 
 LasPrescan PrescanOf(const LasSpec& spec, const LasPrescanOptions& options) {
   const TemporaryFolder folder;
@@ -87,8 +88,7 @@ TEST(LasPrescan, FindsPairsAcrossTheBordersOfChunks) {
     spec.points.push_back(Return(i * 0.01, -3, kBottom, 2, 2));
   }
   spec.points.erase(spec.points.begin());  // Chunks of an even number of records divide the pulses.
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}}).pair_count,
-            kPulses - 1u);
+  EXPECT_EQ(PrescanOf(spec, kPairs).pair_count, kPulses - 1u);
 }
 
 // 200 pulses of three returns, 100 records apart.
@@ -100,16 +100,15 @@ LasSpec ScatteredPulses() {
 }
 
 TEST(LasPrescan, FindsPairsOfReturnsThatLieFarApartInTheFile) {
-  const LasPrescanOptions options = {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}};
   const LasSpec spec = ScatteredPulses();
-  const LasPrescan scattered = PrescanOf(spec, options);
+  const LasPrescan scattered = PrescanOf(spec, kPairs);
   EXPECT_TRUE(scattered.is_scattered());
   EXPECT_EQ(scattered.of_several, 600u);
   EXPECT_EQ(scattered.alone, 600u);
   LasSpec sorted = spec;
   std::stable_sort(sorted.points.begin(), sorted.points.end(),
                    [](const LasPoint& a, const LasPoint& b) { return a.gps_time < b.gps_time; });
-  const LasPrescan by_time = PrescanOf(sorted, options);
+  const LasPrescan by_time = PrescanOf(sorted, kPairs);
   EXPECT_FALSE(by_time.is_scattered());
   EXPECT_EQ(by_time.alone, 0u);
   ASSERT_EQ(by_time.pairs.size(), 600u);
@@ -128,8 +127,7 @@ TEST(LasPrescan, FindsEachPairOnceWhereSomeReturnsLieApart) {
     spec.points.push_back(Return(i, -3, kBottom, 2, 3));
   }
   for (int i = 39; i >= 0; --i) spec.points.push_back(Return(i, -4.5, kBottom, 3, 3));
-  const LasPrescan prescan =
-      PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}});
+  const LasPrescan prescan = PrescanOf(spec, kPairs);
   EXPECT_FALSE(prescan.is_scattered());
   EXPECT_EQ(prescan.pair_count, 3u * 40u);
   EXPECT_EQ(prescan.pairs.size(), 3u * 40u);
@@ -139,8 +137,7 @@ TEST(LasPrescan, DoesNotPairReturnsOfPulsesThatShareACoarseTime) {
   LasSpec spec = ScatteredPulses();
   for (LasPoint& point : spec.points) point.gps_time = std::floor(point.gps_time);
   // Neighbours of equal time and number are of different pulses, too.
-  EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}}).pair_count,
-            0u);
+  EXPECT_EQ(PrescanOf(spec, kPairs).pair_count, 0u);
 }
 
 TEST(LasPrescan, MakesASurfaceOfItsReturns) {

@@ -15,7 +15,7 @@
 #include "annotate/beams/point_beams.h"
 #include "annotate/beams/projected_track.h"
 #include "formats/trajectories/sbet_file.h"
-#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/formats/trajectories/flight_files.h"
 
 namespace albtpu::bench {
 namespace {

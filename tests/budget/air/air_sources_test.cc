@@ -10,6 +10,7 @@
 
 #include "tables/coverage.h"
 #include "tests/budget/air/air_forward.h"
+#include "tests/budget/query/budget_memory.h"
 
 namespace albtpu {
 namespace {
@@ -24,16 +25,7 @@ using Unknowns = Eigen::Matrix<double, kAirUnknowns, 1>;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-const AirErrors kOracle = {.position = {0.03, 0.03, 0.05},
-                           .attitude = {0.0025, 0.0025, 0.005},
-                           .boresight = {0.001, 0.001, 0.004},
-                           .lever_arm = 0.02,
-                           .scan = 0.001,
-                           .time = 1e-5,
-                           .range_offset = 0.01,
-                           .bottom_range = 0.025,
-                           .surface_height = 0.05,
-                           .index = 0.001};
+const AirErrors kOracle = testing::UsualOptions().errors;
 
 // One standard deviation of each unknown of the forward model.
 Unknowns Sigmas(const AirErrors& errors) {

@@ -28,38 +28,16 @@ void DrawPoints(std::span<Column> columns, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     double height = draw(30, 1000), depth = draw(-20, 70), direction = draw(0, 2 * std::numbers::pi);
     double distance = height * std::tan(draw(0, 1.2)), convergence = draw(-0.1, 0.1);
-    switch (i % 90) {
-      case 0:
-        distance = 0;
-        break;
-      case 10:
-        depth = 0;
-        break;
-      case 20:
-        depth = draw(0, 1e-9);
-        break;
-      case 30:
-        height = draw(1e-3, 1);
-        break;
-      case 40:
-        depth = draw(1e3, 1e6);
-        break;
-      case 50:
-        depth = -2 * height;
-        break;
-      case 60:
-        height = -height;
-        break;
-      case 70:
-        depth = nan;
-        break;
-      case 80:
-        direction = 0;
-        convergence = -1e-20;
-        break;
-      default:
-        break;
-    }
+    const std::size_t kind = i % 90;
+    if (kind == 0) distance = 0;
+    if (kind == 10) depth = 0;
+    if (kind == 20) depth = draw(0, 1e-9);
+    if (kind == 30) height = draw(1e-3, 1);
+    if (kind == 40) depth = draw(1e3, 1e6);
+    if (kind == 50) depth = -2 * height;
+    if (kind == 60) height = -height;
+    if (kind == 70) depth = nan;
+    if (kind == 80) direction = 0, convergence = -1e-20;
     const double point[] = {distance * std::sin(direction), distance * std::cos(direction), height, depth, convergence};
     for (std::size_t k = 0; k < 5; ++k) columns[k].push_back(point[k]);
   }

@@ -13,21 +13,8 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-// The slow twin: halves [0, D] in extended precision until the two ends are neighbours.
+// The slow twin: halves the tangent of the incidence in extended precision until its two ends are neighbours.
 double DistanceByBisection(long double distance, long double height, long double depth, long double index) {
-  long double low = 0, high = distance;
-  for (;;) {
-    const long double r = (low + high) / 2;
-    if (r <= low || r >= high) return static_cast<double>(r);
-    const long double rest = distance - r;
-    const long double f =
-        r / std::sqrt(r * r + height * height) - index * rest / std::sqrt(rest * rest + depth * depth);
-    (f < 0 ? low : high) = r;
-  }
-}
-
-// The same by halving the tangent of the incidence, where both sines are too near to 1 to be compared.
-double DistanceByBisectionOfTangents(long double distance, long double height, long double depth, long double index) {
   long double low = 0, high = distance / height;
   for (;;) {
     const long double t = (low + high) / 2;
@@ -100,7 +87,7 @@ TEST(DistanceToWater, IsRelativelyThatOfBisectionFarBeyondAnySurvey) {
     const double height = decades(0, 4), depth = decades(-6, 6), distance = decades(-6, 7);
     const double index = i % 7 == 0 ? 1 : std::uniform_real_distribution(1.0, 1.5)(random);
     ASSERT_NEAR(DistanceToWater(distance, height, depth, index) / distance,
-                DistanceByBisectionOfTangents(distance, height, depth, index) / distance, 1e-9)
+                DistanceByBisection(distance, height, depth, index) / distance, 1e-9)
         << distance << " " << height << " " << depth << " " << index;
   }
 }

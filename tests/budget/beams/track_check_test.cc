@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using testing::FlightPlan;
 using ::testing::HasSubstr;
 using testing::RaysOf;
-using testing::Scanner;
+using testing::ScannerKind;
 using testing::SimulatedFlight;
 
 TrackPositions Columns(const std::function<Vector3d(double)>& position) {
@@ -26,7 +26,7 @@ TrackPositions Columns(const std::function<Vector3d(double)>& position) {
 }
 
 // A flight of each scanner at 250 m, over flat water and over waves, and tracks that are wrong in one way.
-class TrackCheckOf : public ::testing::TestWithParam<std::tuple<Scanner, double>> {
+class TrackCheckOf : public ::testing::TestWithParam<std::tuple<ScannerKind, double>> {
  protected:
   TrackCheckOf()
       : flight_({.scanner = std::get<0>(GetParam()),
@@ -51,7 +51,8 @@ class TrackCheckOf : public ::testing::TestWithParam<std::tuple<Scanner, double>
 };
 
 INSTANTIATE_TEST_SUITE_P(Flights, TrackCheckOf,
-                         ::testing::Combine(::testing::Values(Scanner::kPalmer, Scanner::kEllipse, Scanner::kRaster),
+                         ::testing::Combine(::testing::Values(ScannerKind::kCone, ScannerKind::kEllipse,
+                                                              ScannerKind::kRaster),
                                             ::testing::Values(0.0, 0.3)));
 
 TEST_P(TrackCheckOf, ARightTrackAgrees) {
@@ -160,7 +161,7 @@ TEST_P(TrackCheckOf, ARotationIsNamed) {
 TEST(TrackCheck, NeverRefusesARightTrack) {
   int agreeing = 0;
   for (int i = 0; i < 200; ++i) {
-    const SimulatedFlight flight({.scanner = static_cast<Scanner>(i % 3),
+    const SimulatedFlight flight({.scanner = static_cast<ScannerKind>(i % 3),
                                   .height = 200.0 + 4 * ((i * 37) % 100),
                                   .speed = 56 + 0.24 * ((i * 53) % 100),
                                   .course = 1.0 * i,

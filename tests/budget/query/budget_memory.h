@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "budget/query/budget_query.h"
+#include "tests/budget/total/total_memory.h"
 
 namespace albtpu::testing {
 
@@ -39,12 +40,8 @@ inline BudgetPulseMemory RandomBudgetPulses(std::size_t count, unsigned seed = 1
   constexpr std::array<std::array<float, 2>, kAxisCount> kAxisRanges = {
       {{3, 10}, {1000, 100000}, {0, 25}, {-180, 180}, {0.25f, 2}, {0, 20}}};
   for (std::size_t i = 0; i < kAxisCount; ++i) draw(pulses.axes[i], kAxisRanges[i][0], kAxisRanges[i][1]);
+  Draw(kAircraftRanges, count, random, pulses);
   using enum BudgetInput;
-  draw(pulses[kAltitude], 100, 800);
-  for (const BudgetInput angle : {kBeamAzimuth, kHeading}) draw(pulses[angle], -180, 360);
-  for (const BudgetInput angle : {kRoll, kPitch}) draw(pulses[angle], -20, 20);
-  for (const BudgetInput velocity : {kVelocityNorth, kVelocityEast, kVelocityDown}) draw(pulses[velocity], -80, 80);
-  for (const BudgetInput rate : {kRollRate, kPitchRate, kYawRate}) draw(pulses[rate], -6, 6);
   for (const BudgetInput sigma : {kPositionSigmaNorth, kPositionSigmaEast, kPositionSigmaDown, kRollSigma, kPitchSigma,
                                   kHeadingSigma, kWaveHeight})
     draw(pulses[sigma], 0.001f, 0.1f);

@@ -10,58 +10,34 @@
 
 #include "budget/air/air_sources.h"
 #include "budget/total/error_ellipse.h"
+#include "tests/budget/total/total_memory.h"
 
 namespace albtpu {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using testing::TotalInputs;
+using testing::TotalMemory;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-struct Pulses {
-  std::array<std::vector<float>, kBudgetInputCount> columns;
-
-  std::vector<float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
-  double at(BudgetInput input, std::size_t i, double absent = 0) const {
-    const std::vector<float>& column = columns[static_cast<std::size_t>(input)];
-    return column.empty() ? absent : column[column.size() == 1 ? 0 : i];
-  }
-  BudgetInputs inputs() const {
-    BudgetInputs inputs{.size = columns[0].size()};
-    for (std::size_t i = 0; i < kBudgetInputCount; ++i) inputs.columns[i] = columns[i];
-    return inputs;
-  }
-};
-
 // Pulses of all kinds, over seas of all kinds.
-Pulses RandomPulses(std::size_t size, unsigned seed) {
+TotalInputs RandomPulses(std::size_t size, unsigned seed) {
   std::mt19937 random(seed);
-  Pulses pulses;
-  const auto draw = [&](BudgetInput input, double least, double most) {
-    std::uniform_real_distribution<double> between(least, most);
-    for (std::size_t i = 0; i < size; ++i) pulses[input].push_back(static_cast<float>(between(random)));
-  };
-  draw(BudgetInput::kIncidence, 0, 30);
-  draw(BudgetInput::kBeamAzimuth, 0, 360);
-  draw(BudgetInput::kAltitude, 100, 800);
-  draw(BudgetInput::kDepth, 0, 50);
-  draw(BudgetInput::kRoll, -20, 20);
-  draw(BudgetInput::kPitch, -20, 20);
-  draw(BudgetInput::kHeading, -180, 360);
-  for (const BudgetInput velocity :
-       {BudgetInput::kVelocityNorth, BudgetInput::kVelocityEast, BudgetInput::kVelocityDown})
-    draw(velocity, -80, 80);
-  for (const BudgetInput rate : {BudgetInput::kRollRate, BudgetInput::kPitchRate, BudgetInput::kYawRate})
-    draw(rate, -6, 6);
-  draw(BudgetInput::kSeaThu, 0.01, 1);
-  draw(BudgetInput::kSeaTvu, 0.01, 0.3);
-  draw(BudgetInput::kRefractionAlong, 0.5, 3);
-  draw(BudgetInput::kRefractionCross, 0.5, 3);
-  draw(BudgetInput::kBiasAlongBeam, -0.1, 0.1);
-  draw(BudgetInput::kBiasVertical, -0.1, 0.1);
-  draw(BudgetInput::kSeaAxis, 0, 360);
-  draw(BudgetInput::kWaveHeight, 0, 0.4);
+  TotalInputs pulses;
+  Draw(testing::kAircraftRanges, size, random, pulses);
+  Draw(std::array<testing::InputRange, 10>{{{BudgetInput::kIncidence, 0, 30},
+                                            {BudgetInput::kDepth, 0, 50},
+                                            {BudgetInput::kSeaThu, 0.01f, 1},
+                                            {BudgetInput::kSeaTvu, 0.01f, 0.3f},
+                                            {BudgetInput::kRefractionAlong, 0.5f, 3},
+                                            {BudgetInput::kRefractionCross, 0.5f, 3},
+                                            {BudgetInput::kBiasAlongBeam, -0.1f, 0.1f},
+                                            {BudgetInput::kBiasVertical, -0.1f, 0.1f},
+                                            {BudgetInput::kSeaAxis, 0, 360},
+                                            {BudgetInput::kWaveHeight, 0, 0.4f}}},
+       size, random, pulses);
   return pulses;
 }
 
@@ -77,7 +53,7 @@ const AirErrors kErrors = {.position = {0.02, 0.03, 0.06},
                            .surface_height = 0.03,
                            .index = 0.002};
 
-AirPulse PulseAt(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
+AirPulse PulseAt(const TotalInputs& pulses, std::size_t i, const BudgetOptions& options) {
   const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
   return {.incidence = at(BudgetInput::kIncidence),
           .beam_azimuth = at(BudgetInput::kBeamAzimuth),
@@ -92,7 +68,7 @@ AirPulse PulseAt(const Pulses& pulses, std::size_t i, const BudgetOptions& optio
           .index = options.index};
 }
 
-Matrix3d SeaContribution(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
+Matrix3d SeaContribution(const TotalInputs& pulses, std::size_t i, const BudgetOptions& options) {
   const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
   const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
   const double turn = at(BudgetInput::kSeaAxis) * kDegree, azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
@@ -119,34 +95,6 @@ Matrix3d SeaContribution(const Pulses& pulses, std::size_t i, const BudgetOption
   return c + wave * wave.transpose();
 }
 
-struct Answers {
-  explicit Answers(std::size_t size) : orders(size) {
-    for (auto& column : numbers) column.resize(size);
-  }
-  BudgetOutputs outputs() {
-    BudgetOutputs outputs{.thu = numbers[0],
-                          .tvu = numbers[1],
-                          .thu_air = numbers[2],
-                          .tvu_air = numbers[3],
-                          .thu_sea = numbers[4],
-                          .tvu_sea = numbers[5],
-                          .best_orders = orders};
-    std::size_t next = 6;
-    for (CovarianceColumns* columns :
-         {&outputs.air, &outputs.sea, &outputs.total, &outputs.groups[0], &outputs.groups[1], &outputs.groups[2]})
-      for (std::span<float>& column : *columns) column = numbers[next++];
-    return outputs;
-  }
-  // Of the six matrices above.
-  Matrix3d Covariance(std::size_t which, std::size_t i) const {
-    const auto at = [&](std::size_t entry) { return static_cast<double>(numbers[6 + 6 * which + entry][i]); };
-    return (Matrix3d() << at(0), at(3), at(4), at(3), at(1), at(5), at(4), at(5), at(2)).finished();
-  }
-
-  std::array<std::vector<float>, 42> numbers;
-  std::vector<std::uint8_t> orders;
-};
-
 // Relative to the standard deviations.
 void ExpectSame(const Matrix3d& ours, const Matrix3d& twin, const char* what) {
   for (int row = 0; row < 3; ++row)
@@ -156,10 +104,10 @@ void ExpectSame(const Matrix3d& ours, const Matrix3d& twin, const char* what) {
 }
 
 TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
-  const Pulses pulses = RandomPulses(1003, 1);
+  const TotalInputs pulses = RandomPulses(1003, 1);
   for (const SurfaceLocation located : {SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel}) {
     const BudgetOptions options = {.errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5}, .datum = 0.08};
-    Answers answers(1003);
+    TotalMemory answers(1003);
     ComputeBudget(pulses.inputs(), options, answers.outputs());
     for (std::size_t i = 0; i < 1003; ++i) {
       std::array<Matrix3d, kErrorGroups> groups = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
@@ -169,12 +117,15 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
       groups[0] += sea;
       groups[2](2, 2) += 0.08 * 0.08;
       Matrix3d total = groups[0] + groups[1] + groups[2];
-      ExpectSame(answers.Covariance(0, i), air, "air");
-      ExpectSame(answers.Covariance(1, i), sea, "sea");
-      ExpectSame(answers.Covariance(2, i), total, "total");
-      for (std::size_t g = 0; g < kErrorGroups; ++g) ExpectSame(answers.Covariance(3 + g, i), groups[g], "group");
+      ExpectSame(answers.Covariance(testing::kAirPart, i), air, "air");
+      ExpectSame(answers.Covariance(testing::kSeaPart, i), sea, "sea");
+      ExpectSame(answers.Covariance(testing::kTotalPart, i), total, "total");
+      for (std::size_t g = 0; g < kErrorGroups; ++g)
+        ExpectSame(answers.Covariance(static_cast<testing::TotalPart>(testing::kPulsePart + g), i), groups[g], "group");
       // The groups add up to the total.
-      ExpectSame(answers.Covariance(3, i) + answers.Covariance(4, i) + answers.Covariance(5, i), total, "groups");
+      ExpectSame(answers.Covariance(testing::kPulsePart, i) + answers.Covariance(testing::kLinePart, i) +
+                     answers.Covariance(testing::kSurveyPart, i),
+                 total, "groups");
       ASSERT_NEAR(answers.numbers[0][i], 2 * std::sqrt(total(0, 0) + total(1, 1)), 1e-5 * answers.numbers[0][i]);
       ASSERT_NEAR(answers.numbers[1][i], 2 * std::sqrt(total(2, 2)), 1e-5 * answers.numbers[1][i]);
       const HorizontalEllipse ellipse = EllipseOf(total(0, 0), total(1, 1), total(0, 1));
@@ -187,14 +138,14 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
 }
 
 TEST(ComputeBudget, StatesTheRadiusOf95PercentByTheTrueEllipse) {
-  const Pulses pulses = RandomPulses(20, 2);
+  const TotalInputs pulses = RandomPulses(20, 2);
   const BudgetOptions options = {.errors = kErrors, .coverage = Coverage::kP95};
-  Answers answers(20);
+  TotalMemory answers(20);
   ComputeBudget(pulses.inputs(), options, answers.outputs());
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (std::size_t i = 0; i < 20; ++i) {
-    const Eigen::LLT<Eigen::Matrix2d> root(answers.Covariance(2, i).topLeftCorner<2, 2>());
+    const Eigen::LLT<Eigen::Matrix2d> root(answers.Covariance(testing::kTotalPart, i).topLeftCorner<2, 2>());
     int inside = 0;
     for (int draw = 0; draw < 200'000; ++draw) {
       const Eigen::Vector2d error = root.matrixL() * Eigen::Vector2d(normal(random), normal(random));
@@ -205,8 +156,8 @@ TEST(ComputeBudget, StatesTheRadiusOf95PercentByTheTrueEllipse) {
 }
 
 TEST(ComputeBudget, HasNoBiasInAnyCovariance) {
-  Pulses pulses = RandomPulses(100, 4);
-  Answers with(100), without(100);
+  TotalInputs pulses = RandomPulses(100, 4);
+  TotalMemory with(100), without(100);
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, with.outputs());
   pulses[BudgetInput::kBiasAlongBeam] = {1000};
   pulses[BudgetInput::kBiasVertical] = {1000};
@@ -216,40 +167,31 @@ TEST(ComputeBudget, HasNoBiasInAnyCovariance) {
 }
 
 TEST(ComputeBudget, RepeatsConstantsAndTakesSigmasByPulse) {
-  Pulses pulses = RandomPulses(130, 5), alike = pulses;
+  TotalInputs pulses = RandomPulses(130, 5), alike = pulses;
   for (const BudgetInput input : {BudgetInput::kDepth, BudgetInput::kSeaAxis, BudgetInput::kRoll}) {
     pulses[input] = {pulses[input][0]};
     alike[input].assign(130, pulses[input][0]);
   }
   alike[BudgetInput::kPositionSigmaNorth].assign(130, 0.02f);
   alike[BudgetInput::kHeadingSigma] = {0.008f};
-  Answers ours(130), others(130);
+  TotalMemory ours(130), others(130);
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, ours.outputs());
   ComputeBudget(alike.inputs(), {.errors = kErrors}, others.outputs());
   EXPECT_EQ(ours.numbers, others.numbers);
 }
 
 TEST(ComputeBudget, AddsTheWaterColumnInThePlaneOfTheBeam) {
-  Pulses pulses = RandomPulses(500, 5);
+  TotalInputs pulses = RandomPulses(500, 5);
   const BudgetOptions options = {.errors = kErrors, .located = SurfaceLocation::kLocal, .datum = 0.08};
-  Answers without(500), with(500);
+  TotalMemory without(500), with(500);
   ComputeBudget(pulses.inputs(), options, without.outputs());
   std::mt19937 random(9);
-  const auto draw = [&](BudgetInput input, double least, double most) {
-    std::uniform_real_distribution<double> between(least, most);
-    for (std::size_t i = 0; i < 500; ++i) pulses[input].push_back(static_cast<float>(between(random)));
-  };
-  draw(BudgetInput::kWaterSigmaAlong, 0, 0.4);
-  draw(BudgetInput::kWaterSigmaVertical, 0, 0.3);
-  draw(BudgetInput::kWaterCorrelation, -1, 1);
-  draw(BudgetInput::kWaterNoise, 0, 0.05);
-  std::array<std::vector<float>, 8> water;
-  for (auto& column : water) column.resize(500);
-  BudgetOutputs outputs = with.outputs();
-  outputs.thu_water = water[6];
-  outputs.tvu_water = water[7];
-  for (std::size_t entry = 0; entry < 6; ++entry) outputs.water[entry] = water[entry];
-  ComputeBudget(pulses.inputs(), options, outputs);
+  Draw(std::array<testing::InputRange, 4>{{{BudgetInput::kWaterSigmaAlong, 0, 0.4f},
+                                           {BudgetInput::kWaterSigmaVertical, 0, 0.3f},
+                                           {BudgetInput::kWaterCorrelation, -1, 1},
+                                           {BudgetInput::kWaterNoise, 0, 0.05f}}},
+       500, random, pulses);
+  ComputeBudget(pulses.inputs(), options, with.outputs());
   for (std::size_t i = 0; i < 500; ++i) {
     const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
     const double azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
@@ -264,21 +206,22 @@ TEST(ComputeBudget, AddsTheWaterColumnInThePlaneOfTheBeam) {
     const Matrix3d survey = axes * shared * axes.transpose();
     const Vector3d range = axes * Eigen::Vector2d(-std::tan(refracted), 1) * at(BudgetInput::kWaterNoise);
     const Matrix3d all = survey + range * range.transpose();
-    const auto w = [&](std::size_t entry) { return static_cast<double>(water[entry][i]); };
-    ExpectSame((Matrix3d() << w(0), w(3), w(4), w(3), w(1), w(5), w(4), w(5), w(2)).finished(), all, "water");
-    ExpectSame(with.Covariance(2, i), without.Covariance(2, i) + all, "total");
-    ExpectSame(with.Covariance(3, i), without.Covariance(3, i) + range * range.transpose(), "pulse");
-    ExpectSame(with.Covariance(4, i), without.Covariance(4, i), "line");
-    ExpectSame(with.Covariance(5, i), without.Covariance(5, i) + survey, "survey");
-    EXPECT_NEAR(w(6), 2 * std::sqrt(all(0, 0) + all(1, 1)), 1e-5 * w(6) + 1e-9);
-    EXPECT_NEAR(w(7), 2 * std::sqrt(all(2, 2)), 1e-5 * w(7) + 1e-9);
+    ExpectSame(with.Covariance(testing::kWaterPart, i), all, "water");
+    ExpectSame(with.Covariance(testing::kTotalPart, i), without.Covariance(testing::kTotalPart, i) + all, "total");
+    ExpectSame(with.Covariance(testing::kPulsePart, i),
+               without.Covariance(testing::kPulsePart, i) + range * range.transpose(), "pulse");
+    ExpectSame(with.Covariance(testing::kLinePart, i), without.Covariance(testing::kLinePart, i), "line");
+    ExpectSame(with.Covariance(testing::kSurveyPart, i), without.Covariance(testing::kSurveyPart, i) + survey,
+               "survey");
+    EXPECT_NEAR(with.numbers[6][i], 2 * std::sqrt(all(0, 0) + all(1, 1)), 1e-5 * with.numbers[6][i] + 1e-9);
+    EXPECT_NEAR(with.numbers[7][i], 2 * std::sqrt(all(2, 2)), 1e-5 * with.numbers[7][i] + 1e-9);
   }
 }
 
 TEST(ComputeBudget, HasNoTotalWithoutTheSea) {
-  Pulses pulses = RandomPulses(2, 6);
+  TotalInputs pulses = RandomPulses(2, 6);
   pulses[BudgetInput::kSeaThu][1] = NAN;
-  Answers answers(2);
+  TotalMemory answers(2);
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, answers.outputs());
   EXPECT_FALSE(std::isnan(answers.numbers[0][0]));
   EXPECT_TRUE(std::isnan(answers.numbers[0][1]));
@@ -286,20 +229,20 @@ TEST(ComputeBudget, HasNoTotalWithoutTheSea) {
 }
 
 TEST(ComputeBudget, SpreadsASeaOfUnknownAxisAlike) {
-  Pulses pulses = RandomPulses(1, 7);
+  TotalInputs pulses = RandomPulses(1, 7);
   pulses[BudgetInput::kSeaAxis] = {};
   pulses[BudgetInput::kWaveHeight] = {};
-  Answers answers(1);
+  TotalMemory answers(1);
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, answers.outputs());
-  const Matrix3d sea = answers.Covariance(1, 0);
+  const Matrix3d sea = answers.Covariance(testing::kSeaPart, 0);
   EXPECT_FLOAT_EQ(static_cast<float>(sea(0, 0)), static_cast<float>(sea(1, 1)));
   EXPECT_EQ(sea(0, 1), 0);
   EXPECT_NEAR(2 * std::sqrt(sea(0, 0) + sea(1, 1)), pulses[BudgetInput::kSeaThu][0], 1e-6);
 }
 
 TEST(ComputeBudget, StatesOneSigmaAsHalfOfTwo) {
-  const Pulses pulses = RandomPulses(10, 8);
-  Answers one(10), two(10);
+  const TotalInputs pulses = RandomPulses(10, 8);
+  TotalMemory one(10), two(10);
   ComputeBudget(pulses.inputs(), {.errors = kErrors, .coverage = Coverage::kOneSigma}, one.outputs());
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, two.outputs());
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(2 * one.numbers[0][i], two.numbers[0][i]);

@@ -77,6 +77,13 @@ std::string ExtraBytesEntry(std::uint8_t type, std::uint8_t options, const std::
   return entry;
 }
 
+std::string GeoKeys(const std::vector<std::pair<int, int>>& keys) {
+  std::vector<std::uint16_t> numbers = {1, 1, 0, static_cast<std::uint16_t>(keys.size())};
+  for (const auto& [key, value] : keys)
+    numbers.insert(numbers.end(), {static_cast<std::uint16_t>(key), 0, 1, static_cast<std::uint16_t>(value)});
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof numbers[0]};
+}
+
 std::string BuildLas(const LasSpec& spec) {
   constexpr std::size_t kHeaderSizes[] = {227, 227, 227, 235, 375};
   const std::size_t own_size = kHeaderSizes[spec.version_minor];

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace albtpu::testing {
@@ -46,6 +47,9 @@ std::size_t PointSize(int point_format);
 
 // An entry of an Extra Bytes record, 192 bytes.
 std::string ExtraBytesEntry(std::uint8_t type, std::uint8_t options, const std::string& name);
+
+// The data of a record 34735 (OGC GeoTIFF 1.1): keys with their values.
+std::string GeoKeys(const std::vector<std::pair<int, int>>& keys);
 
 // The well-known text of a coordinate system in metres.
 extern const char kMetricWkt[];

@@ -2,25 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include "formats/laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {
 namespace {
 
-using laz::Store;
-std::string GeoKeys(std::initializer_list<std::pair<int, int>> keys) {
-  std::string bytes(8 * (keys.size() + 1), '\0');
-  std::size_t at = 8;
-  for (const auto& [key, value] : keys) {
-    Store(static_cast<std::uint16_t>(key), bytes.data() + at);
-    Store<std::uint16_t>(1, bytes.data() + at + 4);
-    Store(static_cast<std::uint16_t>(value), bytes.data() + at + 6);
-    at += 8;
-  }
-  return bytes;
-}
+using albtpu::testing::GeoKeys;
 
 TEST(LasCrs, FindsFeetInWellKnownText) {
   for (const char* wkt : {
@@ -99,18 +87,6 @@ TEST(LasCrs, DescribesWhatTheRecordsState) {
   EXPECT_EQ(describe().projected, 26917);
   EXPECT_TRUE(describe().user.empty());
 }
-
-// The text of a real file, of a NOAA survey of 2016. Its angles have metres as their unit.
-constexpr char kFaultyWkt[] =
-    R"wkt(PROJCS["NAD83 / UTM zone 17N",GEOGCS["NAD83 / UTM zone 17N",DATUM["NAD83",SPHEROID[")wkt"
-    R"wkt(GRS80",6378137.000,298.257222100,AUTHORITY["EPSG","0"]],AUTHORITY["EPSG","0"]],PRIME)wkt"
-    R"wkt(M["Greenwich",0.0000000000000000,AUTHORITY["EPSG","8901"]],UNIT["Meter",1.0000000000)wkt"
-    R"wkt(0000000000,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","26917"]],PROJECTION["Transver)wkt"
-    R"wkt(se_Mercator"],PARAMETER["latitude_of_origin",0.0000000000000000],PARAMETER["central_)wkt"
-    R"wkt(meridian",-81.0000000000000000],PARAMETER["scale_factor",0.9996000000000000],PARAMET)wkt"
-    R"wkt(ER["false_easting",500000.000],PARAMETER["false_northing",0.000],UNIT["Meter",1.0000)wkt"
-    R"wkt(0000000000000000,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORT)wkt"
-    R"wkt(H],AXIS["Height",UP],AUTHORITY["EPSG","26917"]])wkt";
 
 }  // namespace
 }  // namespace albtpu::formats

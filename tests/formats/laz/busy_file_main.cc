@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "tests/formats/laz/busy_file.h"
+#include "tests/formats/laz/laz_bytes.h"
 
 int main(int argc, char** argv) {
   using namespace albtpu::testing;

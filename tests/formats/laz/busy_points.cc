@@ -4,12 +4,89 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "tests/formats/las/las_builder.h"
-#include "tests/formats/laz/point_fields.h"
 
 namespace albtpu::testing {
 namespace {
+
+// The fields of a point of any format, and their bytes in a LAS record, by the tables of the specification.
+struct WavePacketFields {
+  std::uint8_t descriptor = 0;
+  std::uint64_t offset = 0;
+  std::uint32_t size = 0;
+  float return_location = 0;
+  std::array<float, 3> direction{};
+};
+
+struct PointFields {
+  std::int32_t x = 0, y = 0, z = 0;
+  std::uint16_t intensity = 0;
+  std::uint32_t return_number = 1, return_count = 1;  // Of which formats 0-5 have 3 bits, 6-10 have 4.
+  bool scan_direction = false, edge = false;
+  std::uint32_t classification = 0;  // 5 or 8 bits
+  std::uint32_t flags = 0;           // 3 or 4 bits: synthetic, key point, withheld, overlap
+  std::uint32_t channel = 0;         // 2 bits, in formats 6-10.
+  std::int16_t scan_angle = 0;       // 0.006 degree; formats 0-5 have whole degrees.
+  std::uint8_t user_data = 0;
+  std::uint16_t source = 0;
+  std::uint64_t time_bits = 0;             // Of a double, any.
+  std::array<std::uint16_t, 4> colours{};  // red, green, blue, near infrared
+  WavePacketFields wave_packet;
+};
+
+// LAS is little-endian, like the machines that this runs on.
+template <typename Number>
+void Append(Number number, std::string& bytes) {
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+void AppendByte(std::uint32_t byte, std::string& bytes) { bytes.push_back(static_cast<char>(byte)); }
+
+void AppendLegacyCore(const PointFields& point, std::string& bytes) {
+  AppendByte((point.return_number & 7) | (point.return_count & 7) << 3 | point.scan_direction << 6 | point.edge << 7,
+             bytes);
+  AppendByte((point.classification & 31) | (point.flags & 7) << 5, bytes);
+  AppendByte(static_cast<std::uint8_t>(std::lround(point.scan_angle * 0.006)), bytes);
+  AppendByte(point.user_data, bytes);
+  Append(point.source, bytes);
+}
+
+void AppendCore(const PointFields& point, std::string& bytes) {
+  AppendByte((point.return_number & 15) | (point.return_count & 15) << 4, bytes);
+  AppendByte((point.flags & 15) | (point.channel & 3) << 4 | point.scan_direction << 6 | point.edge << 7, bytes);
+  AppendByte(point.classification, bytes);
+  AppendByte(point.user_data, bytes);
+  Append(point.scan_angle, bytes);
+  Append(point.source, bytes);
+}
+
+void AppendWavePacket(const WavePacketFields& packet, std::string& bytes) {
+  AppendByte(packet.descriptor, bytes);
+  Append(packet.offset, bytes);
+  Append(packet.size, bytes);
+  Append(packet.return_location, bytes);
+  for (const float component : packet.direction) Append(component, bytes);
+}
+
+// Appends the fields that the format (0 to 10) has.
+void AppendFields(const PointFields& point, int point_format, std::string& records) {
+  Append(point.x, records);
+  Append(point.y, records);
+  Append(point.z, records);
+  Append(point.intensity, records);
+  point_format < 6 ? AppendLegacyCore(point, records) : AppendCore(point, records);
+  if (point_format != 0 && point_format != 2) Append(point.time_bits, records);
+  const bool has_colour = point_format == 2 || point_format == 3 || point_format == 5 || point_format == 7 ||
+                          point_format == 8 || point_format == 10;
+  const bool has_infrared = point_format == 8 || point_format == 10;
+  for (int i = 0; i < (has_infrared ? 4 : has_colour ? 3 : 0); ++i) Append(point.colours[i], records);
+  const bool has_wave_packet = point_format == 4 || point_format == 5 || point_format == 9 || point_format == 10;
+  if (has_wave_packet) AppendWavePacket(point.wave_packet, records);
+}
 
 // SplitMix64 (Steele et al., 2014, doi:10.1145/2714064.2660195).
 class Random {
@@ -87,30 +164,21 @@ class BusySurvey {
     flight.return_count = random_.OneIn(3) ? 1 + random_.Below(15) : 1 + random_.Below(3);
     flight.channel = random_.OneIn(5) ? random_.Below(4) : flight.channel;
     if (!(std::fabs(flight.time) < 1e10)) flight.time = 2e8 + random_.Below(100000);
-    switch (random_.Below(40)) {
-      case 0:
-        flight.time = flights_[random_.Below(kFlights)].time;
-        break;
-      case 1:
-        flight.time += random_.Step(31);
-        break;
-      case 2:
-        flight.time = std::bit_cast<double>(random_.Bits());
-        break;
-      case 3:
-        flight.time -= 2.5e-5;
-        break;
-      case 4:
-        flight.time += 1e-5 * random_.Step(30);
-        break;
-      case 5:
-        break;  // The same time once more.
-      case 6:
-        flight.time += 0.01;
-        break;
-      default:
-        flight.time += 1e-5 * (1 + random_.Below(20));
-    }
+    const std::uint32_t kind = random_.Below(40);
+    if (kind == 0)
+      flight.time = flights_[random_.Below(kFlights)].time;
+    else if (kind == 1)
+      flight.time += random_.Step(31);
+    else if (kind == 2)
+      flight.time = std::bit_cast<double>(random_.Bits());
+    else if (kind == 3)
+      flight.time -= 2.5e-5;
+    else if (kind == 4)
+      flight.time += 1e-5 * random_.Step(30);
+    else if (kind == 6)
+      flight.time += 0.01;
+    else if (kind != 5)  // 5: the same time once more.
+      flight.time += 1e-5 * (1 + random_.Below(20));
   }
 
   void NextReturn(Flight& flight) {
@@ -154,26 +222,14 @@ class BusySurvey {
       if (random_.OneIn(2)) colour = static_cast<std::uint16_t>(colour ^ (random_.Bits() & 0xFF));
       if (random_.OneIn(3)) colour = static_cast<std::uint16_t>(colour ^ (random_.Bits() & 0xFF00));
     };
-    switch (random_.Below(6)) {
-      case 0:
-        green = blue = red;
-        break;
-      case 1:
-        change_bytes(red);
-        green = blue = red;
-        break;
-      case 2:
-        change_bytes(red);
-        break;
-      case 3:
-        for (auto* colour : {&red, &green, &blue}) *colour = static_cast<std::uint16_t>(*colour + random_.Step(16));
-        break;
-      case 4:
-        change_bytes(green);
-        change_bytes(blue);
-        break;
-      default:
-        break;
+    const std::uint32_t kind = random_.Below(6);
+    if (kind == 1 || kind == 2) change_bytes(red);
+    if (kind == 0 || kind == 1) green = blue = red;
+    if (kind == 3)
+      for (auto* colour : {&red, &green, &blue}) *colour = static_cast<std::uint16_t>(*colour + random_.Step(16));
+    if (kind == 4) {
+      change_bytes(green);
+      change_bytes(blue);
     }
     if (random_.OneIn(3)) change_bytes(infrared);
   }

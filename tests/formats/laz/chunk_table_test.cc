@@ -5,8 +5,6 @@
 #include <random>
 
 #include "formats/laz/coding/little_endian.h"
-#include "tests/formats/laz/laz_bytes.h"
-#include "tests/formats/laz/laz_sample.h"
 
 namespace albtpu::laz {
 namespace {
@@ -84,21 +82,6 @@ TEST(ChunkTable, OfNoPointsHasNoChunks) {
   const TableFile file(RecordWith(50000), {});
   EXPECT_EQ(file.end - file.begin, 8u);
   ExpectTable(file.Read(), file);
-}
-
-TEST(ChunkTable, OfOtherProgramsIsReadAndWrittenAgainByteForByte) {
-  for (const char* name : {"1815.laz", "1_4_w_evlr.laz", "append-bug.laz", "autzen_trim.laz", "extrabytes.laz",
-                           "plane.laz", "point-color.las.laz", "simple.copc.laz", "simple.laz"}) {
-    const std::string file = albtpu::testing::SampleBytes(name);
-    if (file.empty()) {
-      GTEST_SKIP() << "no sample files (" << name << ")";
-    }
-    const auto extent = albtpu::testing::ExtentOf(file);
-    const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
-    EXPECT_EQ(table->chunks.back().offset + table->chunks.back().bytes, table->begin) << name;
-    EXPECT_EQ(ChunkTableBytes(extent->record, table->chunks), file.substr(table->begin, table->end - table->begin))
-        << name;
-  }
 }
 
 TEST(ChunkTable, OfAPipeIsFoundByTheLastBytesOfTheFile) {

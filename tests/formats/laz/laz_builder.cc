@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "formats/laz/items/point_encoders.h"
+#include "tests/formats/las/las_builder.h"
 
 namespace albtpu::testing {
 
@@ -28,6 +29,18 @@ LazParts CompressPoints(int point_format, std::size_t record_length, const std::
     begin += size;
   }
   return parts;
+}
+
+LazParts TruePoints(int point_format, std::size_t extra_bytes, std::size_t count,
+                    const std::vector<std::size_t>& chunk_points) {
+  LasSpec spec;
+  spec.point_format = point_format;
+  spec.extra_bytes = extra_bytes;
+  for (int i = 0; i < static_cast<int>(count); ++i)
+    spec.points.push_back({.x = 1000 + 30 * i, .y = i % 1000 * (i % 1000), .z = i % 5, .gps_time = i / 2 * 0.1});
+  const std::string file = BuildLas(spec);
+  const std::size_t length = PointSize(point_format) + extra_bytes;
+  return CompressPoints(point_format, length, file.substr(file.size() - count * length), chunk_points);
 }
 
 std::string PointsSection(const LazParts& parts, std::uint64_t points_begin) {

@@ -25,6 +25,10 @@ struct LazParts {
 LazParts CompressPoints(int point_format, std::size_t record_length, const std::string& records,
                         const std::vector<std::size_t>& chunk_points);
 
+// `count` points on a curve, of which every two have the same time, in such chunks.
+LazParts TruePoints(int point_format, std::size_t extra_bytes, std::size_t count,
+                    const std::vector<std::size_t>& chunk_points);
+
 // The offset of the table, the chunks, and the table.
 std::string PointsSection(const LazParts& parts, std::uint64_t points_begin);
 

@@ -13,6 +13,7 @@
 #include "formats/laz/items/laszip_record.h"
 #include "formats/laz/laz_points.h"
 #include "tests/formats/las/las_builder.h"
+#include "tests/formats/laz/busy_points.h"
 
 namespace albtpu::testing {
 
@@ -54,6 +55,10 @@ std::vector<std::size_t> ChunkPoints(std::uint64_t count, std::uint32_t chunk_si
 
 std::string AsLas(const LasParts& parts);
 std::string AsLaz(const LasParts& parts, const LazForm& form = {});
+
+// A file around given records, of version 1.2 for formats 0 to 3, 1.3 with waveforms in the file for 4 and 5, 1.4 with
+// waveforms and an EVLR for 6 to 10. It has two VLRs, and a gap before the points.
+LasParts FileOf(const RecordLayout& layout, const std::string& records);
 
 // The file of BuildLas(), as LAZ.
 std::string BuildLaz(const LasSpec& spec, std::uint32_t chunk_size);

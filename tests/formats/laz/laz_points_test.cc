@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <functional>
 #include <new>
-#include <random>
 #include <string>
 
 #include "formats/laz/coding/little_endian.h"
@@ -19,31 +19,20 @@ using ::testing::StartsWith;
 constexpr std::size_t kLength = 20;  // Of point format 0.
 constexpr std::uint64_t kBegin = 100;
 
-std::string Records(std::size_t count) {
-  std::mt19937 random(1);
-  std::string records(count * kLength, '\0');
-  for (std::size_t i = 0; i < count; ++i) {
-    char* const record = &records[i * kLength];
-    Store(static_cast<std::int32_t>(i * 10 + random() % 7), record);
-    Store(static_cast<std::int32_t>(random() % 1000), record + 4);
-    Store(static_cast<std::int32_t>(random() % 100), record + 8);
-    record[14] = 0x09;
-    record[15] = static_cast<char>(random() % 3);
-  }
-  return records;
-}
-
-// Points as they lie in a file, from byte kBegin on, with "tail" behind them.
+// `count` points as they lie in a file, from byte kBegin on, in chunks of `size`, with "tail" behind them.
 struct File {
-  std::string bytes = std::string(kBegin, 'h');
+  std::string bytes = std::string(kBegin, 'h'), records;
   LazExtent extent;
   std::vector<Chunk> chunks;
   std::uint64_t table = 0, end = 0;
 
-  File(const std::string& records, const std::vector<std::size_t>& sizes, std::uint32_t chunk_size) {
-    albtpu::testing::LazParts parts = albtpu::testing::CompressPoints(0, kLength, records, sizes);
-    parts.record.chunk_size = chunk_size;
-    extent = {.record = parts.record, .points_begin = kBegin, .point_count = parts.point_count()};
+  File(std::uint32_t size, std::size_t count) {
+    std::vector<std::size_t> sizes;
+    for (std::size_t left = count; left > 0; left -= sizes.back()) sizes.push_back(std::min<std::size_t>(size, left));
+    albtpu::testing::LazParts parts = albtpu::testing::TruePoints(0, 0, count, sizes);
+    parts.record.chunk_size = size;
+    records = parts.records;
+    extent = {.record = parts.record, .points_begin = kBegin, .point_count = count};
     bytes += PointsSection(parts, kBegin);
     table = Load<std::uint64_t>(bytes, kBegin);
     end = extent.points_end = bytes.size();
@@ -56,13 +45,6 @@ struct File {
     }
   }
 };
-
-File InChunksOf(std::uint32_t size, const std::string& records) {
-  std::vector<std::size_t> sizes;
-  for (std::size_t left = records.size() / kLength; left > 0; left -= sizes.back())
-    sizes.push_back(std::min<std::size_t>(size, left));
-  return File(records, sizes, size);
-}
 
 // Reads to the end in pieces of `points`.
 absl::StatusOr<std::string> ReadAll(const ByteSource& source, const LazExtent& extent, int threads, std::size_t points,
@@ -81,14 +63,13 @@ absl::StatusOr<std::string> ReadAll(const ByteSource& source, const LazExtent& e
 }
 
 TEST(LazPoints, GivesThePointsInTheOrderOfTheFile) {
-  const std::string records = Records(1000);
-  const File file = InChunksOf(37, records);
+  const File file(37, 1000);
   const MemorySource source(file.bytes);
   for (const int threads : {0, 1, 2, 5}) {
     for (const std::size_t points : {1u, 36u, 1000u}) {
       std::uint64_t end = 0, tail_end = 0;
       const absl::StatusOr<std::string> read = ReadAll(source, file.extent, threads, points, &end, &tail_end);
-      EXPECT_EQ(*read, records);
+      EXPECT_EQ(*read, file.records);
       EXPECT_EQ(end, file.end);
       EXPECT_EQ(tail_end, file.bytes.size());
     }
@@ -96,61 +77,62 @@ TEST(LazPoints, GivesThePointsInTheOrderOfTheFile) {
 }
 
 TEST(LazPoints, ReadsChunksOfMoreThanABatchAheadInBatches) {
-  const std::string records = Records(420'000);
   for (const std::uint32_t size : {420'000u, 130'000u}) {
-    const File file = InChunksOf(size, records);
+    const File file(size, 420'000);
     for (const int threads : {1, 2, 5}) {
       const absl::StatusOr<std::string> read = ReadAll(MemorySource(file.bytes), file.extent, threads, 70'001);
-      EXPECT_TRUE(*read == records);
+      EXPECT_TRUE(*read == file.records);
     }
   }
 }
 
 TEST(LazPoints, ReadsTheOneChunkOfTheFirstCompressor) {
-  const std::string records = Records(1000);
-  File file = InChunksOf(1000, records);
+  File file(1000, 1000);
   file.extent.record.compressor = Compressor::kPointwise;
   file.extent.record.chunk_size = 0;
   file.extent.points_begin += kTableOffsetSize;
   file.extent.points_end = file.table;
   std::uint64_t end = 0;
   const absl::StatusOr<std::string> read = ReadAll(MemorySource(file.bytes), file.extent, 5, 10, &end);
-  EXPECT_EQ(*read, records);
+  EXPECT_EQ(*read, file.records);
   EXPECT_EQ(end, file.table);
 }
 
 TEST(LazPoints, MayHaveNoPoints) {
-  const File file = InChunksOf(50, "");
+  const File file(50, 0);
   EXPECT_EQ((*LazPoints::Open(MemorySource(file.bytes), file.extent))->end(), file.end);
   LazExtent nothing = file.extent;
   nothing.points_end = nothing.points_begin;
   EXPECT_EQ((*LazPoints::Open(MemorySource(file.bytes), nothing))->end(), kBegin);
 }
 
-// Fails to read one byte.
-class BrokenSource : public MemorySource {
+// Asks `before` about each range of bytes that is read.
+class WatchedSource : public MemorySource {
  public:
-  BrokenSource(std::string_view bytes, std::uint64_t broken) : MemorySource(bytes), broken_(broken) {}
+  using Watch = std::function<absl::Status(std::uint64_t offset, std::size_t size)>;
+  WatchedSource(std::string_view bytes, Watch before) : MemorySource(bytes), before_(std::move(before)) {}
   absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const override {
-    if (offset <= broken_ && broken_ < offset + bytes.size()) return absl::DataLossError("a broken disk");
+    if (absl::Status status = before_(offset, bytes.size()); !status.ok()) return status;
     return MemorySource::ReadAt(offset, bytes);
   }
 
  private:
-  std::uint64_t broken_;
+  Watch before_;
 };
 
 TEST(LazPoints, ReportsTheFirstFailureOfTheFile) {
-  const std::string records = Records(1000);
-  File file = InChunksOf(50, records);
+  File file(50, 1000);
   for (const std::size_t broken : {0u, 7u, 19u}) {
-    const BrokenSource source(file.bytes, file.chunks[broken].offset + 30);
+    const std::uint64_t place = file.chunks[broken].offset + 30;
+    const WatchedSource source(file.bytes, [&](std::uint64_t offset, std::size_t size) {
+      return offset <= place && place < offset + size ? absl::DataLossError("a broken disk") : absl::OkStatus();
+    });
     for (const int threads : {1, 2, 5}) {
       const absl::StatusOr<std::unique_ptr<LazPoints>> reader = LazPoints::Open(source, file.extent, threads);
       std::string read(1000 * kLength, '\0');
       const std::size_t sound = broken * 50 * kLength;
       EXPECT_TRUE((*reader)->Read(std::span(read).first(sound)).ok());
-      EXPECT_EQ(read.substr(0, sound), records.substr(0, sound));
+      EXPECT_EQ(read.substr(0, sound), file.records.substr(0, sound));
       const std::string expected = "chunk " + std::to_string(broken + 1) + " of 20: a broken disk";
       for (int i = 0; i < 2; ++i)  // Reading does not go on.
         EXPECT_THAT(std::string((*reader)->Read(std::span(read).subspan(sound)).message()), HasSubstr(expected));
@@ -159,7 +141,7 @@ TEST(LazPoints, ReportsTheFirstFailureOfTheFile) {
 }
 
 TEST(LazPoints, ReportsTheFirstOfSeveralFailures) {
-  File file = InChunksOf(50, Records(1000));
+  File file(50, 1000);
   // Chunk 6 has bytes that chunk 7 lacks.
   const std::uint64_t moved = file.chunks[6].bytes / 2;
   std::string bytes = file.bytes.substr(0, file.table);
@@ -175,7 +157,7 @@ TEST(LazPoints, ReportsTheFirstOfSeveralFailures) {
 }
 
 TEST(LazPoints, MayBeLeftEarly) {
-  const File file = InChunksOf(50, Records(5000));
+  const File file(50, 5000);
   for (const int threads : {1, 2, 5}) {
     for (int i = 0; i < 20; ++i) {
       const MemorySource source(file.bytes);
@@ -186,20 +168,13 @@ TEST(LazPoints, MayBeLeftEarly) {
   }
 }
 
-// Counts the bytes that are read.
-class CountingSource : public MemorySource {
- public:
-  using MemorySource::MemorySource;
-  absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const override {
-    read += bytes.size();
-    return MemorySource::ReadAt(offset, bytes);
-  }
-  mutable std::atomic<std::uint64_t> read = 0;
-};
-
 TEST(LazPoints, DecodesNoFurtherAheadThanTwoBatchesAThread) {
-  const File file = InChunksOf(50, Records(5000));
-  const CountingSource source(file.bytes);
+  const File file(50, 5000);
+  std::atomic<std::uint64_t> read_bytes = 0;
+  const WatchedSource source(file.bytes, [&](std::uint64_t, std::size_t size) {
+    read_bytes += size;
+    return absl::OkStatus();
+  });
   std::uint64_t most = file.bytes.size() - file.table + 2 * kTableOffsetSize + 16;  // The table.
   for (std::size_t i = 0; i < 1 + 2 * 2 + 2; ++i) most += file.chunks[i].bytes;     // And two chunks were begun.
   {
@@ -207,18 +182,18 @@ TEST(LazPoints, DecodesNoFurtherAheadThanTwoBatchesAThread) {
     std::string read(kLength, '\0');
     EXPECT_TRUE((*reader)->Read(std::span(read)).ok());
   }
-  EXPECT_LE(source.read, most);
+  EXPECT_LE(read_bytes, most);
 }
 
 TEST(LazPoints, RefusesPointsWithoutRoom) {
-  File file = InChunksOf(50, Records(100));
+  File file(50, 100);
   file.extent.points_end = kBegin + 7;
   EXPECT_THAT(std::string(LazPoints::Open(MemorySource(file.bytes), file.extent).status().message()),
               HasSubstr("its points have 7 bytes"));
 }
 
 TEST(LazPoints, RefusesPointsThatNothingCounts) {
-  File file = InChunksOf(64, Records(1000));
+  File file(64, 1000);
   file.bytes.resize(file.table);  // The writer was interrupted.
   Store(kBegin, &file.bytes[kBegin]);
   file.extent.points_end = file.bytes.size();
@@ -232,22 +207,12 @@ TEST(LazPoints, RefusesPointsThatNothingCounts) {
   }
 }
 
-// Has no memory for a chunk that begins there.
-class GreedySource : public MemorySource {
- public:
-  GreedySource(std::string_view bytes, std::uint64_t chunk) : MemorySource(bytes), chunk_(chunk) {}
-  absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const override {
-    if (offset == chunk_) throw std::bad_alloc();
-    return MemorySource::ReadAt(offset, bytes);
-  }
-
- private:
-  std::uint64_t chunk_;
-};
-
 TEST(LazPoints, ReportsMemoryThatIsTooSmall) {
-  const File file = InChunksOf(50, Records(1000));
-  const GreedySource source(file.bytes, file.chunks[7].offset);
+  const File file(50, 1000);
+  const WatchedSource source(file.bytes, [&](std::uint64_t offset, std::size_t) {
+    if (offset == file.chunks[7].offset) throw std::bad_alloc();
+    return absl::OkStatus();
+  });
   for (const int threads : {1, 2, 5}) {
     const absl::Status status = ReadAll(source, file.extent, threads, 1000).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
@@ -257,7 +222,7 @@ TEST(LazPoints, ReportsMemoryThatIsTooSmall) {
 
 // The header, and so a file without table, may state any number of points.
 TEST(LazPoints, StopsWhereTheBytesEnd) {
-  File file = InChunksOf(kCommonChunkSize, Records(1000));
+  File file(kCommonChunkSize, 1000);
   file.bytes.resize(file.table);
   Store<std::int64_t>(-1, &file.bytes[kBegin]);
   file.extent.points_end = file.bytes.size();

@@ -1,5 +1,5 @@
-// Files that lie: about the chunk table, their chunks, their points. Each has one clear error, in little memory and
-// time.
+// Files that lie: about the chunk table, their chunks, their points; and chunks that lie about their points and their
+// layers, or are cut anywhere. Each has one clear error, in little memory and time.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/laz/items/chunk_decoder.h"
 #include "formats/laz/laz_points.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/formats/laz/allocations.h"
@@ -23,26 +24,18 @@ using testing::LazParts;
 using ::testing::TestWithParam;
 using ::testing::Values;
 
-constexpr std::uint64_t kBegin = 375;      // Of the points; zeros lie before them.
-constexpr std::size_t kPiece = 1000;       // Points that are read at a time.
-constexpr std::uint64_t kFewPoints = 1e6;  // More are not read of files that state more.
-constexpr std::size_t kMargin = 4 << 20;   // Bytes that a lie may cost beyond what the truth costs.
+constexpr std::uint64_t kBegin = 375;                 // Of the points; zeros lie before them.
+constexpr std::size_t kPiece = 1000;                  // Points that are read at a time.
+constexpr std::uint64_t kFewPoints = 1e6;             // More are not read of files that state more.
+constexpr std::size_t kPoints = 20, kExtraBytes = 3;  // Of a single chunk.
+constexpr std::size_t kMargin = 4 << 20;              // Bytes that a lie may cost beyond what the truth costs.
 // For a file of some hundred bytes, which takes milliseconds, on a busy machine.
 constexpr std::chrono::seconds kMostTime(5);
 
-std::string Records(int point_format, int count) {
-  testing::LasSpec spec;
-  spec.point_format = point_format;
-  spec.extra_bytes = 2;
-  for (int i = 0; i < count; ++i) spec.points.push_back({.x = 30 * i, .y = i * i, .z = i % 5, .gps_time = i / 2 * 0.1});
-  const std::string file = testing::BuildLas(spec);
-  return file.substr(file.size() - static_cast<std::size_t>(count) * (testing::PointSize(point_format) + 2));
-}
-
 // 40 points in chunks of 10, or of any number.
 LazParts Truth(int point_format, bool variable) {
-  return testing::CompressPoints(point_format, testing::PointSize(point_format) + 2, Records(point_format, 40),
-                                 variable ? std::vector<std::size_t>{10, 5, 20, 5} : std::vector<std::size_t>(4, 10));
+  return testing::TruePoints(point_format, 2, 40,
+                             variable ? std::vector<std::size_t>{10, 5, 20, 5} : std::vector<std::size_t>(4, 10));
 }
 
 std::string File(const LazParts& parts) { return std::string(kBegin, '\0') + testing::PointsSection(parts, kBegin); }
@@ -126,16 +119,6 @@ TEST_P(Lies, AreNotInTheTruth) {
   EXPECT_EQ(records, truth_.records);
 }
 
-TEST_P(Lies, OfTheOffsetOfTheTableAreNoticed) {
-  for (const std::uint64_t offset :
-       {std::uint64_t{1}, kBegin - 1, kBegin + 1, kBegin + 7, kBegin + 8, table_ - 1, table_ + 1, file_.size() - 7,
-        file_.size() - 1, file_.size(), file_.size() + 1, std::uint64_t{1} << 63, ~std::uint64_t{1}}) {
-    SCOPED_TRACE(offset);
-    SetTableOffset(offset);
-    EXPECT_THAT(Message(), HasSubstr("chunk"));
-  }
-}
-
 // Where the writer was stopped before the table, or wrote to a pipe: the chunks are read one after the other.
 TEST_P(Lies, OfNoTableAreToldFromLies) {
   for (const std::uint64_t offset : {std::uint64_t{0}, kBegin, ~std::uint64_t{0}}) {
@@ -152,68 +135,52 @@ TEST_P(Lies, OfNoTableAreToldFromLies) {
   }
 }
 
-TEST_P(Lies, OfTheNumberOfChunksAreNoticed) {
-  for (const std::uint32_t count : {0u, 1u, 3u, 5u, 0x10000u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
-    SCOPED_TRACE(count);
-    std::memcpy(file_.data() + table_ + 4, &count, sizeof count);
-    EXPECT_THAT(Message(), HasSubstr("chunk"));
-  }
-}
-
-TEST_P(Lies, OfTheBytesOfAChunkAreNoticed) {
-  for (const std::uint64_t bytes : {0u, 1u, 5u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
-    for (const std::size_t chunk : {0u, 3u}) {
-      SCOPED_TRACE(::testing::Message() << "chunk " << chunk << ": " << bytes << " bytes");
-      std::vector<Chunk> table = truth_.table;
-      table[chunk].bytes = bytes;
-      State(table);
-      EXPECT_THAT(Message(), HasSubstr("chunk"));
+// One number of the file at a time; its error says of what.
+TEST_P(Lies, AreNoticed) {
+  const std::string whole = file_;
+  const LazExtent extent = extent_;
+  const auto expect = [&](const char* what, std::initializer_list<std::uint64_t> numbers, const auto& tell) {
+    for (const std::uint64_t number : numbers) {
+      SCOPED_TRACE(::testing::Message() << what << " " << number);
+      file_ = whole;
+      extent_ = extent;
+      tell(number);
+      EXPECT_THAT(Message(), HasSubstr(what));
     }
-  }
-}
-
-TEST_P(Lies, ThatMoveBytesFromChunkToChunkAreNoticed) {
-  for (const std::uint64_t by : {~std::uint64_t{0}, std::uint64_t{1}}) {
-    SCOPED_TRACE(by);
-    std::vector<Chunk> table = truth_.table;
-    table[1].bytes += by;
-    table[2].bytes -= by;
-    State(table);
-    EXPECT_THAT(Message(), HasSubstr("chunk"));
-  }
-}
-
-TEST_P(Lies, OfTheNumberOfPointsAreNoticed) {
-  for (const std::uint64_t count : {std::uint64_t{1}, std::uint64_t{10}, std::uint64_t{39}, std::uint64_t{41},
-                                    std::uint64_t{0xFFFFFFFF}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
-    SCOPED_TRACE(count);
-    extent_.point_count = count;
-    EXPECT_THAT(Message(), HasSubstr("point"));
-  }
-}
-
-TEST_P(Lies, OfThePointsOfAChunkAreNoticed) {
-  if (!GetParam().variable) return;  // Only tables of chunks of any length state them.
-  for (const std::uint64_t points : {0u, 4u, 6u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
-    SCOPED_TRACE(points);
-    std::vector<Chunk> table = truth_.table;
-    table[1].points = points;
-    State(table);
-    EXPECT_THAT(Message(), HasSubstr("point"));
-  }
-  std::vector<Chunk> table = truth_.table;
-  ++table[1].points;
-  --table[2].points;
-  State(table);
-  EXPECT_THAT(Message(), HasSubstr("chunk"));
-}
-
-TEST_P(Lies, OfTheChunkSizeAreNoticed) {
-  if (GetParam().variable) return;
-  for (const std::uint32_t size : {1u, 9u, 11u, 50000u, 0x80000000u, 0xFFFFFFFEu}) {
-    SCOPED_TRACE(size);
-    extent_.record.chunk_size = size;
-    EXPECT_THAT(Message(), HasSubstr("chunk"));
+  };
+  const auto state = [&](std::size_t chunk, std::uint64_t Chunk::*member) {
+    return [this, chunk, member](std::uint64_t number) {
+      std::vector<Chunk> table = truth_.table;
+      table[chunk].*member = number;
+      State(table);
+    };
+  };
+  const auto move = [&](std::uint64_t Chunk::*member) {  // From one chunk to its neighbour.
+    return [this, member](std::uint64_t number) {
+      std::vector<Chunk> table = truth_.table;
+      table[1].*member += number;
+      table[2].*member -= number;
+      State(table);
+    };
+  };
+  const std::uint64_t size = whole.size(), all = ~std::uint64_t{0};
+  expect("chunk",
+         {1, kBegin - 1, kBegin + 1, kBegin + 7, kBegin + 8, table_ - 1, table_ + 1, size - 7, size - 1, size, size + 1,
+          std::uint64_t{1} << 63, all - 1},
+         [&](std::uint64_t offset) { SetTableOffset(offset); });
+  expect("chunk", {0, 1, 3, 5, 0x10000, 0x7FFFFFFF, 0xFFFFFFFF},
+         [&](std::uint64_t count) { std::memcpy(file_.data() + table_ + 4, &count, sizeof(std::uint32_t)); });
+  for (const std::size_t chunk : {0, 3})
+    expect("chunk", {0, 1, 5, 0x7FFFFFFF, 0xFFFFFFFF}, state(chunk, &Chunk::bytes));
+  expect("chunk", {all, 1}, move(&Chunk::bytes));
+  expect("point", {1, 10, 39, 41, 0xFFFFFFFF, std::uint64_t{1} << 40, all},
+         [&](std::uint64_t count) { extent_.point_count = count; });
+  if (GetParam().variable) {  // Only tables of chunks of any length state their points.
+    expect("point", {0, 4, 6, 0x7FFFFFFF, 0xFFFFFFFF}, state(1, &Chunk::points));
+    expect("chunk", {1}, move(&Chunk::points));
+  } else {
+    expect("chunk", {1, 9, 11, 50000, 0x80000000, 0xFFFFFFFE},
+           [&](std::uint64_t points) { extent_.record.chunk_size = static_cast<std::uint32_t>(points); });
   }
 }
 
@@ -247,16 +214,6 @@ TEST_P(Lies, OfFilesThatAreCutAnywhereAreNoticed) {
   }
 }
 
-TEST_P(Lies, OfASingleBitAreNoticedOrGiveTheNumberOfPointsThatIsStated) {
-  const std::string whole = file_;
-  for (std::size_t bit = 8 * kBegin; bit < 8 * whole.size(); ++bit) {
-    SCOPED_TRACE(bit);
-    file_ = whole;
-    file_[bit / 8] = static_cast<char>(file_[bit / 8] ^ 1 << bit % 8);
-    Message();
-  }
-}
-
 // The longest records have models for 65 535 bytes in each of four scanner channels: for one thread, not for eight.
 TEST(LongRecords, TakeTheMemoryOfOneThread) {
   constexpr std::size_t kLength = 0xFFFF, kCount = 64;
@@ -283,6 +240,104 @@ std::string Name(const ::testing::TestParamInfo<Kind>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Lies, Values(Kind{1, false}, Kind{3, true}, Kind{6, false}, Kind{8, true}), Name);
+
+absl::Status Decode(const LaszipRecord& record, const std::string& bytes, std::uint64_t points, bool exact,
+                    std::string* records = nullptr, std::uint64_t* end = nullptr) {
+  const MemorySource source(bytes);
+  const std::unique_ptr<ChunkDecoder> decoder = ChunkDecoder::For(record);
+  testing::ResetMostAllocated();
+  absl::Status status = decoder->Begin(source, 0, bytes.size(), points);
+  std::string piece(100 * record.record_length(), '\0');
+  for (std::uint64_t left = std::min<std::uint64_t>(points, 1000000); status.ok() && left > 0;) {
+    piece.resize(std::min<std::uint64_t>(left, 100) * record.record_length());
+    status = decoder->Decode(piece);
+    if (records != nullptr) *records += piece;
+    left -= piece.size() / record.record_length();
+  }
+  if (status.ok()) status = decoder->End(exact);
+  EXPECT_LT(testing::MostAllocated(), bytes.size() + kMargin);
+  if (status.ok()) {
+    EXPECT_LE(decoder->position(), bytes.size());
+    if (end != nullptr) *end = decoder->position();
+  } else {
+    EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+  }
+  return status;
+}
+
+class ChunkLies : public ::testing::TestWithParam<int> {
+ protected:
+  const testing::LazParts truth_ = testing::TruePoints(GetParam(), kExtraBytes, kPoints, {kPoints});
+  const std::string& chunk_ = truth_.chunks[0];
+
+  bool layered() const { return truth_.record.compressor == Compressor::kLayeredChunked; }
+  std::size_t sizes() const { return truth_.record.record_length(); }  // Offset of the number of points.
+  std::string Message(const std::string& bytes, std::uint64_t points = kPoints, bool exact = true) {
+    return std::string(Decode(truth_.record, bytes, points, exact).message());
+  }
+};
+
+TEST_P(ChunkLies, AreNotInTheTruth) {
+  for (const bool exact : {false, true}) {
+    std::string records;
+    ASSERT_TRUE(Decode(truth_.record, chunk_, kPoints, exact, &records).ok());
+    EXPECT_EQ(records, truth_.records);
+  }
+}
+
+TEST_P(ChunkLies, OfChunksThatAreCutAnywhereAreNoticed) {
+  for (std::size_t size = 0; size < chunk_.size(); ++size) {
+    SCOPED_TRACE(size);
+    for (const bool exact : {false, true}) EXPECT_NE(Message(chunk_.substr(0, size), kPoints, exact), "");
+  }
+}
+
+TEST_P(ChunkLies, OfBytesBehindTheirEndAreNoticedWhereItIsKnown) {
+  const std::string longer = chunk_ + "x";
+  EXPECT_NE(Message(longer), "");
+  std::string records;
+  std::uint64_t end = 0;
+  ASSERT_TRUE(Decode(truth_.record, longer, kPoints, false, &records, &end).ok());
+  EXPECT_EQ(records, truth_.records);
+  EXPECT_EQ(end, chunk_.size());
+}
+
+TEST_P(ChunkLies, OfTooManyPointsAreNoticed) {
+  for (const std::uint64_t points : {std::uint64_t{kPoints + 1000}, std::uint64_t{50000}, std::uint64_t{0xFFFFFFFF},
+                                     std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + kPoints}) {
+    SCOPED_TRACE(points);
+    EXPECT_NE(Message(chunk_, points), "");
+  }
+}
+
+TEST_P(ChunkLies, OfAnotherNumberOfPointsAreNoticedByLayeredChunks) {
+  if (!layered()) return;
+  for (const std::uint32_t points : {0u, 1u, 19u, 21u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
+    SCOPED_TRACE(points);
+    std::string bytes = chunk_;
+    std::memcpy(bytes.data() + sizes(), &points, sizeof points);
+    EXPECT_THAT(Message(bytes), HasSubstr("points"));
+  }
+}
+
+TEST_P(ChunkLies, OfTheSizesOfLayersAreNoticed) {
+  if (!layered()) return;
+  const std::size_t layers = 9 + kExtraBytes + (GetParam() == 8 ? 2 : GetParam() == 6 ? 0 : 1);
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    const std::size_t at = sizes() + 4 * (1 + layer);
+    std::uint32_t size;
+    std::memcpy(&size, chunk_.data() + at, sizeof size);
+    for (const std::uint32_t lie : {size + 1, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu}) {
+      SCOPED_TRACE(::testing::Message() << "layer " << layer << " of " << lie << " bytes instead of " << size);
+      std::string bytes = chunk_;
+      std::memcpy(bytes.data() + at, &lie, sizeof lie);
+      EXPECT_THAT(Message(bytes), HasSubstr("layer"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, ChunkLies, ::testing::Range(0, 11),
+                         [](const auto& point_format) { return "Format" + std::to_string(point_format.param); });
 
 }  // namespace
 }  // namespace albtpu::laz

@@ -1,16 +1,45 @@
 // Points written as LAZ files come back as they were, and with them everything else in the file.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <tuple>
 
-#include "tests/formats/laz/busy_file.h"
+#include "formats/laz/coding/little_endian.h"
 #include "tests/formats/laz/busy_points.h"
 #include "tests/formats/laz/laz_bytes.h"
 
 namespace albtpu::testing {
 namespace {
+
+TEST(BusyPoints, UseEachChannelReturnFlagAndManyClasses) {
+  const RecordLayout layout{6, 0};
+  const std::string records = BusyRecords(layout, 20000);
+  std::set<int> channels, returns, flags, classes;
+  bool backwards = false, negative = false, positive = false;
+  std::array<double, 4> last_time{};
+  for (std::size_t at = 0; at < records.size(); at += RecordLength(layout)) {
+    const auto bits = laz::Load<std::uint8_t>(records, at + 15);
+    const int channel = bits >> 4 & 3;
+    channels.insert(channel);
+    flags.insert(bits & 15);
+    returns.insert(laz::Load<std::uint8_t>(records, at + 14));
+    classes.insert(laz::Load<std::uint8_t>(records, at + 16));
+    const auto angle = laz::Load<std::int16_t>(records, at + 18);
+    negative |= angle < 0;
+    positive |= angle > 0;
+    const auto time = laz::Load<double>(records, at + 22);
+    backwards |= time < last_time[channel];
+    last_time[channel] = time;
+  }
+  EXPECT_EQ(channels.size(), 4u);
+  EXPECT_EQ(flags.size(), 16u);
+  EXPECT_GT(returns.size(), 100u);
+  EXPECT_GT(classes.size(), 100u);
+  EXPECT_TRUE(backwards && negative && positive);
+}
 
 // Through one thread, and through two.
 void ExpectComesBack(const LasParts& parts, const LazForm& form = {}) {

@@ -1,24 +1,21 @@
 #include "tests/quality/crosscheck/simulated_lines.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
-#include "budget/total/budget_columns.h"
 #include "tests/budget/air/air_forward.h"
+#include "tests/budget/total/total_memory.h"
+#include "tests/flights/beam_path.h"
 
 namespace albtpu::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kAltitude = 400, kIncidence = 20, kIndex = 1.34, kSpeed = 60;
+constexpr double kAltitude = 400, kIncidence = 20, kSpeed = 60;
 constexpr double kLineSpacing = 240;
+// rad/s and number of the sinusoids of an error of the trajectory, which are correlated over some seconds.
+constexpr double kSlowest = 0.1, kFastest = 1;
+constexpr int kTerms = 8;
 constexpr double kSwath = 140;  // m on each side; the cone of 20 degrees reaches 146 m.
-
-using Random = std::mt19937_64;
-
-double Normal(Random& random) { return std::normal_distribution<double>()(random); }
 
 // `slope`: the root mean square of that of ridges 150 m apart.
 double Depth(double x, double y, double slope) {
@@ -27,46 +24,24 @@ double Depth(double x, double y, double slope) {
   return 9 + 7 * std::sin(x / 900 + 1) + 1.5 * std::sin(y / 400) + ridges;
 }
 
-// A process of mean 0 and variance 1 whose correlation falls to 1/e over `memory`.
-class Wander {
- public:
-  Wander(double seconds, double memory, Random& random) : step_(memory / 20) {
-    const double keep = std::exp(-step_ / memory);
-    double value = Normal(random);
-    for (double t = 0; t <= seconds + 2 * step_; t += step_) {
-      values_.push_back(value);
-      value = keep * value + std::sqrt(1 - keep * keep) * Normal(random);
-    }
-  }
-  double At(double time) const { return values_[static_cast<std::size_t>(time / step_)]; }
-
- private:
-  double step_;
-  std::vector<double> values_;
-};
-
 // What a surface of this slope does to the reported point, reported less true: the beam (unit, z down) goes on where
 // Snell's law sends it at the tilted surface, until it meets the bottom; processing assumes a level surface and the
 // same length of path.
 Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double slope_y, double depth) {
-  const auto refracted = [&](Eigen::Vector3d normal) -> Eigen::Vector3d {
-    normal.normalize();
-    const double cosine = beam.dot(normal), ratio = 1 / kIndex;
-    return ratio * beam + (std::sqrt(1 - ratio * ratio * (1 - cosine * cosine)) - ratio * cosine) * normal;
-  };
-  const Eigen::Vector3d level = refracted({0, 0, 1}), tilted = refracted({slope_x, slope_y, 1});
+  const Eigen::Vector3d level = Refract(beam, {0, 0, -1});
+  const Eigen::Vector3d tilted = Refract(beam, -Eigen::Vector3d(slope_x, slope_y, 1).normalized());
   return depth / tilted.z() * (level - tilted);
 }
 
 // The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
 // its own.
 Eigen::Vector3d SeaSigmas(double wave_slope) {
-  Random random(4711);
+  RandomNumbers random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
   constexpr int kDraws = 200'000;
   for (int i = 0; i < kDraws; ++i) {
-    const Eigen::Vector3d error = ErrorOfSlope(beam, wave_slope * Normal(random), wave_slope * Normal(random), 1);
+    const Eigen::Vector3d error = ErrorOfSlope(beam, wave_slope * random.Normal(), wave_slope * random.Normal(), 1);
     sum += error / kDraws;
     squares += error.cwiseAbs2() / kDraws;
   }
@@ -75,16 +50,16 @@ Eigen::Vector3d SeaSigmas(double wave_slope) {
 
 class Line {
  public:
-  Line(const SimulatedLines& options, int number, double course, double middle, Random& random)
+  Line(const SimulatedLines& options, int number, double course, double middle, RandomNumbers& random)
       : options_(options), number_(number), course_(course), middle_(middle), random_(random) {
-    for (int i = 0; i < 6; ++i) wander_.emplace_back(options.length / kSpeed, options.memory, random);
+    for (int i = 0; i < 6; ++i) wander_.emplace_back(0, 1, kSlowest, kFastest, kTerms, random);
   }
 
   // At `along` and `across` (m, right positive) of the line.
   void AddPoint(double along, double across, double x, double y, std::vector<quality::AnnotatedPoint>& points,
                 std::vector<double>& headings) {
     const double sine = std::clamp(across / (kAltitude * std::tan(kIncidence * kDegree)), -1.0, 1.0);
-    const bool backward = std::uniform_int_distribution<int>(0, 1)(random_) == 1;
+    const bool backward = random_.Uniform(0, 1) < 0.5;
     const double azimuth = course_ + (backward ? 180 - std::asin(sine) / kDegree : std::asin(sine) / kDegree);
     const double depth = Depth(x, y, options_.bottom_slope);
     const AirPulse pulse{.incidence = kIncidence,
@@ -97,7 +72,7 @@ class Line {
                          .velocity = Eigen::Vector3d::Zero(),
                          .rates = Eigen::Vector3d::Zero(),
                          .lever_arm = Eigen::Vector3d::Zero(),
-                         .index = kIndex};
+                         .index = kIndexOfWater};
     const AirErrors errors = TrueErrors();
     Eigen::Matrix<double, kAirUnknowns, 1> drawn = Eigen::Matrix<double, kAirUnknowns, 1>::Zero();
     const double time = along / kSpeed;
@@ -107,17 +82,17 @@ class Line {
       drawn[kRoll + i] = errors.attitude[axis] * kDegree * wander_[axis + 3].At(time);
     }
     drawn[kBoresightX] = options_.roll_of_scanner * kDegree;
-    drawn[kScanA] = errors.scan * kDegree * Normal(random_);
-    drawn[kScanB] = errors.scan * kDegree * Normal(random_);
-    drawn[kBottomRange] = errors.bottom_range * Normal(random_);
-    drawn[kSurfaceHeight] = errors.surface_range * std::cos(kIncidence * kDegree) * Normal(random_);
+    drawn[kScanA] = errors.scan * kDegree * random_.Normal();
+    drawn[kScanB] = errors.scan * kDegree * random_.Normal();
+    drawn[kBottomRange] = errors.bottom_range * random_.Normal();
+    drawn[kSurfaceHeight] = errors.surface_range * std::cos(kIncidence * kDegree) * random_.Normal();
     const Eigen::Matrix<double, kAirUnknowns, 1> none = Eigen::Matrix<double, kAirUnknowns, 1>::Zero();
     const Eigen::Vector3d beam(std::sin(kIncidence * kDegree) * std::cos(azimuth * kDegree),
                                std::sin(kIncidence * kDegree) * std::sin(azimuth * kDegree),
                                std::cos(kIncidence * kDegree));
     const Eigen::Vector3d error =
         ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none) +
-        ErrorOfSlope(beam, options_.wave_slope * Normal(random_), options_.wave_slope * Normal(random_), depth);
+        ErrorOfSlope(beam, options_.wave_slope * random_.Normal(), options_.wave_slope * random_.Normal(), depth);
     const double rough = options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
     quality::AnnotatedPoint& point = points.emplace_back();
     point.x = x + error.y();
@@ -135,11 +110,11 @@ class Line {
   template <typename Place>
   void Fly(bool whole_swath, const Place& place, std::vector<quality::AnnotatedPoint>& points,
            std::vector<double>& headings) {
-    std::uniform_real_distribution<double> jitter(0, options_.spacing);
+    const auto jitter = [&] { return random_.Uniform(0, options_.spacing); };
     for (double along = 0; along + options_.spacing < options_.length; along += options_.spacing)
       for (double across = -kSwath; across < kSwath; across += options_.spacing) {
         if (!whole_swath && std::abs(across) < kLineSpacing - kSwath) continue;
-        const double a = along + jitter(random_), c = across + jitter(random_);
+        const double a = along + jitter(), c = across + jitter();
         const auto [x, y] = place(a, c, middle_);
         AddPoint(a, c, x, y, points, headings);
       }
@@ -149,64 +124,47 @@ class Line {
   const SimulatedLines& options_;
   int number_;
   double course_, middle_;
-  Random& random_;
-  std::vector<Wander> wander_;
+  RandomNumbers& random_;
+  std::vector<SmoothMotion> wander_;  // Errors of the trajectory, of variance 1.
 };
 
 // Replaces the azimuth by what the budget makes of it. The axis of the sea is taken as that of each beam, because its
 // errors are known along and across it.
 void Predict(const AirErrors& errors, const Eigen::Vector3d& sea, const std::vector<double>& headings,
              std::vector<quality::AnnotatedPoint>& points) {
-  const std::size_t size = points.size();
-  std::array<std::vector<float>, kBudgetInputCount> columns;
-  BudgetInputs inputs{.size = size};
-  const auto add = [&](BudgetInput input, auto value) {
-    std::vector<float>& column = columns[static_cast<std::size_t>(input)];
-    for (std::size_t i = 0; i < size; ++i) column.push_back(static_cast<float>(value(i)));
-    inputs[input] = column;
-  };
-  const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
-  add(BudgetInput::kIncidence, constant(kIncidence));
-  add(BudgetInput::kAltitude, constant(kAltitude));
-  add(BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
-  add(BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
-  add(BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
-  add(BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
-  add(BudgetInput::kSeaTvu, [&](std::size_t i) { return 2 * sea[2] * points[i].depth; });
-  add(BudgetInput::kRefractionAlong, constant(sea[0]));
-  add(BudgetInput::kRefractionCross, constant(sea[1]));
-  add(BudgetInput::kSeaAxis, [&](std::size_t i) { return points[i].tvu_air; });
-  std::vector<float> thu(size), tvu(size), air(size), thu_sea(size), tvu_sea(size), pulse(size), line(size);
-  std::array<std::vector<float>, 6> total;
-  BudgetOutputs outputs;
-  outputs.thu = thu;
-  outputs.tvu = tvu;
-  outputs.tvu_air = air;
-  outputs.thu_sea = thu_sea;
-  outputs.tvu_sea = tvu_sea;
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    total[i].resize(size);
-    outputs.total[i] = total[i];
+  TotalInputs inputs;
+  inputs[BudgetInput::kIncidence] = {kIncidence};
+  inputs[BudgetInput::kAltitude] = {kAltitude};
+  inputs[BudgetInput::kRefractionAlong] = {static_cast<float>(sea[0])};
+  inputs[BudgetInput::kRefractionCross] = {static_cast<float>(sea[1])};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float depth = points[i].depth;
+    inputs[BudgetInput::kBeamAzimuth].push_back(points[i].tvu_air);
+    inputs[BudgetInput::kHeading].push_back(static_cast<float>(headings[i]));
+    inputs[BudgetInput::kDepth].push_back(depth);
+    inputs[BudgetInput::kSeaThu].push_back(static_cast<float>(2 * std::hypot(sea[0], sea[1])) * depth);
+    inputs[BudgetInput::kSeaTvu].push_back(static_cast<float>(2 * sea[2]) * depth);
   }
-  outputs.groups[0][2] = pulse;
-  outputs.groups[1][2] = line;
-  BudgetOptions options{.errors = errors, .index = kIndex, .coverage = Coverage::kOneSigma};
-  ComputeBudget(inputs, options, outputs);
-  for (std::size_t i = 0; i < size; ++i) {
-    points[i].thu = thu[i];
-    points[i].tvu = tvu[i];
-    points[i].tvu_air = air[i];
-    points[i].thu_sea = thu_sea[i];
-    points[i].tvu_sea = tvu_sea[i];
-    points[i].tvu_pulse = std::sqrt(pulse[i]);
-    points[i].tvu_line = std::sqrt(line[i]);
-    const auto of = [&](std::size_t entry) { return total[entry][i]; };  // NN EE DD NE ND ED
-    points[i].variance_x = of(1);
-    points[i].variance_y = of(0);
-    points[i].variance_z = of(2);
-    points[i].covariance_xy = of(3);
-    points[i].covariance_xz = -of(5);
-    points[i].covariance_yz = -of(4);
+  inputs[BudgetInput::kSeaAxis] = inputs[BudgetInput::kBeamAzimuth];
+  TotalMemory totals(points.size());
+  ComputeBudget(inputs.inputs(), {.errors = errors, .index = kIndexOfWater, .coverage = Coverage::kOneSigma},
+                totals.outputs());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    quality::AnnotatedPoint& point = points[i];
+    point.thu = totals.numbers[0][i];
+    point.tvu = totals.numbers[1][i];
+    point.tvu_air = totals.numbers[3][i];
+    point.thu_sea = totals.numbers[4][i];
+    point.tvu_sea = totals.numbers[5][i];
+    point.tvu_pulse = static_cast<float>(std::sqrt(totals.Covariance(kPulsePart, i)(2, 2)));
+    point.tvu_line = static_cast<float>(std::sqrt(totals.Covariance(kLinePart, i)(2, 2)));
+    const Eigen::Matrix3f c = totals.Covariance(kTotalPart, i).cast<float>();  // North, east, down.
+    point.variance_x = c(1, 1);
+    point.variance_y = c(0, 0);
+    point.variance_z = c(2, 2);
+    point.covariance_xy = c(0, 1);
+    point.covariance_xz = -c(1, 2);
+    point.covariance_yz = -c(0, 2);
   }
 }
 
@@ -221,7 +179,7 @@ AirErrors TrueErrors() {
 }
 
 std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options) {
-  Random random(options.seed);
+  RandomNumbers random(options.seed);
   std::vector<quality::AnnotatedPoint> points;
   std::vector<double> headings;
   for (int i = 0; i < options.lines; ++i) {

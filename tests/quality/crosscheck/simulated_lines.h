@@ -17,7 +17,6 @@ struct SimulatedLines {
   double length = 3000;        // m
   double spacing = 2;          // m between points, of each line.
   double wave_slope = 0.05;    // One sigma of each component of the slope of the surface.
-  double memory = 5;           // s, over which the errors of the trajectory are correlated.
   double bottom_slope = 0;     // Root mean square in the direction of x, of ridges, beside gentle slopes.
   double bottom_waves = 0;     // m, one sigma of a rough bottom whose waves are some metres long.
   double roll_of_scanner = 0;  // degree: a boresight that nobody knows of.

@@ -1,5 +1,4 @@
-// Layered chunks: what is encoded is decoded, in steps of any size, and files of other programs are encoded to the
-// same bytes again.
+// Layered chunks: what is encoded is decoded, in steps of any size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,15 +6,12 @@
 #include <string>
 #include <tuple>
 
-#include "formats/laz/chunk_table.h"
 #include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
 #include "formats/laz/items/chunk_decoder.h"
 #include "formats/laz/items/point14_fields.h"
 #include "formats/laz/items/point_encoders.h"
 #include "tests/formats/laz/busy_points.h"
-#include "tests/formats/laz/laz_bytes.h"
-#include "tests/formats/laz/laz_sample.h"
 
 namespace albtpu::laz {
 namespace {
@@ -40,29 +36,6 @@ absl::Status DecodeInSteps(LayeredDecoder& decoder, const std::string& chunk, st
     if (!status.ok()) return status;
   }
   return decoder.End(true);
-}
-
-TEST(Layered, ChunksOfOtherProgramsAreEncodedToTheSameBytes) {
-  for (const char* name : {"1_4_w_evlr.laz", "append-bug.laz", "simple.copc.laz"}) {
-    const std::string file = albtpu::testing::SampleBytes(name);
-    if (file.empty()) {
-      GTEST_SKIP() << "no sample files (" << name << ")";
-    }
-    const auto extent = albtpu::testing::ExtentOf(file);
-    const auto table = ReadChunkTable(MemorySource(file), extent->record, extent->points_begin, extent->point_count);
-    ASSERT_FALSE(table->chunks.empty()) << name;
-    LayeredDecoder decoder(extent->record);
-    LayeredEncoder encoder(extent->record);
-    for (const Chunk& chunk : table->chunks) {
-      const std::string bytes = file.substr(chunk.offset, chunk.bytes);
-      std::string records, again;
-      const absl::Status status =
-          DecodeInSteps(decoder, bytes, extent->record.record_length(), chunk.points, 77, records);
-      ASSERT_TRUE(status.ok()) << name << ": " << status;
-      encoder.Encode(records, again);
-      EXPECT_TRUE(bytes == again) << name << ": " << bytes.size() << " bytes, then " << again.size();
-    }
-  }
 }
 
 // Of points of format 10 with extra bytes, which have all layers.

@@ -1,6 +1,7 @@
+#include "annotate/run/file_progress.h"
+
 #include <gtest/gtest.h>
 
-#include "annotate/run/file_progress.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "service/client/channel.h"

@@ -1,7 +1,8 @@
+#include "formats/files/file_access.h"
+
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "formats/files/file_access.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {

@@ -1,10 +1,11 @@
+#include "annotate/answers/answer_counts.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "annotate/answers/answer_counts.h"
 #include "service/client/local_source.h"
 #include "tables/query/interpolation.h"
 #include "tests/tables/synthetic_table.h"

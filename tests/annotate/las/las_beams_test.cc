@@ -1,6 +1,7 @@
+#include "annotate/las/las_beams.h"
+
 #include <gmock/gmock.h>
 
-#include "annotate/las/las_beams.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 

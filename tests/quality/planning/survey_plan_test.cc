@@ -1,8 +1,8 @@
+#include "quality/planning/survey_plan.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "quality/planning/survey_plan.h"
 
 namespace albtpu::quality {
 namespace {

@@ -1,11 +1,53 @@
-// A short flight as the text of an ASCII trajectory and as an SMRMSG, for tests. Each value can be replaced.
+// Flights in closed form, as SBET, SMRMSG and ASCII trajectory. Shares no code with our readers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <vector>
+
+#include "tests/flights/ellipsoid.h"
 
 namespace albtpu::testing {
+
+// The fields of an SBET record by their order in the file.
+enum SbetField {
+  kTime,
+  kLatitude,
+  kLongitude,
+  kHeight,
+  kVelocityX,
+  kVelocityY,
+  kVelocityZ,
+  kRoll,
+  kPitch,
+  kPlatformHeading,
+  kWander,
+  kSbetFields = 17
+};
+using SbetRow = std::array<double, kSbetFields>;
+
+// Latitude and longitude change by a constant rate and by a slow weave, the height by a wave. Angles in degrees.
+struct Flight {
+  double start = 300000, duration = 60, rate = 200;  // s, s, Hz
+  double latitude = 26, longitude = -81.8, height = 400;
+  double speed = 60, course = 30;      // m/s, degrees clockwise from north.
+  double weave = 20, weave_time = 30;  // m, s
+  double climb = 10;                   // m, with a period of 20 s.
+  double roll = 3, pitch = -2;         // Amplitudes; the periods are 7 s and 9 s.
+  double crab = 0;                     // Heading minus course.
+  double wander = 20;
+};
+
+SbetRow RowAt(const Flight& flight, double time);  // s since the start.
+std::vector<SbetRow> Fly(const Flight& flight);
+
+std::string SbetBytes(const std::vector<SbetRow>& rows);
+
+// The rows with a change applied to each.
+std::vector<SbetRow> Changed(std::vector<SbetRow> rows, const std::function<void(SbetRow&)>& change);
 
 // One record in the units of an ASCII trajectory: degrees, metres, seconds.
 struct FlightLine {
@@ -31,9 +73,6 @@ struct FlightSpec {
 
 FlightLine LineOf(const FlightSpec& spec, std::size_t line);
 std::string FlightText(const FlightSpec& spec);
-
-// The same flight as an SBET, whose wander frame is turned by 0.3 rad.
-std::string SbetBytes(const FlightSpec& spec);
 
 // Records of ten doubles, once a second from `start`: the value of field f of record i is 0.01 (f + 1) (1 + i / 10).
 std::string SmrmsgBytes(double start, std::size_t records);
