@@ -48,7 +48,7 @@ class AsciiTrajectory : public Trajectory {
   };
 
  private:
-  AsciiTrajectory(std::string name, std::size_t columns) : Trajectory(std::move(name)), columns_(columns) {}
+  AsciiTrajectory(std::string name, std::size_t columns) : Trajectory(std::move(name), "ASCII"), columns_(columns) {}
 
   std::size_t columns_;
   std::vector<Line> lines_;

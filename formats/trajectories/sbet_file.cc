@@ -77,7 +77,7 @@ std::string Implausibility(const SbetRecord& record) {
 }  // namespace
 
 SbetFile::SbetFile(std::string name, MappedFile file)
-    : Trajectory(std::move(name)),
+    : Trajectory(std::move(name), "SBET"),
       file_(std::move(file)),
       // A mapping begins at a page, so the records are aligned.
       records_(reinterpret_cast<const SbetRecord*>(file_.bytes().data()), file_.bytes().size() / sizeof(SbetRecord)),

@@ -62,6 +62,9 @@ class Trajectory {
   // The path, for messages.
   const std::string& name() const { return name_; }
 
+  // The format, for people: "SBET".
+  const std::string& format() const { return format_; }
+
   // Number of records, at least 2.
   virtual std::size_t size() const = 0;
 
@@ -76,10 +79,10 @@ class Trajectory {
   virtual std::optional<TrajectorySigma> SigmaAt(std::size_t) const { return std::nullopt; }
 
  protected:
-  explicit Trajectory(std::string name) : name_(std::move(name)) {}
+  Trajectory(std::string name, std::string format) : name_(std::move(name)), format_(std::move(format)) {}
 
  private:
-  std::string name_;
+  std::string name_, format_;
 };
 
 // The formats, detected by the content of the file (OpenTrajectory, trajectory_timeline.h): SbetFile::Open(path) in

@@ -23,6 +23,7 @@
 #include "formats/trajectories/sbet_file.h"
 #include "formats/trajectories/trajectory.h"
 #include "formats/trajectories/trajectory_time.h"
+#include "formats/trajectories/trajectory_timeline.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
@@ -100,9 +101,9 @@ std::optional<formats::TrajectorySigma> MedianSigma(
   return median;
 }
 
-TrajectorySummary Summarize(const std::string& format, const formats::Trajectory& trajectory) {
+TrajectorySummary Summarize(const formats::Trajectory& trajectory) {
   TrajectorySummary summary;
-  summary.format = format;
+  summary.format = trajectory.format();
   summary.records = trajectory.size();
   summary.start = trajectory.TimeAt(0);
   summary.end = trajectory.TimeAt(trajectory.size() - 1);
@@ -186,7 +187,7 @@ Json Degrees(double radians) { return Number(DegreesOfRadians(radians)); }
 
 // Opens the file, whose format is detected by its content, checks it and reads all records.
 absl::StatusOr<TrajectorySummary> SummarizeTrajectory(const std::filesystem::path& path) {
-  bool is_text = false, is_smrmsg = false;
+  bool is_smrmsg = false;
   {
     ASSIGN_OR_RETURN(const formats::MappedFile file,
                      formats::MappedFile::Open(path, "an SBET, an SMRMSG or an ASCII trajectory"));
@@ -194,19 +195,14 @@ absl::StatusOr<TrajectorySummary> SummarizeTrajectory(const std::filesystem::pat
       return absl::InvalidArgumentError(
           absl::StrCat(path.string(), ": is empty; give an SBET, an SMRMSG or an ASCII trajectory"));
     }
-    is_text = formats::AsciiTrajectory::Recognizes(file.bytes());
-    is_smrmsg = !is_text && formats::SmrmsgFile::Recognizes(file.bytes());
-  }
-  if (is_text) {
-    ASSIGN_OR_RETURN(const auto trajectory, formats::AsciiTrajectory::Open(path));
-    return Summarize("ASCII", *trajectory);
+    is_smrmsg = !formats::AsciiTrajectory::Recognizes(file.bytes()) && formats::SmrmsgFile::Recognizes(file.bytes());
   }
   if (is_smrmsg) {
     ASSIGN_OR_RETURN(const auto errors, formats::SmrmsgFile::Open(path));
     return Summarize(errors);
   }
-  ASSIGN_OR_RETURN(const auto trajectory, formats::SbetFile::Open(path));
-  return Summarize("SBET", *trajectory);
+  ASSIGN_OR_RETURN(const auto trajectory, formats::OpenTrajectory(path));
+  return Summarize(*trajectory);
 }
 
 // Lines of names and values with units, below the path.

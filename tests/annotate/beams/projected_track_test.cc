@@ -196,7 +196,7 @@ TEST_F(ProjectedTrackTest, MovesTheSensorByTheLeverArm) {
 // A trajectory without attitude.
 class Positions : public formats::Trajectory {
  public:
-  Positions() : formats::Trajectory("positions") {}
+  Positions() : formats::Trajectory("positions", "none") {}
   std::size_t size() const override { return 100; }
   double TimeAt(std::size_t record) const override { return 300000 + 0.1 * static_cast<double>(record); }
   formats::TrajectoryRecord Record(std::size_t record) const override {
