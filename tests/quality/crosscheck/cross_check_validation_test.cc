@@ -75,16 +75,17 @@ TEST(CrossCheckOfSimulatedSurveys, CountsTheHorizontalErrorsOnASlope) {
 TEST(CrossCheckOfSimulatedSurveys, FindsAnAirSideDeclaredHalfAsLarge) {
   double sum = 0;
   int accused = 0;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  const int surveys = kSeeds / 2;  // Their factors scatter by 0.08.
+  for (int seed = 1; seed <= surveys; ++seed) {
     const CrossCheck check = CheckOf({.seed = static_cast<std::uint64_t>(seed), .declared = 0.5});
     sum += check.factor_air.value;
     accused += check.guilty == "air" ? 1 : 0;
     EXPECT_GT(check.chi_square, 1.3) << seed;
   }
-  std::cout << "factor of the air side, mean of " << kSeeds << " surveys: " << sum / kSeeds << "; accused in "
+  std::cout << "factor of the air side, mean of " << surveys << " surveys: " << sum / surveys << "; accused in "
             << accused << "\n";
-  EXPECT_NEAR(sum / kSeeds, 2, 0.1);
-  EXPECT_EQ(accused, kSeeds);
+  EXPECT_NEAR(sum / surveys, 2, 0.1);
+  EXPECT_EQ(accused, surveys);
 }
 
 TEST(CrossCheckOfSimulatedSurveys, FindsAnAirSideDeclaredHalfAsLargeWhereNothingElseErrs) {
