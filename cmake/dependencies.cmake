@@ -1,4 +1,4 @@
-# All dependencies are Debian 12 packages, which packages.txt lists.
+# All dependencies are packages of Debian 12 and 13, which packages.txt lists.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(OpenSSL REQUIRED)
