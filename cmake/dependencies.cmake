@@ -35,6 +35,13 @@ pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
 # work with it.
 find_package(Protobuf REQUIRED MODULE)
 find_package(gRPC REQUIRED CONFIG)
+# gRPC finds RE2 by pkg-config. In Debian 13 that adds -DNOMINMAX, which concerns Windows only; with it, compilers do
+# not accept precompiled headers that were compiled without.
+if(TARGET re2::re2)
+  get_property(options TARGET re2::re2 PROPERTY INTERFACE_COMPILE_OPTIONS)
+  list(REMOVE_ITEM options -DNOMINMAX)
+  set_property(TARGET re2::re2 PROPERTY INTERFACE_COMPILE_OPTIONS "${options}")
+endif()
 
 # Open MPI or another. Without it, jobs with --shard share the work of a table.
 find_package(MPI COMPONENTS C)
