@@ -12,8 +12,8 @@ package_names() {
 # Installs the missing ones, as root or through sudo. Does nothing if none is missing.
 install_packages() {
   if ! command -v apt-get dpkg-query >/dev/null; then
-    echo "$0: apt-get is missing (expected Debian 12); elsewhere, install the packages of packages.txt and build with" \
-      "cmake --preset release" >&2
+    echo "$0: apt-get is missing (expected Debian 12 or 13); elsewhere, install the packages of packages.txt and" \
+      "build with cmake --preset release" >&2
     return 1
   fi
   local installed missing

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a survey file with THU and TVU at every bathymetric point, without user input: builds the
-# programs, makes a small table by Monte Carlo, serves it and annotates a flight line through the service. Everything
-# that it writes is in build/ and out/ beside this file.
+# From a bare Debian 12 or 13 to a survey file with THU and TVU at every bathymetric point, without user input: builds
+# the programs, makes a small table by Monte Carlo, serves it and annotates a flight line through the service.
+# Everything that it writes is in build/ and out/ beside this file.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh

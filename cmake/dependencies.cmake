@@ -1,4 +1,4 @@
-# All dependencies are Debian 12 packages, which packages.txt lists.
+# All dependencies are packages of Debian 12 and 13, which packages.txt lists.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(OpenSSL REQUIRED)
@@ -35,6 +35,13 @@ pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
 # work with it.
 find_package(Protobuf REQUIRED MODULE)
 find_package(gRPC REQUIRED CONFIG)
+# gRPC finds RE2 by pkg-config. In Debian 13 that adds -DNOMINMAX, which concerns Windows only; with it, compilers do
+# not accept precompiled headers that were compiled without.
+if(TARGET re2::re2)
+  get_property(options TARGET re2::re2 PROPERTY INTERFACE_COMPILE_OPTIONS)
+  list(REMOVE_ITEM options -DNOMINMAX)
+  set_property(TARGET re2::re2 PROPERTY INTERFACE_COMPILE_OPTIONS "${options}")
+endif()
 
 # Open MPI or another. Without it, jobs with --shard share the work of a table.
 find_package(MPI COMPONENTS C)

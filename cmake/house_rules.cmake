@@ -96,12 +96,13 @@ function(albtpu_program target)
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# For targets that contain or test Highway kernels. A kernel is compiled once for each instruction set, except AVX-512
-# and those of variable vector width, and the best one is chosen at run time:
+# For targets that contain or test Highway kernels. A kernel is compiled once for each of these instruction sets, of
+# vectors of fixed width up to 8 floats, and the best one is chosen at run time. The last two are for other processors.
+# All others are disabled, also those of later versions of Highway:
 #   albtpu_kernels(NAME PRIVATE|PUBLIC)
 function(albtpu_kernels target scope)
   target_compile_definitions(${target} ${scope}
-    "HWY_DISABLED_TARGETS=(HWY_AVX3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+    "HWY_DISABLED_TARGETS=(~(HWY_SSSE3|HWY_SSE4|HWY_AVX2|HWY_NEON|HWY_EMU128|HWY_SCALAR))")
   # Highway's NEON target includes the cryptographic instructions. Compiled without them, member functions that g++
   # generates implicitly cannot hold its vectors.
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")

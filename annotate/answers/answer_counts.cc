@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
 
 #include "absl/strings/str_cat.h"
 #include "tables/pulse.h"
@@ -13,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // Null if there is none.
-const ordered_json& Member(const ordered_json& object, const std::string& name) {
+const ordered_json& Member(const ordered_json& object, std::string_view name) {
   static const ordered_json null;
   const auto found = object.is_object() ? object.find(name) : object.end();
   return found == object.end() ? null : *found;

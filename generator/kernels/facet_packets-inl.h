@@ -38,7 +38,7 @@ HWY_INLINE void LoadPairs(const float* heights, const std::int32_t* at, V& first
   const hn::CappedTag<float, 4> pairs;
   const auto low = hn::Combine(pairs, hn::LoadU(pair, heights + at[1]), hn::LoadU(pair, heights + at[0]));
   const auto high = hn::Combine(pairs, hn::LoadU(pair, heights + at[3]), hn::LoadU(pair, heights + at[2]));
-#if HWY_TARGET == HWY_AVX2
+#if HWY_MAX_BYTES >= 32
   const auto low2 = hn::Combine(pairs, hn::LoadU(pair, heights + at[5]), hn::LoadU(pair, heights + at[4]));
   const auto high2 = hn::Combine(pairs, hn::LoadU(pair, heights + at[7]), hn::LoadU(pair, heights + at[6]));
   first = hn::Combine(d, hn::ConcatEven(pairs, high2, low2), hn::ConcatEven(pairs, high, low));

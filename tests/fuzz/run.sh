@@ -30,8 +30,8 @@ for target in "${targets[@]}"; do
     exit 2
   fi
 done
-if ! command -v clang++-14 >/dev/null; then
-  echo "$0: clang++-14 is missing; apt-get install clang-14 libclang-rt-14-dev" >&2
+if ! command -v clang++ >/dev/null; then
+  echo "$0: clang++ is missing; apt-get install clang libclang-rt-dev" >&2
   exit 2
 fi
 

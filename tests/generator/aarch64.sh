@@ -10,7 +10,7 @@ source ./packages.sh
 
 build=$PWD/build/aarch64
 root=$build/root
-libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev libhwy1 librandom123-dev)
+libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev librandom123-dev)
 
 # The code from a sea's spectrum to traced rays. The rest of the generator needs more libraries.
 sources=(sea/*.cc sea/*/*.cc generator/{math,surface,kernels}/*.cc
@@ -29,7 +29,10 @@ unpack_libraries() {
              -o "Dir::State=$apt/state" -o "Dir::State::status=$apt/state/status" -o "Dir::Cache=$apt/cache"
              -o "APT::Sandbox::User=$(id -un)")
   "${get[@]}" update
-  (cd "$apt/packages" && "${get[@]}" download "${libraries[@]}")
+  # The name of Highway's shared library differs between versions of Debian.
+  local highway
+  highway=$(apt-cache "${get[@]:2}" show libhwy-dev | sed -nE 's/^Depends:.*\b(libhwy1[a-z0-9]*).*/\1/p')
+  (cd "$apt/packages" && "${get[@]}" download "${libraries[@]}" "$highway")
   local package
   for package in "$apt"/packages/*.deb; do dpkg-deb --extract "$package" "$root"; done
   echo "${libraries[*]}" >"$root/complete"
@@ -41,11 +44,12 @@ compile() {
   mkdir -p "$(dirname "$object")"
   ccache aarch64-linux-gnu-g++ -std=c++20 -O3 -march=armv8-a+crypto \
     -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-psabi \
-    "-DHWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)" \
+    "-D$instruction_sets" \
     -I. -isystem "$root/usr/include" -isystem "$root/usr/include/eigen3" -c "$1" -o "$object"
 }
+instruction_sets=$(grep -o 'HWY_DISABLED_TARGETS=[^"]*' cmake/house_rules.cmake)
 export -f compile
-export build root
+export build root instruction_sets
 
 install_packages aarch64
 unpack_libraries

@@ -11,29 +11,30 @@
 namespace absl {
 ABSL_NAMESPACE_BEGIN
 
-using albtpu::sanitizers::NextFunction;
+using albtpu::sanitizers::NextMember;
 
 void Mutex::Lock() {
-  static const auto lock = NextFunction<void(Mutex*)>("_ZN4absl7debian35Mutex4LockEv");
+  static const auto lock = NextMember<Mutex, void(Mutex*)>("4LockEv");
   lock(this);
   __tsan_acquire(this);
 }
 
 bool Mutex::TryLock() {
-  static const auto try_lock = NextFunction<bool(Mutex*)>("_ZN4absl7debian35Mutex7TryLockEv");
+  static const auto try_lock = NextMember<Mutex, bool(Mutex*)>("7TryLockEv");
   const bool locked = try_lock(this);
   if (locked) __tsan_acquire(this);
   return locked;
 }
 
 void Mutex::Unlock() {
-  static const auto unlock = NextFunction<void(Mutex*)>("_ZN4absl7debian35Mutex6UnlockEv");
+  static const auto unlock = NextMember<Mutex, void(Mutex*)>("6UnlockEv");
   __tsan_release(this);
   unlock(this);
 }
 
+#if ABSL_LTS_RELEASE_VERSION == 20220623
 void CondVar::Wait(Mutex* mutex) {
-  static const auto wait = NextFunction<void(CondVar*, Mutex*)>("_ZN4absl7debian37CondVar4WaitEPNS0_5MutexE");
+  static const auto wait = NextMember<CondVar, void(CondVar*, Mutex*)>("4WaitEPNS0_5MutexE");
   __tsan_release(mutex);
   wait(this, mutex);
   __tsan_acquire(mutex);
@@ -41,7 +42,7 @@ void CondVar::Wait(Mutex* mutex) {
 
 bool CondVar::WaitWithDeadline(Mutex* mutex, Time deadline) {
   static const auto wait =
-      NextFunction<bool(CondVar*, Mutex*, Time)>("_ZN4absl7debian37CondVar16WaitWithDeadlineEPNS0_5MutexENS0_4TimeE");
+      NextMember<CondVar, bool(CondVar*, Mutex*, Time)>("16WaitWithDeadlineEPNS0_5MutexENS0_4TimeE");
   __tsan_release(mutex);
   const bool expired = wait(this, mutex, deadline);
   __tsan_acquire(mutex);
@@ -49,13 +50,24 @@ bool CondVar::WaitWithDeadline(Mutex* mutex, Time deadline) {
 }
 
 bool CondVar::WaitWithTimeout(Mutex* mutex, Duration timeout) {
-  static const auto wait = NextFunction<bool(CondVar*, Mutex*, Duration)>(
-      "_ZN4absl7debian37CondVar15WaitWithTimeoutEPNS0_5MutexENS0_8DurationE");
+  static const auto wait =
+      NextMember<CondVar, bool(CondVar*, Mutex*, Duration)>("15WaitWithTimeoutEPNS0_5MutexENS0_8DurationE");
   __tsan_release(mutex);
   const bool expired = wait(this, mutex, timeout);
   __tsan_acquire(mutex);
   return expired;
 }
+#else
+// In later versions the others are inline and call this one.
+bool CondVar::WaitCommon(Mutex* mutex, synchronization_internal::KernelTimeout timeout) {
+  static const auto wait = NextMember<CondVar, bool(CondVar*, Mutex*, synchronization_internal::KernelTimeout)>(
+      "10WaitCommonEPNS0_5MutexENS0_24synchronization_internal13KernelTimeoutE");
+  __tsan_release(mutex);
+  const bool expired = wait(this, mutex, timeout);
+  __tsan_acquire(mutex);
+  return expired;
+}
+#endif
 
 ABSL_NAMESPACE_END
 }  // namespace absl

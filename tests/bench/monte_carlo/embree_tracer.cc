@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/bench/monte_carlo/embree_packet.h"
-
 namespace albtpu::bench {
 namespace {
 
@@ -67,7 +65,7 @@ std::string Name(const EmbreeOptions& options) {
 }
 
 EmbreeTracer::EmbreeTracer(const EmbreeOptions& options, int points, float spacing)
-    : options_(options), points_(points) {
+    : options_(options), points_(points), query_(QueryOf(options.coherent)) {
   const std::string device = "threads=1" + (options.device.empty() ? "" : "," + options.device);
   device_ = rtcNewDevice(device.c_str());
   assert(device_ != nullptr);
@@ -95,8 +93,6 @@ EmbreeTracer::EmbreeTracer(const EmbreeOptions& options, int points, float spaci
   grid ? SetGrid(geometry_, points) : SetTriangles(geometry_, points);
   rtcCommitGeometry(geometry_);
   rtcAttachGeometry(scene_, geometry_);
-  rtcInitIntersectContext(&context_);
-  context_.flags = options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
 
 EmbreeTracer::~EmbreeTracer() {
@@ -146,12 +142,15 @@ void EmbreeTracer::TraceBlock(const FloatRays& rays, int first, int count, Hits&
     std::fill_n(packet.geometry, kWidth, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet.instance, kWidth, RTC_INVALID_GEOMETRY_ID);
   }
+#if ALBTPU_EMBREE == 3
   if constexpr (kWidth == kBlock) {
-    IntersectArrays(scene_, &context_, packets[0], count);
+    IntersectArrays(scene_, &query_, packets[0], count);
   } else if (options_.rays == EmbreeRays::k1M || options_.rays == EmbreeRays::k8M) {
-    if constexpr (kWidth == 1 || kWidth == 8) IntersectStream(scene_, &context_, packets.data(), used);
-  } else {
-    for (int p = 0; p < used; ++p) Intersect(scene_, &context_, packets[p]);
+    if constexpr (kWidth == 1 || kWidth == 8) IntersectStream(scene_, &query_, packets.data(), used);
+  } else
+#endif
+  {
+    for (int p = 0; p < used; ++p) Intersect(scene_, &query_, packets[p]);
   }
   for (int p = 0; p < used; ++p) {
     const EmbreePacket<kWidth>& packet = packets[p];
@@ -192,7 +191,9 @@ BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
         TraceBlock<16>(rays, first, count, hits);
         break;
       case EmbreeRays::kNp:
+#if ALBTPU_EMBREE == 3
         TraceBlock<kBlock>(rays, first, count, hits);
+#endif
         break;
     }
     // RefractAtSlope of sea/response/closed_form.h, vectorized.

@@ -1,19 +1,26 @@
-// Embree 3 as the tracer of a beam: the surface is a mesh in its tree and rays are in its packets; refraction and sums
-// follow.
+// Embree 3 or 4 as the tracer of a beam: the surface is a mesh in its tree and rays are in its packets; refraction and
+// sums follow.
 #pragma once
-
-#include <embree3/rtcore.h>
 
 #include <string>
 #include <vector>
 
 #include "tests/bench/monte_carlo/beam_case.h"
+#include "tests/bench/monte_carlo/embree_packet.h"
 
 namespace albtpu::bench {
 
 enum class EmbreeGeometry { kTriangles, kGrid };
 enum class EmbreeBuild { kHigh, kMedium, kLow, kRefit };   // rtcSetGeometryBuildQuality and rtcSetSceneBuildQuality
 enum class EmbreeRays { k1, k4, k8, k16, k1M, k8M, kNp };  // rtcIntersect...: one ray, packets, streams
+
+// Those that this version of Embree has.
+inline constexpr EmbreeRays kEmbreeRays[] = {
+    EmbreeRays::k1,  EmbreeRays::k4,  EmbreeRays::k8,  EmbreeRays::k16,
+#if ALBTPU_EMBREE == 3
+    EmbreeRays::k1M, EmbreeRays::k8M, EmbreeRays::kNp,
+#endif
+};
 
 struct EmbreeOptions {
   EmbreeGeometry geometry = EmbreeGeometry::kTriangles;
@@ -52,7 +59,7 @@ class EmbreeTracer {
   RTCScene scene_;
   RTCGeometry geometry_;
   float* vertices_;
-  RTCIntersectContext context_;
+  EmbreeQuery query_;
   std::vector<float> hit_heights_;
 };
 

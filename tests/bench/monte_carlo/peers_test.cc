@@ -107,14 +107,9 @@ std::vector<EmbreeOptions> AllModes() {
   std::vector<EmbreeOptions> modes;
   for (const EmbreeGeometry geometry : {EmbreeGeometry::kTriangles, EmbreeGeometry::kGrid}) {
     for (const EmbreeBuild build : {EmbreeBuild::kHigh, EmbreeBuild::kRefit}) {
-      for (int rays = 0; rays <= static_cast<int>(EmbreeRays::kNp); ++rays) {
-        for (const bool robust : {true, false}) {
-          modes.push_back({.geometry = geometry,
-                           .build = build,
-                           .rays = static_cast<EmbreeRays>(rays),
-                           .robust = robust,
-                           .coherent = false});
-        }
+      for (const EmbreeRays rays : kEmbreeRays) {
+        for (const bool robust : {true, false})
+          modes.push_back({.geometry = geometry, .build = build, .rays = rays, .robust = robust, .coherent = false});
       }
     }
   }

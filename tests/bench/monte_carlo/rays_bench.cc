@@ -113,8 +113,7 @@ void Embree(benchmark::State& state, const Bench& bench, const EmbreeOptions& op
 std::vector<EmbreeOptions> EmbreeModes() {
   std::vector<EmbreeOptions> modes;
   for (const EmbreeGeometry geometry : {EmbreeGeometry::kTriangles, EmbreeGeometry::kGrid}) {
-    for (const EmbreeRays rays : {EmbreeRays::k1, EmbreeRays::k4, EmbreeRays::k8, EmbreeRays::k16, EmbreeRays::k1M,
-                                  EmbreeRays::k8M, EmbreeRays::kNp}) {
+    for (const EmbreeRays rays : kEmbreeRays) {
       for (const bool robust : {true, false})
         for (const bool coherent : {true, false})
           modes.push_back({.geometry = geometry, .rays = rays, .robust = robust, .coherent = coherent});

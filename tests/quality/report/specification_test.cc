@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <string_view>
 
 namespace albtpu::quality {
 namespace {
@@ -16,7 +18,7 @@ class ShippedSpecifications : public ::testing::Test {
   void SetUp() override { setenv("ALBTPU_SPECIFICATIONS", SHIPPED_SPECIFICATIONS, 1); }
   void TearDown() override { unsetenv("ALBTPU_SPECIFICATIONS"); }
 
-  static const SpecificationClass& Class(const Specification& specification, const std::string& name) {
+  static const SpecificationClass& Class(const Specification& specification, std::string_view name) {
     for (const SpecificationClass& each : specification.classes)
       if (each.name == name) return each;
     ADD_FAILURE() << name;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "validation/studies/studies.h"
 
@@ -14,7 +15,7 @@ const StudyOptions kQuick{.published = PAPER_FOLDER, .quick = true};
 
 bool Has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-const DataTable& TableOf(const Study& study, const std::string& name) {
+const DataTable& TableOf(const Study& study, std::string_view name) {
   const auto table =
       std::find_if(study.tables.begin(), study.tables.end(), [&](const auto& t) { return t.name == name; });
   EXPECT_NE(table, study.tables.end()) << name;

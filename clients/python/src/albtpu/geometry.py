@@ -72,7 +72,7 @@ def beams(*, east: ArrayLike, north: ArrayLike, height: ArrayLike, depth: ArrayL
     x, y, above, below, grid = (np.broadcast_to(array, shape).reshape(-1) for array in arrays.values())
     found = beams_in_radians(x, y, above, below, grid * np.pi / 180, float(index))
     incidence, azimuth, slant_range, water_path = (column.reshape(shape) for column in found)
-    return Beams(incidence * 180 / np.pi, azimuth * 180 / np.pi, slant_range, water_path)
+    return Beams(np.divide(incidence * 180, np.pi), np.divide(azimuth * 180, np.pi), slant_range, water_path)
 
 
 def footprint(slant_range: ArrayLike, divergence_mrad: ArrayLike, aperture: ArrayLike = 0) -> Doubles:

@@ -101,15 +101,18 @@ class Interpolator:
         located = self._locate({axis: column for axis, column in columns.items()
                                 if axis not in self._constant})
         outcomes, outcome_axes = _outcomes(located | self._constant, count)
-        values, standard_errors = {}, {}
+        values: dict[str, Doubles] = {}
+        standard_errors: dict[str, Doubles] = {}
         for names, grid in self._grids:
-            for (name, is_error), numbers in zip(names, grid.at(located, count).T):
+            found = grid.at(located, count)
+            for column, (name, is_error) in enumerate(names):
+                numbers = found[:, column]
                 if is_error:
                     standard_errors[name] = numbers
                 else:
                     values[name] = np.exp(numbers) if name in self._log else numbers
                     values[name] = values[name].astype(np.float32).astype(np.float64)
-        radius = np.ones(count)
+        radius: Doubles = np.ones(count)
         if all(name in values for name in REFRACTIONS):
             radius = radius_over_thu(*(values[name] for name in REFRACTIONS))
         return PulseNumbers(outcomes, outcome_axes, values, standard_errors, radius)

@@ -35,7 +35,8 @@ def read_spectrum(path: str | os.PathLike[str], time: object) -> Spectrum:
     rows = {row.time: row for row in rows.values() if len(row.values) >= 2}
     if not rows:
         raise ArgumentError(f"{path}: no record has energy; give another file")
-    row = rows[max(rows) if time is None else _known_time(path, time, sorted(rows))]
+    times = list(np.sort(list(rows)))
+    row = rows[times[-1] if time is None else _known_time(path, time, times)]
     r2, alpha2 = (_beside(other, quantity, row.time) for other, quantity in _companions(path))
     frequencies, energy = list(row.values), list(row.values.values())
     nan = float("nan")

@@ -64,7 +64,7 @@ def _factors() -> tuple[Doubles, Doubles]:
     mean over t of exp(-radius^2 / (2 w)), where w = cos^2 t + ratio^2 sin^2 t. Newton's method, started at 2,
     finds the radius at which that probability is 5 %.
     """
-    ratio = np.linspace(0, 1, 1025)
+    ratio = np.linspace(0, 1, 1025, dtype=np.float64)
     t = (np.arange(64) + 0.5) * np.pi / 128
     w = np.cos(t) ** 2 + np.outer(ratio, np.sin(t)) ** 2
     radius = np.full_like(ratio, 2.0)

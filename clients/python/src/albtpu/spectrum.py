@@ -104,7 +104,7 @@ def dataset_spectrum(dataset: xarray.Dataset) -> tuple[Spectrum, dict[str, float
     weights = _direction_weights(np.radians(np.asarray(efth["dir"], np.float64)))
     bins = density @ weights.T  # energy, then cosine and sine of each harmonic
     frequencies = [float(f) for f in efth["freq"].values]
-    columns = [tuple(column) for column in bins.T.tolist()]
+    columns = [tuple(float(number) for number in column) for column in bins.T]
     return (Spectrum(tuple(frequencies), columns[0], cosines=tuple(columns[1::2]), sines=tuple(columns[2::2])),
             {name: _single(dataset, name) for name in ("wspd", "wdir", "dpt") if name in dataset})
 

@@ -29,7 +29,7 @@ def open_table(path: str | os.PathLike[str]) -> TableFile:
     Raises TableFileError, which says what is wrong with the file.
 
     >>> with open_table("survey.h5") as table:
-    ...     table.table().axes["depth"].nodes[-1]
+    ...     float(table.table().axes["depth"].nodes[-1])
     60.0
     """
     path = pathlib.Path(path)
@@ -136,5 +136,4 @@ class _Answers:
 
 def _azimuths(content: TableContent) -> list[float]:
     """A pulse without azimuth has the largest values over these azimuths."""
-    nodes: list[float] = content.table.axes["azimuth"].nodes.tolist()
-    return [0, 90] if content.table.kind == SEA_SURFACE else nodes
+    return [0, 90] if content.table.kind == SEA_SURFACE else list(map(float, content.table.axes["azimuth"].nodes))

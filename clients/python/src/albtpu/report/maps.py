@@ -39,8 +39,8 @@ def read_overview(path: pathlib.Path, metres_per_unit: float) -> Overview:
         first, last, top, bottom = _used(grid, rows, columns)
         step = max(1, -(-max(last - first, bottom - top) // LARGEST_SIDE))
         height, width = -(-(bottom - top) // step), -(-(last - first) // step)
-        layers = {name: np.full((height, width), np.nan)
-                  for name in (*MEANS, "order_met", "dominant_share", "gap", "without_number")}
+        layers: dict[str, Doubles] = {name: np.full((height, width), np.nan) for name in (
+            *MEANS, "order_met", "dominant_share", "gap", "without_number")}
         for row in range(height):
             rows_of = slice(top + row * step, min(top + (row + 1) * step, bottom))
             _read_row(grid, rows_of, slice(first, last), step, row, layers)
