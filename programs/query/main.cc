@@ -27,6 +27,7 @@ int Main(int argc, char** argv) {
           "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
           "--divergence 1");
   Run run;
+  AddInitCommand(program, run);
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
