@@ -58,15 +58,42 @@ std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
   return "";
 }
 
-absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names,
-                           const InputOrigins& origins) {
+absl::Status MissingColumns(const std::string& file, const std::vector<AxisId>& axes,
+                            const std::vector<std::string>& names, const InputOrigins& origins) {
   const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
-  return absl::InvalidArgumentError(absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name),
-                                                 "' (columns found: ", absl::StrJoin(names, ", "), "); ",
-                                                 other_separator
-                                                     ? std::string("separate the columns by commas")
-                                                     : absl::StrCat("add it, or give one value for all pulses by ",
-                                                                    FlagName(axis), MissingAdvice(axis, origins))));
+  const auto list = [&](const char* separator, const auto& text_of) {
+    return absl::StrJoin(axes, separator, [&](std::string* text, AxisId axis) { text->append(text_of(axis)); });
+  };
+  const bool one = axes.size() == 1;
+  return absl::InvalidArgumentError(absl::StrCat(
+      file, " line 1: no column", one ? " " : "s ",
+      list(", ", [](AxisId axis) { return absl::StrCat("'", std::string(Describe(axis).name), "'"); }),
+      " (columns found: ", absl::StrJoin(names, ", "), "); ",
+      other_separator
+          ? std::string("separate the columns by commas")
+          : absl::StrCat("add ", one ? "it" : "them", ", or give one value for all pulses by ",
+                         list(" and ", [&](AxisId axis) { return FlagName(axis) + MissingAdvice(axis, origins); }))));
+}
+
+// Where the inputs of pulses come from. A column comes before a flag; with both, Bind() fails.
+InputOrigins OriginsOf(const std::vector<std::string>& names, const FixedInputs& fixed) {
+  InputOrigins origins = {};
+  for (std::size_t i = 0; i < kPulseInputCount; ++i)
+    if (fixed[static_cast<PulseInput>(i)].has_value()) origins[i] = InputOrigin::kFlag;
+  for (const std::string& name : names)
+    if (const std::optional<PulseInput> input = FindInput(name)) origins[Index(*input)] = InputOrigin::kColumn;
+  if (fixed.any_sea && origins[Index(PulseInput::kBeamAzimuth)] != InputOrigin::kNone)
+    origins[Index(PulseInput::kWindFrom)] = InputOrigin::kFlag;  // It is north.
+  return origins;
+}
+
+std::vector<AxisId> MissingIn(const InputOrigins& origins, bool any_sea) {
+  std::vector<AxisId> missing;
+  for (const AxisId axis : kAxes) {
+    const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
+    if (!given && !MayBeAbsent(axis) && !(any_sea && IsOfSea(InputOf(axis)))) missing.push_back(axis);
+  }
+  return missing;
 }
 
 bool MayBeEmpty(PulseInput input) {
@@ -83,6 +110,10 @@ PulseBatch OnePulse(const FixedCoordinates& fixed) {
   return pulse;
 }
 
+std::vector<AxisId> MissingAxes(const formats::CsvRecord& header, const FixedInputs& fixed) {
+  return MissingIn(OriginsOf(ColumnNames(header), fixed), fixed.any_sea);
+}
+
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats::CsvRecord& header,
                                           const FixedInputs& fixed, const std::vector<std::string>& appended) {
   const std::vector<std::string> names = ColumnNames(header);
@@ -91,7 +122,7 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
   pulses.name_ = name;
   pulses.column_count_ = names.size();
   std::array<std::size_t, kPulseInputCount> column_of = {};
-  InputOrigins origins = {};
+  InputOrigins origins = OriginsOf(names, fixed);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::optional<PulseInput> input = FindInput(names[i]);
     if (!input.has_value()) continue;
@@ -101,7 +132,6 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
                                                      "out the column, or the sea"));
     }
     column_of[Index(*input)] = i;
-    origins[Index(*input)] = InputOrigin::kColumn;
   }
   for (std::size_t i = 0; i < kPulseInputCount; ++i) {
     const auto input = static_cast<PulseInput>(i);
@@ -110,20 +140,15 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
       return formats::UsageError(absl::StrCat(FlagName(input), ": ", name, " also has the column '",
                                               std::string(Name(input)), "'; leave out one of them"));
     }
-    origins[i] = InputOrigin::kFlag;
     pulses.fixed_[i] = *fixed[input];
   }
   if (fixed.any_sea && origins[Index(PulseInput::kBeamAzimuth)] != InputOrigin::kNone) {
-    origins[Index(PulseInput::kWindFrom)] = InputOrigin::kFlag;
     pulses.fixed_[Index(PulseInput::kWindFrom)] = kWindForNorth;
     pulses.azimuths_from_north_ = true;
   }
   RETURN_IF_ERROR(CheckWays(origins, absl::StrCat(name, " line 1")));
-  for (const AxisId axis : kAxes) {
-    const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
-    if (fixed.any_sea && IsOfSea(InputOf(axis))) continue;
-    if (!given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names, origins);
-  }
+  const std::vector<AxisId> missing = MissingIn(origins, fixed.any_sea);
+  if (!missing.empty()) return MissingColumns(name, missing, names, origins);
   for (const OtherWay& way : kOtherWays) {  // Half of a way is like any other column.
     if (IsGivenByOtherWay(way.axis, origins)) continue;
     origins[Index(way.first)] = origins[Index(way.second)] = InputOrigin::kNone;

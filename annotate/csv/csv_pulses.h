@@ -29,6 +29,9 @@ absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const for
                                               std::size_t index, std::string_view column, std::string_view units,
                                               bool may_be_empty);
 
+// The axes that neither columns of this header nor `fixed` give, although they may not be absent.
+std::vector<AxisId> MissingAxes(const formats::CsvRecord& header, const FixedInputs& fixed);
+
 class CsvPulses {
  public:
   // `name` is the file, for messages; `appended` are the columns that the output gets in addition.

@@ -129,12 +129,6 @@ absl::Status CheckTimes(const formats::LasReader& reader, const LasAnnotation& a
                    "one --water-level, or a file of another point format"));
 }
 
-// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
-// older point formats water (9) and what NOAA used before.
-std::set<int> UsualSurfaceClasses(int point_format) {
-  return point_format >= formats::kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
-}
-
 TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
                    const WaterHeights& water, double index) {
   return {.name = reader.name(),
@@ -223,7 +217,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
                               .water_classes = plan.water_classes,
                               .pairs = plan.has_track(),
                               .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
-                              .level_classes = UsualSurfaceClasses(reader.header().point_format)}));
+                              .level_classes = formats::UsualSurfaceClasses(reader.header().point_format)}));
     beams->NoteLevel();
   }
   if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, *annotation.seas));

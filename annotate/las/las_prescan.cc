@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t kPrescanChunkBytes = 4 << 20;
 constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
-// ASPRS, LAS 1.4 R15, tables 8 and 17.
-constexpr int kLowNoise = 7, kHighNoise = 18;
 
 // The contribution of one chunk.
 struct Part {
@@ -123,7 +121,7 @@ class PrescanWork {
   }
 
   bool MayBelongToAPair(int point_class) const {
-    return point_class != kLowNoise && point_class != kHighNoise && !is_water_[point_class];
+    return point_class != formats::kLowNoise && point_class != formats::kHighNoise && !is_water_[point_class];
   }
 
   PulseReturn ReturnOf(const Part& part, std::size_t i) const {

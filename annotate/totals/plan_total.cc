@@ -12,6 +12,7 @@
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
 #include "config/sensors/sensor.h"
+#include "config/survey_draft.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "status/status_macros.h"
@@ -147,22 +148,6 @@ absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surfac
       "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
 }
 
-absl::Status CheckDecided(const config::SurveySettings& survey) {
-  if (!survey.datum.sigma.has_value()) {
-    return formats::UsageError(
-        "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
-        "[datum] sigma "
-        "in m, 1 sigma (0 for ellipsoidal heights)");
-  }
-  if (survey.water.without_column() || survey.water.bias.has_value()) return absl::OkStatus();
-  return formats::UsageError(
-      "the share of the water column is not decided, so that no number may be called total; give [water] "
-      "bias = "
-      "\"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics of the "
-      "water and "
-      "the receiver, or column = \"none\" to leave it out");
-}
-
 }  // namespace
 
 TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) {
@@ -172,8 +157,25 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) 
           .has_level = surface.level.has_value()};
 }
 
+std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey) {
+  std::vector<config::OpenDecision> open;
+  if (!survey.datum.sigma.has_value()) {
+    open.push_back({"datum",
+                    "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
+                    "[datum] sigma in m, 1 sigma (0 for ellipsoidal heights)"});
+  }
+  if (!survey.water.without_column() && !survey.water.bias.has_value()) {
+    open.push_back({"water",
+                    "the share of the water column is not decided, so that no number may be called total; give [water] "
+                    "bias = \"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics "
+                    "of the water and the receiver, or column = \"none\" to leave it out"});
+  }
+  return open;
+}
+
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
-  RETURN_IF_ERROR(CheckDecided(survey));
+  const std::vector<config::OpenDecision> open = UndecidedOf(survey);
+  if (!open.empty()) return formats::UsageError(open.front().message);
   ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*survey.sensor.name));
   ASSIGN_OR_RETURN(const SurfaceLocation located, LocationOf(survey.surface, context));
   TotalPlan plan;

@@ -11,6 +11,10 @@
 #include "budget/total/budget_columns.h"
 #include "config/survey_settings.h"
 
+namespace albtpu::config {
+struct OpenDecision;
+}  // namespace albtpu::config
+
 namespace albtpu::annotate {
 
 // How the total uncertainty of a survey is made: the errors of the air side, where the surface was located, the datum,
@@ -51,8 +55,12 @@ struct TotalContext {
 // That of a command without a surface of its own: what the settings say.
 TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 
+// Whether a part of the total is not decided, so that its name would not be true: the datum, and the water column or
+// that it is left out.
+std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey);
+
 // UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part
-// of the total is not decided, so that its name is true: the datum, and the water column or that it is left out.
+// of the total is not decided.
 // `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 

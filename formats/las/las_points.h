@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -22,10 +23,17 @@ inline constexpr int kFirstModernFormat = 6;           // Formats 6-10 have a by
 inline constexpr double kModernScanAngleStep = 0.006;  // degree
 inline constexpr int kLegacyClassMask = 0x1F;          // Formats 0-5 have flags in the upper bits.
 inline constexpr int kClassCount = 256;
+inline constexpr int kLowNoise = 7, kHighNoise = 18;  // ASPRS, LAS 1.4 R15, tables 8 and 17.
 
 // The class of bottom seen through water: 40 in the ASPRS LAS Domain Profile for Topo-Bathy Lidar, 26 in older files,
 // whose classes end at 31.
 constexpr int DefaultClass(int point_format) { return point_format >= kFirstModernFormat ? 40 : 26; }
+
+// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
+// older point formats water (9) and what NOAA used before.
+inline std::set<int> UsualSurfaceClasses(int point_format) {
+  return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
+}
 
 // Reads the fields of records, which have the format that the header states.
 class LasPointFields {
@@ -46,6 +54,11 @@ class LasPointFields {
   // Degrees, positive to the right of the flight direction.
   double ScanAngle(std::string_view record) const {
     return modern_ ? laz::Load<std::int16_t>(record, 18) * kModernScanAngleStep : laz::Load<std::int8_t>(record, 16);
+  }
+
+  // The scan direction flag: whether the scanner moved from the right to the left. Not all software sets it.
+  bool IsScannedBackwards(std::string_view record) const {
+    return (laz::Load<std::uint8_t>(record, modern_ ? 15 : 14) >> 6 & 1) == 0;
   }
 
   // Mostly the number of the flight line.

@@ -145,10 +145,12 @@ std::string FullName(const CLI::App& app) {
   return parent == nullptr ? app.get_name() : absl::StrCat(FullName(*parent), " ", app.get_name());
 }
 
-void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit) {
+void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit,
+                  const std::function<std::string()>& more) {
   program.formatter(std::make_shared<Layout>());
-  program.set_version_flag("--version",
-                           absl::StrCat(program.get_name(), " ", std::string(version), " (", std::string(commit), ")"));
+  const std::string text =
+      absl::StrCat(program.get_name(), " ", std::string(version), "\ncommit ", std::string(commit));
+  program.set_version_flag("--version", [text, more] { return more ? absl::StrCat(text, "\n", more()) : text; });
 }
 
 void Group(CLI::App& app, const std::string& heading, const std::vector<std::string>& options) {

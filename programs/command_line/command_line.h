@@ -2,6 +2,7 @@
 // arguments, and the end of standard output.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,10 @@ CLI::Validator OneOf(const std::vector<std::string>& words);
 // "albtpu-query pulse": the names of the program and of the command, if `app` is one.
 std::string FullName(const CLI::App& app);
 
-// Gives `program`, which has no command yet, --version ("NAME VERSION (COMMIT)") and a layout of --help that its
-// commands inherit.
-void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit);
+// Gives `program`, which has no command yet, a layout of --help that its commands inherit, and --version: a line
+// "NAME VERSION", a line "commit COMMIT", and the lines that `more` returns, without the last line's end.
+void SetUpProgram(CLI::App& program, std::string_view version, std::string_view commit,
+                  const std::function<std::string()>& more = {});
 
 // Lists the options of these names ("--depth") of `app` under a heading of --help.
 void Group(CLI::App& app, const std::string& heading, const std::vector<std::string>& options);

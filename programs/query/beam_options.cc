@@ -36,6 +36,7 @@ std::array<WayFlag, 4> WayFlags(const BeamOptions& options, const config::Trajec
            {kIncidence, "--incidence", options.incidence.has_value()}}};
 }
 
+// Requires that one is given.
 absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
   std::optional<WayFlag> chosen;
   for (const WayFlag& way : WayFlags(options, trajectory)) {
@@ -46,10 +47,7 @@ absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::Traj
     }
     chosen = way;
   }
-  if (chosen.has_value()) return *chosen;
-  return formats::UsageError(
-      "las: nothing says where each beam went; give --trajectory FILES, --trajectory-from-returns, "
-      "--scanner across-track (its incidence is |scan angle|) or --incidence DEG (a cone)");
+  return *chosen;
 }
 
 // Flags that mean something for some of the ways only.
@@ -107,21 +105,28 @@ absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOption
       .incidence = *options.incidence, .beam_azimuth = options.beam_azimuth, .altitude = options.altitude};
 }
 
+// Whether the footprint is given, or the divergence and the distance that it takes effect over.
+bool IsSizeKnown(const BeamOptions& options, bool track) {
+  return options.fixed[annotate::PulseInput::kFootprint].has_value() ||
+         (options.divergence.has_value() && (track || options.altitude.has_value()));
+}
+
+std::string SizeMessage(const char* problem, bool track) {
+  return absl::StrCat("the size of the beam is ", problem, "; give either --footprint, or ",
+                      track ? "--divergence" : "--altitude and --divergence");
+}
+
 absl::Status SetFootprint(const BeamOptions& options, bool details, annotate::BeamPlan& plan) {
   const std::optional<float>& footprint = options.fixed[annotate::PulseInput::kFootprint];
   const bool track = plan.has_track();
-  const bool range_known = track || options.altitude.has_value();
-  if (options.divergence.has_value() && range_known && !footprint.has_value()) {
+  if (IsSizeKnown(options, track) && !footprint.has_value()) {
     plan.footprint =
         annotate::DivergingBeam{.divergence = *options.divergence, .aperture = options.aperture.value_or(0)};
     return absl::OkStatus();
   }
   const bool altitude_has_effect = !options.altitude.has_value() || details;
-  if (!footprint.has_value() || options.divergence.has_value() || !altitude_has_effect) {
-    return formats::UsageError(
-        absl::StrCat("las: the size of the beam is missing or given twice; give either --footprint, or ",
-                     track ? "--divergence" : "--altitude and --divergence"));
-  }
+  if (options.divergence.has_value() || !altitude_has_effect)
+    return formats::UsageError(absl::StrCat("las: ", SizeMessage("given twice", track)));
   if (options.aperture.has_value())
     return formats::UsageError("las: --aperture has no effect without --divergence; leave it out");
   plan.footprint = *footprint;
@@ -157,22 +162,13 @@ absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& s
   return absl::OkStatus();
 }
 
-absl::Status SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) {
-  if (!surface.level.has_value() && surface.classes.empty()) {
-    return formats::UsageError(
-        "las: the water surface is missing; give --water-level (its height in the unit and datum of the "
-        "file's "
-        "heights, or a CSV file of heights by time) or --water-classes (the classes of returns from it: "
-        "41,42, or in "
-        "point formats 0 to 5 mostly 9 or 27)");
-  }
+void SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) {
   plan.water_classes = {surface.classes.begin(), surface.classes.end()};
-  if (!surface.level.has_value()) return absl::OkStatus();
+  if (!surface.level.has_value()) return;
   if (const auto* file = std::get_if<std::string>(&*surface.level))
     plan.water_level_file = *file;
   else
     plan.water_level = std::get<double>(*surface.level);
-  return absl::OkStatus();
 }
 
 void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
@@ -227,17 +223,38 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags)
       ->group(group::kPoints);
 }
 
+std::vector<config::OpenDecision> OpenDecisionsOf(const BeamOptions& options, const SurveySettings& settings) {
+  std::vector<config::OpenDecision> open;
+  unsigned given = 0;
+  for (const WayFlag& way : WayFlags(options, settings.trajectory))
+    if (way.given) given |= way.way;
+  if (given == 0) {
+    open.push_back({"trajectory",
+                    "nothing says where each beam went; give --trajectory FILES, --trajectory-from-returns, --scanner "
+                    "across-track (its incidence is |scan angle|) or --incidence DEG (a cone)"});
+  }
+  if (!settings.sea.wind_speed.has_value() && !settings.sea.has_waves()) {
+    open.push_back({"sea",
+                    "--wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
+                    "[[sea.waves]] of a survey file"});
+  }
+  if (!settings.surface.level.has_value() && settings.surface.classes.empty()) {
+    open.push_back({"surface",
+                    "the water surface is missing; give --water-level (its height in the unit and datum of the file's "
+                    "heights, or a CSV file of heights by time) or --water-classes (the classes of returns from it: "
+                    "41,42, or in point formats 0 to 5 mostly 9 or 27)"});
+  }
+  const bool track = given == 0 || (given & (kTrajectory | kReturns)) != 0;
+  if (!IsSizeKnown(options, track)) open.push_back({"beam size", SizeMessage("missing", track)});
+  return open;
+}
+
 absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,
                                             const SurveySettings& settings, bool details) {
   const config::SeaSettings& sea = settings.sea;
   ASSIGN_OR_RETURN(const WayFlag way, ChosenWay(options, settings.trajectory));
   RETURN_IF_ERROR(CheckFlagsOf(way, options, flags));
   ASSIGN_OR_RETURN(const annotate::BeamSource source, Source(way, options, settings));
-  if (!sea.wind_speed.has_value() && !sea.has_waves()) {
-    return formats::UsageError(
-        "las: --wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
-        "--survey");
-  }
   annotate::FixedInputs wind;
   TakeWind(sea, wind);
   annotate::BeamPlan plan;
@@ -247,7 +264,7 @@ absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const Su
   plan.fetch = wind[annotate::PulseInput::kFetch];
   plan.metres_per_unit = options.metres_per_unit;
   if (plan.has_track()) plan.refractive_index = annotate::IndexOf(settings.water).value_or(kSeaWaterIndex);
-  RETURN_IF_ERROR(SetWater(settings.surface, plan));
+  SetWater(settings.surface, plan);
   RETURN_IF_ERROR(SetFootprint(options, details, plan));
   RETURN_IF_ERROR(SetAzimuth(options, sea, details, plan));
   return plan;

@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "annotate/beams/beam_plan.h"
+#include "config/survey_draft.h"
 #include "programs/command_line/cli_fwd.h"
 #include "programs/query/survey_flags.h"
 
@@ -23,7 +25,11 @@ struct BeamOptions {
 // must live as long as `command`.
 void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags);
 
-// IsUsageError if something needed is missing, is given in two ways or has no effect, of `flags` what is given by them.
+// What these flags and settings leave open of the beams, the wind and the water surface.
+std::vector<config::OpenDecision> OpenDecisionsOf(const BeamOptions& options, const config::SurveySettings& settings);
+
+// Requires that nothing is open. IsUsageError if something is given in two ways or has no effect, of `flags` what is
+// given by them.
 // `details`: the geometry of each beam is written, too.
 absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const config::SurveySettings& flags,
                                             const config::SurveySettings& settings, bool details);

@@ -26,6 +26,7 @@ void AddSeaCommand(CLI::App& program, Run& run);
 void AddSensorsCommand(CLI::App& program, Run& run);
 void AddKeysCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
+void AddInitCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 void AddReportCommand(CLI::App& program, Run& run);
 void AddCrossCheckCommand(CLI::App& program, Run& run);

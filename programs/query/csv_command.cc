@@ -9,15 +9,19 @@
 
 #include "absl/strings/str_cat.h"
 #include "annotate/csv/csv_annotation.h"
+#include "annotate/csv/csv_pulses.h"
 #include "annotate/run/annotation_run.h"
 #include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
+#include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
+#include "programs/query/first_contact.h"
 #include "programs/query/options.h"
 #include "programs/query/survey_flags.h"
+#include "service/printable_text.h"
 #include "status/status_macros.h"
 
 namespace albtpu::programs {
@@ -73,8 +77,58 @@ absl::StatusOr<std::optional<annotate::CsvTotal>> TotalOf(const CsvOptions& opti
       .plan = std::move(plan), .details = settings.output.details.value_or(false), .wind_spectrum = {}};
 }
 
-absl::Status RunCsv(const CsvOptions& given) {
+// One number for all pulses by which an example works.
+std::string ExampleOf(AxisId axis) {
+  switch (axis) {
+    case AxisId::kIncidence:
+      return "20";
+    case AxisId::kFootprint:
+      return "0.5";
+    default:
+      return "5";  // m/s of wind, m of depth
+  }
+}
+
+// What is open before any pulse is read; found and example by the header of the first file, if it is one on disk.
+FirstContact ContactOf(const CsvOptions& options, const config::SurveySettings& settings,
+                       const std::vector<std::string>& given) {
+  FirstContact contact{.command = "csv", .example = given};
+  const std::string& input = options.files.files.front();
+  if (IsOutputMissing(options.files)) {
+    contact.open.push_back(MissingOutput(".csv"));
+    contact.example.insert(contact.example.begin() + 2, ExampleOutput(input));
+  }
+  if (settings.wants_total()) {
+    for (config::OpenDecision& decision : annotate::UndecidedOf(settings)) {
+      const bool datum = decision.section == "datum";
+      contact.example.insert(contact.example.end(),
+                             {datum ? "--datum-sigma" : "--water-column", datum ? "0.1" : "none"});
+      contact.open.push_back(std::move(decision));
+    }
+  }
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(input, unknown)) return contact;
+  absl::StatusOr<formats::CsvReader> reader = formats::CsvReader::Open(input);
+  if (!reader.ok()) return contact;
+  const absl::StatusOr<formats::CsvBlock> block = reader->ReadHeader();
+  if (!block.ok()) return contact;
+  formats::CsvRecord header;
+  const absl::StatusOr<bool> any = formats::CsvRecords(input, *block).Next(header);
+  if (!any.ok() || !*any) return contact;
+  annotate::FixedInputs fixed = options.fixed;
+  TakeWind(settings.sea, fixed);
+  contact.found = {absl::StrCat(PrintableText(input), ": columns ", PrintableText(header.text))};
+  const absl::Status bound = annotate::CsvPulses::Bind(input, header, fixed, {}).status();
+  for (const AxisId axis : annotate::MissingAxes(header, fixed))
+    contact.example.insert(contact.example.end(), {annotate::FlagName(axis), ExampleOf(axis)});
+  if (!bound.ok()) contact.open.push_back({"columns", std::string(bound.message())});
+  return contact;
+}
+
+absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(given.flags));
+  if (const FirstContact contact = ContactOf(given, settings, GivenArguments(command)); contact.open.size() > 1)
+    return Refuse(contact);
   const config::SeaSettings& sea = settings.sea;
   CsvOptions options = given;
   TakeStyle(settings.output, options.style);
@@ -159,7 +213,7 @@ void AddCsvCommand(CLI::App& program, Run& run) {
       absl::StrCat("A column that is missing can be given once for all pulses by its option.\n", kWhereAnswersComeFrom),
       "pulses.csv with_uncertainty.csv --wind-speed 5 --footprint 0.5",
       "surveys --output-dir annotated --recursive --resume --server 127.0.0.1:50051");
-  command->callback([options, &run] { run = [options] { return RunCsv(*options); }; });
+  command->callback([options, command, &run] { run = [options, command] { return RunCsv(*options, *command); }; });
 }
 
 }  // namespace albtpu::programs

@@ -12,6 +12,7 @@
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
 #include "programs/query/commands.h"
+#include "programs/query/first_contact.h"
 #include "programs/query/las_options.h"
 #include "status/status_macros.h"
 
@@ -132,9 +133,12 @@ annotate::CauseContext ContextOf(const annotate::BeamPlan& plan, const client::T
   return context;
 }
 
-absl::Status RunLas(const LasOptions& options) {
+absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
   const config::SeaSettings& sea = settings.sea;
+  ASSIGN_OR_RETURN(const std::vector<config::OpenDecision> open, OpenDecisionsOf(options, settings));
+  if (!open.empty() && open.size() + (IsOutputMissing(options.files) ? 1 : 0) > 1)
+    return Refuse(ContactOf(options, settings, open, GivenArguments(command)));
   ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   annotate::FileOptions file_options = options.files;
@@ -183,7 +187,7 @@ void AddLasCommand(CLI::App& program, Run& run) {
                                              "total_thu and total_tvu, or without a sensor "
                                              "sea_thu and sea_tvu");
   AddLasOptions(*command, *options);
-  command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
+  command->callback([options, command, &run] { run = [options, command] { return RunLas(*options, *command); }; });
 }
 
 }  // namespace albtpu::programs

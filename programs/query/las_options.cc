@@ -19,11 +19,8 @@
 namespace albtpu::programs {
 namespace {
 
-absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settings, const BeamOptions& beams,
-                                            const annotate::BeamPlan& plan, bool is_divergence_given,
-                                            Coverage coverage) {
-  if (!plan.has_track() && !beams.altitude.has_value())
-    return formats::UsageError("las: --altitude is missing; a total needs the height of the sensor above the water");
+absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settings, const annotate::BeamPlan& plan,
+                                            bool is_divergence_given, Coverage coverage) {
   annotate::TotalContext context{.coverage = coverage,
                                  .has_surface_returns = !plan.water_classes.empty(),
                                  .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
@@ -33,6 +30,25 @@ absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settin
     total.numbers.push_back(annotate::AssumedDivergence(beam->divergence));
   if (plan.wind_from.has_value()) total.sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
+}
+
+// The divergence is that of the sensor where nothing else gives the size of the beam of a total.
+absl::StatusOr<BeamOptions> WithSensor(BeamOptions beams, const config::SurveySettings& settings) {
+  if (!settings.wants_total() || beams.divergence.has_value() ||
+      beams.fixed[annotate::PulseInput::kFootprint].has_value())
+    return beams;
+  ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*settings.sensor.name));
+  if (sensor.divergence.has_value()) beams.divergence = sensor.divergence->value;
+  return beams;
+}
+
+// What is open of the beams, with the height that those of a total need.
+std::vector<config::OpenDecision> OpenOfBeams(const BeamOptions& beams, const config::SurveySettings& settings) {
+  std::vector<config::OpenDecision> open = OpenDecisionsOf(beams, settings);
+  const bool by_angle = beams.scanner.has_value() || beams.incidence.has_value();
+  if (settings.wants_total() && by_angle && !beams.altitude.has_value())
+    open.push_back({"altitude", "--altitude is missing; a total needs the height of the sensor above the water"});
+  return open;
 }
 
 }  // namespace
@@ -83,6 +99,15 @@ absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
   return settings;
 }
 
+absl::StatusOr<std::vector<config::OpenDecision>> OpenDecisionsOf(const LasOptions& options,
+                                                                  const config::SurveySettings& settings) {
+  ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(options.beams, settings));
+  std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
+  if (!settings.wants_total()) return open;
+  for (config::OpenDecision& decision : annotate::UndecidedOf(settings)) open.push_back(std::move(decision));
+  return open;
+}
+
 absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings) {
   RETURN_IF_ERROR(CheckTotalFlags(options.flags, settings));
   annotate::LasAnnotation annotation;
@@ -92,18 +117,16 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   annotation.details = settings.output.details.value_or(false);
   if (!settings.output.classes.empty())
     annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
-  BeamOptions beams = options.beams;
   const bool total = settings.wants_total();
-  if (total && !beams.divergence.has_value() && !beams.fixed[annotate::PulseInput::kFootprint].has_value()) {
-    ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*settings.sensor.name));
-    if (sensor.divergence.has_value()) beams.divergence = sensor.divergence->value;
-  }
+  ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(options.beams, settings));
+  const std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
+  if (!open.empty()) return formats::UsageError(absl::StrCat("las: ", open.front().message));
   ASSIGN_OR_RETURN(annotate::BeamPlan plan,
                    MakePlan(beams, options.flags.settings, settings, annotation.details || total));
   plan.any_aircraft = total;
   if (total) {
     ASSIGN_OR_RETURN(annotation.total,
-                     TotalOf(settings, beams, plan, options.beams.divergence.has_value(), annotation.style.coverage));
+                     TotalOf(settings, plan, options.beams.divergence.has_value(), annotation.style.coverage));
   }
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
   for (const int point_class :

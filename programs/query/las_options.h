@@ -3,10 +3,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "annotate/las/las_annotation.h"
 #include "annotate/run/file_jobs.h"
+#include "config/survey_draft.h"
 #include "formats/las/las_reader.h"
 #include "programs/command_line/cli_fwd.h"
 #include "programs/query/beam_options.h"
@@ -31,6 +33,10 @@ void AddLasOptions(CLI::App& command, LasOptions& options);
 
 // What flags and survey file give together; a scanner or one incidence overrides the trajectory of the file.
 absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options);
+
+// All that these options and settings leave open, before any file is read. Fails where the sensor is unknown.
+absl::StatusOr<std::vector<config::OpenDecision>> OpenDecisionsOf(const LasOptions& options,
+                                                                  const config::SurveySettings& settings);
 
 // IsUsageError if something needed is missing, is given in two ways or has no effect.
 absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings);

@@ -10,6 +10,8 @@
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
+#include "tables/default_tables.h"
+#include "tables/file/table_folder.h"
 #include "tables/version.h"
 
 namespace albtpu::programs {
@@ -19,12 +21,13 @@ int Main(int argc, char** argv) {
   CLI::App program("Per-pulse total propagated uncertainty of airborne lidar bathymetry");
   program.name("albtpu-query");
   program.require_subcommand(1);
-  SetUpProgram(program, Version(), Commit());
+  SetUpProgram(program, Version(), Commit(), [] { return DigestsText(DefaultTablesDirectory()); });
   EndHelp(program, absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
           "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
           "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
           "--divergence 1");
   Run run;
+  AddInitCommand(program, run);
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
   AddLasCommand(program, run);

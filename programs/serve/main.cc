@@ -28,6 +28,7 @@
 #include "service/server/tables/table_catalog.h"
 #include "status/status_macros.h"
 #include "tables/default_tables.h"
+#include "tables/file/table_folder.h"
 #include "tables/version.h"
 
 namespace albtpu::programs {
@@ -66,7 +67,7 @@ void AddCredentialFlags(CLI::App& app, Options& options) {
 }
 
 void AddFlags(CLI::App& app, Options& options) {
-  SetUpProgram(app, Version(), Commit());
+  SetUpProgram(app, Version(), Commit(), [] { return DigestsText(DefaultTablesDirectory()); });
   app.add_option("--tables", options.tables,
                  "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
       ->type_name("DIR");

@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "service/client/proxy.h"
 #include "service/text_file.h"
 #include "status/status_macros.h"
 
@@ -78,6 +79,7 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& ad
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kConnectMs);
+  if (!ProxyFor(address).has_value()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   return grpc::CreateCustomChannel(address, channel_credentials, arguments);
 }
 
@@ -122,7 +124,7 @@ absl::Status WithMessage(const absl::Status& status, std::string_view message) {
 
 absl::Status WithServerAddress(const absl::Status& status, const std::string& address) {
   if (status.ok()) return status;
-  std::string message = absl::StrCat("server ", address, ": ", status.message());
+  std::string message = absl::StrCat("server ", address, ProxyText(address), ": ", status.message());
   if (absl::IsUnavailable(status)) {
     absl::StrAppend(&message,
                     "; start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (--tls-ca)");

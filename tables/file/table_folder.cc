@@ -11,6 +11,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "status/status_macros.h"
+#include "tables/file/table_io.h"
 
 namespace albtpu {
 namespace {
@@ -136,6 +137,18 @@ absl::StatusOr<std::vector<TableFile>> FindTables(const fs::path& folder) {
                                                    "': move one of them into the folder of the other, or rename it"));
   }
   return files;
+}
+
+std::string DigestsText(const fs::path& folder) {
+  const absl::StatusOr<std::vector<TableFile>> files = FindTables(folder);
+  if (!files.ok()) return absl::StrCat("no tables: ", files.status().message());
+  std::string text;
+  for (const TableFile& file : *files) {
+    const absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
+    absl::StrAppend(&text, text.empty() ? "" : "\n", "table ", file.FullName(), " ",
+                    table.ok() ? table->digest() : std::string(table.status().message()));
+  }
+  return text.empty() ? absl::StrCat("no tables: ", folder.string(), " is empty") : text;
 }
 
 bool IsOlder(std::string_view version, std::string_view other) {

@@ -29,6 +29,10 @@ struct TableFile {
 // would mean two tables.
 absl::StatusOr<std::vector<TableFile>> FindTables(const std::filesystem::path& folder);
 
+// The digests of the tables in a folder for people and scripts, a line each: "table survey/2024.2 9b1c...". A table
+// that cannot be read has its message there, and so has a folder without tables.
+std::string DigestsText(const std::filesystem::path& folder);
+
 // The natural order of versions: runs of digits compare as numbers, everything else as bytes, and a version is
 // older than one that it is the beginning of. 1 < 1.9 < 1.10 < 2, 2024-05-01 < 2024-12-01, 1.0 < 1.0-rc1.
 bool IsOlder(std::string_view version, std::string_view other);

@@ -62,7 +62,7 @@ class Build:
         self.installed = "\n".join(sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*")
                                           if path.is_file()))
         version = self.run("albtpu-generate", "--version").stdout
-        self.version, self.commit = re.fullmatch(r"\S+ (\S+) \((.+)\)\n", version).groups()
+        self.version, self.commit = re.fullmatch(r"\S+ (\S+)(?:\ncommit | \()([^\n)]+)\)?\n", version).groups()
 
     def run(self, program, *arguments, **options):
         return subprocess.run([self.programs[program], *arguments], capture_output=True, text=True,

@@ -3,6 +3,8 @@
 Usage: configure_test.py CMAKE SOURCE_FOLDER C_COMPILER CXX_COMPILER
 """
 
+import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -42,6 +44,25 @@ class Configuration(unittest.TestCase):
         insisted = self.configure("build", "-DALBTPU_BENCH=ON", f"-D{HIDDEN[0]}=ON")
         self.assertNotEqual(insisted.returncode, 0)
         self.assertIn("ALBTPU_BENCH is ON, but Google Benchmark is missing", insisted.stdout)
+
+    def commit(self, *, archived=None, stated="unknown"):
+        """The commit that a build of sources outside of git names."""
+        source = self.folder / "source"
+        (source / "cmake").mkdir(parents=True, exist_ok=True)
+        if archived is not None:
+            (source / "cmake/commit.txt").write_text(archived)
+        output = self.folder / "version.cc"
+        subprocess.run([CMAKE, f"-DSOURCE_DIR={source}", "-DVERSION=1", f"-DCOMMIT={stated}", f"-DOUTPUT={output}",
+                        f"-DTEMPLATE={SOURCE}/cmake/version.cc.in", "-P", f"{SOURCE}/cmake/write_version.cmake"],
+                       check=True)
+        return re.search(r'Commit\(\) { return "(.*)"', output.read_text())[1]
+
+    def test_names_the_commit_of_an_archive(self):
+        self.assertEqual(self.commit(), "unknown")
+        unfilled = pathlib.Path(SOURCE, "cmake/commit.txt").read_text()
+        self.assertEqual(self.commit(archived=unfilled), "unknown" if unfilled.startswith("$") else unfilled[:12])
+        self.assertEqual(self.commit(archived="0123456789abcdef" * 2 + "\n"), "0123456789ab")
+        self.assertEqual(self.commit(archived="0123456789abcdef\n", stated="abc"), "abc")
 
 
 if __name__ == "__main__":

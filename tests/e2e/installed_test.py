@@ -37,7 +37,10 @@ class Installation(unittest.TestCase):
 
     def test_programs_print_their_version(self):
         for name in PROGRAMS:
-            self.assertRegex(self.run_program(name, "--version"), rf"^{name} \d+\.\d+\.\d+ ")
+            stated = self.run_program(name, "--version")
+            self.assertRegex(stated, rf"\A{name} \d+\.\d+\.\d+\S*\ncommit \S+\n")
+            if name != "albtpu-generate":
+                self.assertRegex(stated, r"\ntable survey [0-9a-f]{64}\n")
 
     def test_programs_do_not_refer_to_the_build_folder(self):
         for name in PROGRAMS:

@@ -41,7 +41,7 @@ TEST(OneOf, NamesTheChoicesAndANearMatch) {
 class HelpTest : public ::testing::Test {
  protected:
   HelpTest() {
-    SetUpProgram(program_, "1.2", "abc");
+    SetUpProgram(program_, "1.2", "abc", [] { return std::string("table survey 9b1c"); });
     command_ = program_.add_subcommand("pulse", "Ask for one pulse");
     command_->add_option("--depth", number_, "Depth [m]");
     command_->add_option("--fetch", number_, "Fetch [m]");
@@ -73,7 +73,7 @@ TEST_F(HelpTest, StatesTheVersion) {
     program_.parse(std::vector<std::string>{"--version"});
     FAIL();
   } catch (const CLI::CallForVersion& version) {
-    EXPECT_STREQ(version.what(), "ask 1.2 (abc)");
+    EXPECT_STREQ(version.what(), "ask 1.2\ncommit abc\ntable survey 9b1c");
   }
 }
 

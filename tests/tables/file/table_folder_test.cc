@@ -47,6 +47,13 @@ TEST_F(TableFolder, MayHoldOtherFiles) {
   EXPECT_THAT(FullNames(), IsEmpty());
 }
 
+TEST_F(TableFolder, StatesTheDigestsOfItsTables) {
+  EXPECT_THAT(DigestsText(folder_ / "absent"), HasSubstr("no tables: there is no folder"));
+  EXPECT_THAT(DigestsText(folder_.path()), HasSubstr("no tables: "));
+  Touch("quick.h5");  // Empty, and so no table.
+  EXPECT_THAT(DigestsText(folder_.path()), AllOf(HasSubstr("table quick "), HasSubstr("quick.h5: ")));
+}
+
 TEST_F(TableFolder, ListsWhatHasTheNameOfATableWhateverItHolds) {
   std::filesystem::create_symlink("nowhere", folder_ / "broken.h5");
   EXPECT_THAT(FullNames(), ElementsAre("broken"));

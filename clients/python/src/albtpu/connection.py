@@ -15,6 +15,7 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from google.protobuf.message import DecodeError
 
 from .errors import ArgumentError, ServiceError, TableNotFoundError, UnreachableError
+from .proxy import proxy_for
 
 _OPTIONS = (
     # Calls go to all addresses of a name in turn.
@@ -27,7 +28,6 @@ _OPTIONS = (
     ("grpc.keepalive_timeout_ms", 10_000),
 )
 File = Union[str, "os.PathLike[str]"]
-_LOOPBACK = re.compile(r"(localhost|127\.[\d.]+|\[::1\]):\d+|unix:.*")
 _TARGET = re.compile(r"(?:[a-z]+:.*)?\S+:\w+|unix:\S+")
 
 # The server is shutting down, restarting or at a limit; it may answer again in a moment.
@@ -42,7 +42,7 @@ def open_channel(target: str, *, tls: bool, ca: File | None, cert: File | None, 
         raise ArgumentError(f"the server is {target!r}: it should be HOST:PORT, dns:///HOST:PORT or "
                             "unix:PATH")
     options = list(_OPTIONS)
-    if _LOOPBACK.fullmatch(target):  # A proxy from the environment cannot reach our loopback.
+    if proxy_for(target) is None:
         options.append(("grpc.enable_http_proxy", 0))
     if not (tls or ca or cert or key or token):
         return grpc.insecure_channel(target, options)
@@ -98,7 +98,9 @@ def _watch(state: grpc.ChannelConnectivity) -> None:
 
 def service_error(target: str, error: grpc.RpcError) -> ServiceError:
     """The exception of this package for a failed call."""
-    code, text = error.code(), f"server {target}: {error.details()}{_field_violations(error)}"
+    proxy = proxy_for(target)
+    through = f" (through {proxy})" if proxy else ""
+    code, text = error.code(), f"server {target}{through}: {error.details()}{_field_violations(error)}"
     if code == grpc.StatusCode.UNAVAILABLE:
         hint = "start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (ca=)"
         return UnreachableError(f"{text}: {hint}", code.name)

@@ -1,0 +1,241 @@
+"""The first contact with a survey: what `init` says of LAS and LAZ files, that the file it prints is taken, and what
+`las` and `csv` answer who is given too little."""
+
+import gzip
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import struct
+import tomllib
+
+import programs
+from commands import run
+from programs import PATHS, laz_copy, make_flight, query
+
+CASES = pathlib.Path(PATHS["cases"])
+SAMPLE = pathlib.Path(PATHS["sample"])
+DECIDED = ("name", "from_returns", "wind_speed", "column", "sigma")  # Of a file with pairs of returns, by example.
+
+
+class InitTest(programs.Test):
+    def setUp(self):
+        super().setUp()
+        tables = self.folder / "tables"
+        tables.mkdir()
+        shutil.copy(PATHS["shipped_table"], tables / "survey.h5")
+        self.environment = {"ALBTPU_TABLES": str(tables),
+                            "PATH": os.path.dirname(PATHS["query"]) + os.pathsep + os.environ["PATH"]}
+
+    def case(self, name):
+        path = self.folder / name
+        source = CASES / f"{name}.gz"
+        if not source.exists():
+            self.skipTest(f"{source} does not exist")
+        path.write_bytes(gzip.decompress(source.read_bytes()))
+        return path
+
+    def init(self, *files):
+        text = query("init", *files, check=0).stdout
+        return text, tomllib.loads(text)
+
+    def las(self, *arguments, **keywords):
+        return query("las", *arguments, environment=self.environment, cwd=self.folder, **keywords)
+
+    def run_line(self, line):
+        return run("sh", "-c", line, environment=self.environment, cwd=self.folder)
+
+    def decide(self, text, keys=DECIDED):
+        """The draft `text` with these keys, which it has as examples, decided."""
+        for key in keys:
+            text, times = re.subn(rf"(?m)^#({key} = .*  # (?:an example|a choice).*)", r"\1", text, count=1)
+            self.assertEqual(times, 1, f"{key} is no example in\n{text}")
+        return self.toml(text)
+
+
+class Draft(InitTest):
+    def test_of_a_flight(self):
+        text, survey = self.init(make_flight(self.folder / "line.las"))
+        self.assertEqual({section: keys for section, keys in survey.items() if keys}, {"surface": {"classes": [41]}})
+        for said in ("LAS 1.4, point format 6", "class 2: ", ", bottom by its number", ", water surface by its number",
+                     "x and y in m; heights in m, vertical datum not stated", "scan pattern: raster",
+                     "-20.0 to 20.0 degree", "2022-03-", "adjusted standard GPS time"):
+            self.assertIn(said, text)
+        decisions = re.findall(r"(?m)^\[(\w+)\]\n# DECIDE", text)
+        self.assertEqual(decisions, ["sensor", "trajectory", "sea", "water", "datum"])
+        self.assertEqual(re.findall(r"(?m)^#(wind_speed = .*)", text), ["wind_speed = 5  # an example"])
+
+    def test_of_laz_is_the_same(self):
+        las = make_flight(self.folder / "line.las")
+        laz = laz_copy(las, self.folder / "line.laz")
+        self.assertEqual(self.init(las)[0].replace("line.las", "line.laz").replace("_tpu.las", "_tpu.laz")
+                         .replace("LAS 1.4", "LAZ 1.4"), self.init(laz)[0])
+
+    def test_is_taken_with_each_key(self):
+        """The # of each key with a value removed, one after the other, where the file leaves it open."""
+        las = make_flight(self.folder / "line.las")
+        lines = self.init(las)[0].split("\n")
+        taken = 0
+        for at, line in enumerate(lines):
+            if not re.match(r"#\w+ = [^A-Z]*$", line.split("  # ")[0]):
+                continue
+            inner = max((i for i in range(at) if re.match(r"#?\[+\w", lines[i])), default=0)
+            if lines[inner].startswith("#"):
+                continue
+            survey = self.toml("\n".join([*lines[:at], line[1:], *lines[at + 1:]]))
+            result = self.las(las, self.folder / "out.las", "--survey", survey)
+            self.assertEqual(result.returncode, 2, line)
+            self.assertNotRegex(result.stderr, r"survey.toml: line \d+", line)
+            taken += 1
+        self.assertGreater(taken, 20)
+
+    def test_of_pairs_of_returns_gives_totals_once_decided(self):
+        las = self.case("line.las")
+        text, survey = self.init(las)
+        self.assertEqual(survey["surface"], {"classes": [41]})
+        self.assertIn("NAD83 / UTM zone 17N", text)
+        self.assertIn("scan pattern: palmer", text)
+        result = self.las(las, "out.las", "--survey", self.decide(text), check=0)
+        self.assertRegex(result.stderr, r"\n +all +\d+ .*total|total TVU")
+
+    def test_of_a_real_survey_gives_totals_once_decided(self):
+        if not SAMPLE.exists():
+            self.skipTest(f"{SAMPLE} does not exist")
+        text, survey = self.init(SAMPLE)
+        self.assertEqual(survey["output"], {"classes": [26]})  # Not the class that its point format would have.
+        self.assertIn("2016-05-17T13:43:16Z to ", text)
+        self.assertIn("scan pattern: palmer", text)
+        self.assertIn("level = -23.09 ", text)
+        result = self.las(SAMPLE, "out.las", "--survey", self.decide(text, (*DECIDED, "level")), check=0)
+        self.assertIn("total TVU", result.stderr)
+
+    def test_of_points_without_times_names_the_flags_that_take_the_place_of_a_trajectory(self):
+        las = make_flight(self.folder / "line.las", 2, 0)
+        laz = laz_copy(las, self.folder / "line.laz")
+        text, survey = self.init(laz)
+        self.assertEqual(survey["surface"], {"classes": [9]})
+        self.assertIn("GPS times: none (point format 0)", text)
+        self.assertIn("no trajectory can be used", text)
+        command = re.search(r"(?m)^#  (albtpu-query las .*)$", text)[1]
+        self.assertIn("--scanner across-track --altitude 400", command)
+        self.decide(text, ("name", "wind_speed", "column", "sigma"))
+        result = self.run_line(command)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("total TVU", result.stderr)
+
+    def test_doubts_times_that_cannot_be(self):
+        self.assertIn("but this is in the future", self.init(self.case("unix_times.las"))[0])
+        las = make_flight(self.folder / "line.las")
+        data = bytearray(las.read_bytes())
+        data[6] &= 0xFE  # Seconds of the week, says the header now.
+        las.write_bytes(data)
+        self.assertIn("these are more than a week has", self.init(las)[0])
+
+    def test_asks_for_the_unit_of_heights(self):
+        feet = pathlib.Path(PATHS["laz_samples"]) / "1_4_w_evlr.las"
+        if not feet.exists():
+            self.skipTest(f"{feet} does not exist")
+        text, _ = self.init(feet)
+        self.assertIn("DECIDE, on the command line:", text)
+        self.assertIn("--units us-ft", text)
+
+    def test_of_several_files_says_what_differs(self):
+        modern = make_flight(self.folder / "a.las")
+        old = make_flight(self.folder / "b.las", 2, 1)
+        data = bytearray(old.read_bytes())
+        struct.pack_into("<H", data, 6, data[6] & 0xFE)
+        old.write_bytes(data)
+        text, survey = self.init(modern, old)
+        self.assertEqual(survey["surface"], {"classes": [9, 41]})
+        self.assertEqual(survey["output"], {"classes": [26, 40]}) if "classes" in survey["output"] else None
+        for what in ("clocks differ", "classes differ", "--output-dir FOLDER"):
+            self.assertIn(what, text)
+        self.assertNotIn("The files differ", self.init(modern, modern)[0])
+
+    def test_of_a_file_without_points(self):
+        text, _ = self.init(make_flight(self.folder / "a.las"), self.empty())
+        self.assertIn("empty.las: LAS 1.4, point format 6, 0 points", text)
+
+    def empty(self):
+        path = self.folder / "empty.las"
+        data = bytearray(make_flight(path).read_bytes())
+        begin, = struct.unpack_from("<I", data, 96)
+        struct.pack_into("<I", data, 107, 0)
+        struct.pack_into("<Q", data, 247, 0)
+        path.write_bytes(data[:begin])
+        return path
+
+    def test_is_none_if_a_file_cannot_be_read(self):
+        good, absent, text = make_flight(self.folder / "a.las"), self.folder / "absent.las", self.toml("x", "x.las")
+        cut = self.folder / "cut.las"
+        cut.write_bytes(good.read_bytes()[:5000])
+        for bad in (absent, text, cut):
+            self.assert_fails(query("init", good, bad), 1, f"{bad}: ")
+        self.assert_fails(query("init"), 2, "files is required")
+
+
+class FirstContact(InitTest):
+    def answer(self, *arguments, code=2):
+        """The answer to a command that lacks much, and the line that it gives as an example."""
+        result = query(*arguments, environment=self.environment, cwd=self.folder)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertRegex(result.stderr, r"\nalbtpu-query: \w+: \d+ decisions are missing \(listed above\); .*\n\Z")
+        return result.stderr, re.search(r"\nFor example.*\n  (albtpu-query .*)\n", result.stderr)[1]
+
+    def assert_totals(self, line):
+        result = self.run_line(line)
+        self.assertEqual(result.returncode, 0, f"{line}\n{result.stderr}")
+        self.assertIn("total TVU", result.stderr)
+
+    def test_lists_all_that_las_lacks_with_an_example_that_works(self):
+        las = make_flight(self.folder / "line.las")
+        text, line = self.answer("las", las)
+        for said in ("class 41: ", "the output is missing", "where each beam went", "--wind-speed is missing",
+                     "the water surface is missing", "the size of the beam is missing", "no sensor is named",
+                     "vertical datum is not decided", "water column is not decided", "\n  attitude 0.005",
+                     f"albtpu-query init {las} > survey.toml"):
+            self.assertIn(said, text)
+        self.assertEqual(shlex.split(line)[:4], ["albtpu-query", "las", str(las), "line_tpu.las"])
+        self.assert_totals(line)
+
+    def test_counts_only_what_is_still_open(self):
+        las = make_flight(self.folder / "line.las")
+        text, line = self.answer("las", las, "out.las", "--scanner", "across-track", "--altitude", 390)
+        self.assertNotIn("the output is missing", text)
+        self.assertNotIn("where each beam went", text)
+        self.assertIn("--altitude 390", line)
+        self.assertNotIn("--altitude 400", line)
+        self.assert_totals(line)
+
+    def test_of_one_missing_thing_is_one_line(self):
+        las = make_flight(self.folder / "line.las")
+        result = self.las(las, "out.las", "--scanner", "across-track", "--water-level", 0, "--footprint", 0.6)
+        self.assert_fails(result, 2, "las: --wind-speed is missing; give the wind speed")
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_works_with_files_of_other_kinds(self):
+        self.assert_totals(self.answer("las", laz_copy(make_flight(self.folder / "a.las", 2, 0),
+                                                       self.folder / "a.laz"))[1])
+        self.assert_totals(self.answer("las", self.case("line.las"))[1])
+        if SAMPLE.exists():
+            self.assert_totals(self.answer("las", SAMPLE)[1])
+
+    def test_names_a_file_that_cannot_be_read(self):
+        result = query("las", self.folder / "absent.las")
+        self.assert_fails(result, 2, "decisions are missing")
+        self.assertIn("absent.las: No such file", result.stderr)
+
+    def test_lists_all_that_csv_lacks(self):
+        pulses = self.toml("depth,incidence\n3,10\n5,12\n", "pulses.csv")
+        text, line = self.answer("csv", pulses)
+        self.assertIn("columns depth,incidence", text)
+        self.assertIn("no columns 'wind_speed', 'footprint'", text)
+        result = self.run_line(line)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.folder / "pulses_tpu.csv").read_text().count("INTERPOLATED"), 2)
+
+
+if __name__ == "__main__":
+    programs.main()
