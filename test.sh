@@ -46,7 +46,7 @@ log=build/release/test.log
 results=build/release/test.xml
 status=0
 # Many tests wait for servers and clients more than they compute.
-ctest --preset release --label-exclude "^bench$" --parallel $(($(nproc) + 1)) --output-junit "$PWD/$results" \
+ctest --preset release --label-exclude "^bench$" --parallel $((2 * $(nproc) + 1)) --output-junit "$PWD/$results" \
   --test-output-size-passed 1000000 | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
 
 for name in "${requested[@]}"; do

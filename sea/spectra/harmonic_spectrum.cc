@@ -9,7 +9,7 @@ namespace albtpu {
 namespace {
 
 constexpr double kLowest = 0.004, kHighest = 3500;  // rad/m
-constexpr double kStep = 1.05;
+constexpr double kRatio = 1.05;
 
 // Directions over which a spreading is averaged. The trapezoidal rule over a full turn is exact for a spreading whose
 // harmonics end below kDirections - 2 * harmonics. A spreading that is the same at all k is averaged only once, so it
@@ -54,7 +54,7 @@ Harmonics HarmonicsAt(const WaveSpectrum& spectrum, double k, std::size_t count,
 
 std::vector<double> SeaWavenumbers() {
   const double range = std::log(kHighest / kLowest);
-  const auto steps = static_cast<std::size_t>(std::ceil(range / std::log(kStep)));
+  const auto steps = static_cast<std::size_t>(std::ceil(range / std::log(kRatio)));
   std::vector<double> k(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i)
     k[i] = kLowest * std::exp(range * static_cast<double>(i) / static_cast<double>(steps));
