@@ -83,9 +83,9 @@ class Digits {
 }  // namespace
 
 bool StartsNextWeek(double before, double time) {
-  constexpr double kLongestStep = 3600;  // s
+  constexpr double kLongestPause = 3600;  // s
   const double step = time + kSecondsPerWeek - before;
-  return time < before && before <= kSecondsPerWeek && time >= 0 && step > 0 && step <= kLongestStep;
+  return time < before && before <= kSecondsPerWeek && time >= 0 && step > 0 && step <= kLongestPause;
 }
 
 int LeapSecondsAtUtc(double utc) {

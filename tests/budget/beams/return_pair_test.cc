@@ -198,7 +198,7 @@ TEST(RayNoise, WeighsByTheLikelihood) {
 
 // The mean over normal slopes of the angle of rays, each facet with its area as the beam sees it, by quadrature.
 TEST(FacingSlopes, AgreesWithTheMeanOverASea) {
-  constexpr double kS = 0.05, kN = kRefractiveIndex, kHalf = 6;
+  constexpr double kS = 0.05, kHalf = 6;
   for (const double incidence : {0.1, 0.35, 0.6}) {
     const Eigen::Vector3d beam(std::sin(incidence), 0, -std::cos(incidence));
     double sum = 0, square = 0, weight = 0;
