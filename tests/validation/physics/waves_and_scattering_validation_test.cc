@@ -11,7 +11,7 @@
 namespace albtpu {
 namespace {
 
-constexpr int kRealizations = 100, kPhotons = 8000;  // half a minute of two cores for all cases
+constexpr int kRealizations = 200, kPhotons = 8000;  // half a minute of two cores for all cases
 
 struct Case {
   std::string name;
