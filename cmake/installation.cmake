@@ -9,7 +9,7 @@ file(GLOB specifications CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/quality/report/
 install(FILES ${specifications} DESTINATION ${data}/specifications)
 # The Python modules that draw the page of a report, for albtpu-query.
 install(DIRECTORY clients/python/src/albtpu DESTINATION ${data}/python PATTERN "__pycache__" EXCLUDE)
-install(FILES CONTRIBUTING.md LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES CHANGELOG.md CONTRIBUTING.md LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -4,9 +4,8 @@ include(CMakePackageConfigHelpers)
 set(ALBTPU_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/albtpu)
 configure_package_config_file(cmake/albtpuConfig.cmake.in ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
   INSTALL_DESTINATION ${ALBTPU_PACKAGE_DIR})
-# Before version 1, a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/albtpuConfigVersion.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
               ${PROJECT_BINARY_DIR}/package/albtpuConfigVersion.cmake
         DESTINATION ${ALBTPU_PACKAGE_DIR})

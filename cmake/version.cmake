@@ -4,7 +4,7 @@ set(ALBTPU_COMMIT "unknown" CACHE STRING "The commit, for sources without a git 
 set(ALBTPU_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 add_custom_target(albtpu_version_source
   COMMAND ${CMAKE_COMMAND}
-          -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION} -DCOMMIT=${ALBTPU_COMMIT}
+          -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${ALBTPU_VERSION} -DCOMMIT=${ALBTPU_COMMIT}
           -DTEMPLATE=${PROJECT_SOURCE_DIR}/cmake/version.cc.in
           -DOUTPUT=${ALBTPU_GENERATED_DIR}/version.cc
           -P ${PROJECT_SOURCE_DIR}/cmake/write_version.cmake

@@ -11,7 +11,7 @@ engine=$(command -v "${ENGINE:-podman}" || command -v "${ENGINE:-docker}") || {
   exit 1
 }
 export DOCKER_BUILDKIT=1  # Without it, Debian's docker uses its old builder, which does not support RUN --mount.
-version=$(sed -n 's/^project(albtpu VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
+version=$(sed -n 's/^set(ALBTPU_VERSION \(.*\))$/\1/p' CMakeLists.txt)
 commit=$(git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
 build=("$engine" build --file docker/Dockerfile --build-arg "VERSION=$version" --build-arg "COMMIT=$commit")
 # Podman's default image format does not support HEALTHCHECK.

@@ -5,7 +5,7 @@
 
 namespace albtpu {
 
-std::string_view Version();  // "0.1.0"
+std::string_view Version();  // "1.0.0", or before it "1.0.0-rc1"
 // "1a2b3c4d5e6f", with "-dirty" appended if the working tree had changes; "unknown" outside of git.
 std::string_view Commit();
 

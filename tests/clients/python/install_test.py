@@ -1,6 +1,6 @@
 """pip installs the package from its folder, and the installed package works.
 
-Usage: install_test.py PACKAGE_FOLDER TABLE.h5
+Usage: install_test.py PACKAGE_FOLDER TABLE.h5 VERSION
 """
 
 import importlib.util
@@ -13,7 +13,7 @@ import unittest
 
 from commands import make_folder
 
-PACKAGE, TABLE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+PACKAGE, TABLE, VERSION = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
 QUERY = """import albtpu, sys, albtpu.v1.uncertainty_service_pb2_grpc
 print(albtpu.__file__)
 print(albtpu.open_table(sys.argv[1]).query(wind_speed=5, incidence=10, footprint=0.5, depth=8).outcome)
@@ -80,7 +80,8 @@ class Installation(unittest.TestCase):
         self.assertTrue((package / "py.typed").is_file())
         self.assertTrue((package / "v1/uncertainty_pb2.pyi").is_file())
         metadata = next((self.folder / "site").glob("albtpu-*.dist-info/METADATA")).read_text()
-        self.assertIn("\nVersion: 0.1.0\n", metadata)
+        # As PEP 440 writes it: 1.0.0rc1.
+        self.assertIn(f"\nVersion: {VERSION.replace('-', '')}\n", metadata)
 
 
 if __name__ == "__main__":
