@@ -91,10 +91,10 @@ function(albtpu_precompile target headers)
   target_precompile_headers(${target} REUSE_FROM ${group})
 endfunction()
 
-# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way.
-function(albtpu_program target)
+# Installs a program, in a component. In the build tree it is in bin/ as well, so that it finds share/ the same way.
+function(albtpu_program target component)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
 endfunction()
 
 # For targets that contain or test Highway kernels. A kernel is compiled once for each of these instruction sets, of

@@ -1,4 +1,5 @@
 # Installs data and documents beside the programs and the protos. Each program finds the tables relative to itself.
+# Everything belongs to the component of a package: programs (by default), generator, development.
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
 file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/shipped/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
@@ -7,17 +8,45 @@ file(GLOB shipped_sensors CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/config/sensors
 install(FILES ${shipped_sensors} DESTINATION ${data}/sensors)
 file(GLOB specifications CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/quality/report/specifications/*.toml)
 install(FILES ${specifications} DESTINATION ${data}/specifications)
-# The Python modules that draw the page of a report, for albtpu-query.
+# The Python modules, for albtpu-query, which draws the page of a report by them, and for PYTHONPATH.
 install(DIRECTORY clients/python/src/albtpu DESTINATION ${data}/python PATTERN "__pycache__" EXCLUDE)
 install(FILES CHANGELOG.md CONTRIBUTING.md LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# The sources of the Python package, for pip or PYTHONPATH.
-install(DIRECTORY clients/python DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients PATTERN "__pycache__" EXCLUDE
-        PATTERN "*.egg-info" EXCLUDE PATTERN "build" EXCLUDE PATTERN ".mypy_cache" EXCLUDE)
-install(DIRECTORY validation/paper validation/plots DESTINATION ${data}/validation
+install(FILES clients/python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients/python)
+install(DIRECTORY clients/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients/python
         PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY validation/paper validation/plots DESTINATION ${data}/validation COMPONENT generator
+        PATTERN "__pycache__" EXCLUDE)
+
+# Manual pages, compressed, and completion for bash, as the programs print them:
+#   albtpu_manual(FILE COMPONENT command ...)
+function(albtpu_manual file component)
+  set(path ${PROJECT_BINARY_DIR}/manual/${file})
+  set(commands COMMAND ${ARGN} > ${path})
+  set(folder bash-completion/completions)
+  if(file MATCHES "([0-9])$")
+    set(folder man/man${CMAKE_MATCH_1})
+    list(APPEND commands COMMAND gzip -9nf ${path})
+    string(APPEND path .gz)
+  endif()
+  add_custom_command(OUTPUT ${path} ${commands} DEPENDS ${ARGV2} VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY ALBTPU_MANUAL ${path})
+  install(FILES ${path} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder} COMPONENT ${component})
+endfunction()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/manual)
+foreach(page albtpu-query.1.programs albtpu-generate.1.generator albtpu-serve.8.programs)
+  string(REGEX MATCH "^([a-z-]+)\\.([0-9])\\.([a-z]+)$" page ${page})
+  set(program ${CMAKE_MATCH_1})
+  set(section ${CMAKE_MATCH_2})
+  set(component ${CMAKE_MATCH_3})
+  albtpu_manual(${program}.${section} ${component} ${program} --man-page ${section})
+  albtpu_manual(${program} ${component} ${program} --bash-completion)
+endforeach()
+albtpu_manual(albtpu-survey.5 programs albtpu-query keys --man-page)
+get_property(manual GLOBAL PROPERTY ALBTPU_MANUAL)
+add_custom_target(albtpu_manual ALL DEPENDS ${manual})
 
 # The libraries for users' C++ programs.
 albtpu_package_component(tables)

@@ -8,7 +8,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/albtpuConfigVersi
   COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
               ${PROJECT_BINARY_DIR}/package/albtpuConfigVersion.cmake
-        DESTINATION ${ALBTPU_PACKAGE_DIR})
+        DESTINATION ${ALBTPU_PACKAGE_DIR} COMPONENT development)
 
 # Adds a static library and its public headers to a component of the package:
 #   albtpu_package(TARGET COMPONENT [NAME name] [HEADERS ...])
@@ -27,18 +27,19 @@ function(albtpu_package target component)
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  install(TARGETS ${target} EXPORT albtpu_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS ${target} EXPORT albtpu_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          COMPONENT development)
 
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set(folder ${CMAKE_INSTALL_INCLUDEDIR}/albtpu/${room})
-  install(FILES ${ARG_HEADERS} DESTINATION ${folder})
+  install(FILES ${ARG_HEADERS} DESTINATION ${folder} COMPONENT development)
   list(TRANSFORM ARG_HEADERS REPLACE ".*/" "")
-  install(CODE "set(folder \"${folder}\")\nset(headers \"${ARG_HEADERS}\")")
-  install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/respell_includes.cmake)
+  install(CODE "set(folder \"${folder}\")\nset(headers \"${ARG_HEADERS}\")" COMPONENT development)
+  install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/respell_includes.cmake COMPONENT development)
 endfunction()
 
 # Exports the libraries of a component; to be called once per component, after all of its albtpu_package().
 function(albtpu_package_component component)
   install(EXPORT albtpu_${component} FILE albtpu_${component}.cmake NAMESPACE albtpu::
-          DESTINATION ${ALBTPU_PACKAGE_DIR})
+          DESTINATION ${ALBTPU_PACKAGE_DIR} COMPONENT development)
 endfunction()

@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
+#include "programs/command_line/manual.h"
 #include "programs/generate/commands.h"
 #include "programs/generate/point_flags.h"
 #include "tables/version.h"
@@ -121,6 +122,7 @@ int Run(int argc, char** argv) {
   CLI::App app("Computes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry",
                "albtpu-generate");
   SetUpProgram(app, Version(), Commit());
+  AddManualFlags(app, std::string(Version()));
   EndHelp(app, "albtpu-generate COMMAND --help lists the options of a command.",
           "table --campaign survey.toml --output survey.h5",
           "point --wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20");

@@ -13,10 +13,12 @@
 #include "config/sensors/sensor.h"
 #include "config/survey_settings.h"
 #include "programs/command_line/command_line.h"
+#include "programs/command_line/manual.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "service/printable_text.h"
 #include "status/status_macros.h"
+#include "tables/version.h"
 
 namespace albtpu::programs {
 namespace {
@@ -71,9 +73,40 @@ ordered_json Json(const std::vector<ListedKey>& keys) {
   return json;
 }
 
-absl::Status RunKeys(bool json) {
+constexpr char kManualIntroduction[] = R"(A survey file is TOML and says what is known of a survey beside its points.
+
+  albtpu-query las --survey survey.toml line.las annotated.las
+
+A flag overrides the key of the same meaning. Paths count from the folder of the survey file. The sections and keys are:
+)";
+
+// albtpu-survey(5).
+std::string Manual(const std::vector<ListedKey>& keys) {
+  std::string page = ManualHead("albtpu-survey", "5", std::string(Version()), "survey file of albtpu-query"), section;
+  absl::StrAppend(&page, ".SH DESCRIPTION\n", Troff(kManualIntroduction));
+  for (const ListedKey& key : keys) {
+    const bool many = key.section == "sea.waves";
+    if (key.section != section)
+      absl::StrAppend(&page, ".SH \"", many ? "[[" : "[", key.section, many ? "]] (any number of tables)" : "]",
+                      "\"\n");
+    section = key.section;
+    std::vector<std::string> facts = {TypeText(key)};
+    if (const std::string range = RangeText(key.values); !range.empty()) facts.push_back(range);
+    if (!key.absent.empty()) facts.push_back("default: " + key.absent);
+    if (!key.flag.empty()) facts.push_back(key.flag);
+    absl::StrAppend(&page, ".TP\n.B ", Troff(key.key),
+                    Troff(absl::StrCat(key.help, " (", absl::StrJoin(facts, "; "), ").")));
+  }
+  return page + ".SH SEE ALSO\n\\fBalbtpu\\-query\\fR(1), /usr/share/doc/albtpu/docs/survey.md\n";
+}
+
+struct KeysCommandOptions {
+  bool json = false, manual = false;
+};
+
+absl::Status RunKeys(const KeysCommandOptions& options) {
   const std::vector<ListedKey> keys = config::ListKeys();
-  std::cout << (json ? Json(keys).dump(2) + "\n" : Markdown(keys));
+  std::cout << (options.manual ? Manual(keys) : options.json ? Json(keys).dump(2) + "\n" : Markdown(keys));
   return FlushStandardOutput();
 }
 
@@ -170,12 +203,13 @@ absl::Status RunSensors(const SensorsCommandOptions& options) {
 }  // namespace
 
 void AddKeysCommand(CLI::App& program, Run& run) {
-  const auto json = std::make_shared<bool>(false);
+  const auto options = std::make_shared<KeysCommandOptions>();
   CLI::App* command =
       program.add_subcommand("keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
-  command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
+  command->add_flag("--json", options->json, "Print one JSON object with an array `keys`")->group(group::kOutput);
+  command->add_flag("--man-page", options->manual)->group("");
   EndHelp(*command, "", "", "--json");
-  command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
+  command->callback([options, &run] { run = [options] { return RunKeys(*options); }; });
 }
 
 void AddSensorsCommand(CLI::App& program, Run& run) {

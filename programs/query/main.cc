@@ -4,11 +4,13 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
+#include "programs/command_line/manual.h"
 #include "programs/query/commands.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_folder.h"
@@ -22,6 +24,7 @@ int Main(int argc, char** argv) {
   program.name("albtpu-query");
   program.require_subcommand(1);
   SetUpProgram(program, Version(), Commit(), [] { return DigestsText(DefaultTablesDirectory()); });
+  AddManualFlags(program, std::string(Version()));
   EndHelp(program, absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
           "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
           "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "

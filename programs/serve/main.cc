@@ -18,6 +18,7 @@
 #include "absl/synchronization/mutex.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
+#include "programs/command_line/manual.h"
 #include "service/server/access/credentials.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listening_sockets.h"
@@ -68,6 +69,7 @@ void AddCredentialFlags(CLI::App& app, Options& options) {
 
 void AddFlags(CLI::App& app, Options& options) {
   SetUpProgram(app, Version(), Commit(), [] { return DigestsText(DefaultTablesDirectory()); });
+  AddManualFlags(app, std::string(Version()));
   app.add_option("--tables", options.tables,
                  "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
       ->type_name("DIR");

@@ -23,12 +23,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPython = "/usr/bin/python3";
 
-// This process's environment, but for where Python finds the package and where matplotlib keeps what it caches.
+// This process's environment, but for where Python finds the package, in which it must not write, and what matplotlib
+// draws with.
 std::vector<std::string> Environment() {
   std::vector<std::string> environment;
   for (char** each = environ; *each != nullptr; ++each)
     if (std::strncmp(*each, "PYTHONPATH=", 11) != 0) environment.emplace_back(*each);
   environment.push_back(absl::StrCat("PYTHONPATH=", (InstalledDataDirectory() / "python").string()));
+  environment.emplace_back("PYTHONDONTWRITEBYTECODE=1");
   environment.emplace_back("MPLBACKEND=Agg");
   return environment;
 }

@@ -19,6 +19,11 @@ PROGRAMS = {pathlib.Path(path).name: path for path in sys.argv[2:5]}
 NOT_RUN = {
     "./quickstart.sh": "builds the programs; its command las is in the README, with its result",
     "./test.sh": "runs this test",
+    "./package.sh": "tests/e2e/packages.sh, which needs root and takes long",
+    "apt": "tests/e2e/packages_test.py installs and purges the packages in a bare root",
+    "man": "tests/programs/command_line/manual_test.py formats the pages",
+    "systemctl": "needs systemd; tests/programs/command_line/manual_test.py verifies the unit",
+    "journalctl": "needs systemd",
     "cmake": "tests/clients/cpp/package_test.py configures and builds the examples",
     "build/": "tests/clients/cpp/package_test.py runs the examples",
     "docker": "tests/e2e/containers.sh, which needs an engine",
@@ -41,8 +46,8 @@ NOT_RUN = {
     "albtpu-query las F/flight.las": "annotates 6 million points to measure this machine",
 }
 # Of docker, podman, pip, benchmarks and this test.
-FLAGS_OF_OTHERS = {"--entrypoint", "--laz", "--millions", "--no-build-isolation", "--no-deps", "--stop-timeout",
-                   "--tmpfs", "--user", "--userns", "--write"}
+FLAGS_OF_OTHERS = {"--entrypoint", "--laz", "--millions", "--no-build-isolation", "--no-deps",
+                   "--no-install-recommends", "--stop-timeout", "--tmpfs", "--user", "--userns", "--write"}
 
 
 @functools.cache

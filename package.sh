@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Makes the Debian packages albtpu, albtpu-generate, libalbtpu-dev and python3-albtpu in build/packages/SUITE, and
+# checks them by lintian. docs/install.md installs them.
+#
+# Usage: package.sh [--here | SUITE...]
+#   SUITE...   each in a bare root of that Debian, made by mmdebstrap and removed at the end (default: bookworm trixie)
+#   --here     for the Debian on which it runs, without a root; installs the packages that the build needs
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+source ./packages.sh
+# Of the changelogs and all files. A root knows them only from here: it need not see the repository.
+export ALBTPU_COMMIT=${ALBTPU_COMMIT:-$(git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)}
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
+
+build_here() {
+  local suite
+  suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  install_packages packages
+  cmake --preset release -B "build/$suite" -DCMAKE_INSTALL_PREFIX=/usr -DALBTPU_BUILD_TESTS=OFF \
+    -DCMAKE_EXE_LINKER_FLAGS="-Wl,-z,relro,-z,now" -DALBTPU_COMMIT="$ALBTPU_COMMIT" \
+    -DALBTPU_DEBIAN_PACKAGES="$(date -uR --date="@$SOURCE_DATE_EPOCH")"
+  cmake --build "build/$suite" -j "$(nproc)"
+  rm -rf "build/packages/$suite"
+  (cd "build/$suite" && cpack -B "$OLDPWD/build/packages/$suite")
+  rm -rf "build/packages/$suite/_CPack_Packages"
+  lintian --fail-on error "build/packages/$suite/"*.deb
+}
+
+# Runs the same in a root of `suite`, in which this folder has the same path as outside.
+build_in_root() {
+  local suite=$1 cache=${CCACHE_DIR:-$HOME/.cache/ccache} include hook
+  mkdir -p build "$cache"
+  include=$(package_names packages | paste -sd,)
+  hook="set -e; mkdir -p \"\$1$PWD\" \"\$1/ccache\"
+    mount --bind '$PWD' \"\$1$PWD\"; mount --bind '$cache' \"\$1/ccache\"
+    trap 'umount \"\$1$PWD\" \"\$1/ccache\"' EXIT
+    CCACHE_DIR=/ccache HOME=/root chroot \"\$1\" sh -c 'cd \"$PWD\" && ./package.sh --here'"
+  mmdebstrap --variant=minbase --include="$include" --customize-hook="$hook" "$suite" /dev/null
+}
+
+if [[ $# == 1 && $1 == --here ]]; then
+  build_here
+  exit
+fi
+[[ $* != *-* ]] || { sed -n 's/^# \?//; 2,7p' "$0" >&2; exit 2; }
+command -v mmdebstrap >/dev/null || { echo "$0: mmdebstrap is missing; apt-get install mmdebstrap" >&2; exit 1; }
+[[ $# != 0 ]] || set -- bookworm trixie
+for suite in "$@"; do
+  echo "== Building the packages of $suite"
+  build_in_root "$suite"
+done
+ls -l build/packages/*/*.deb
