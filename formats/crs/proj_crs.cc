@@ -1,5 +1,7 @@
 #include "formats/crs/proj_crs.h"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/ascii.h"
@@ -7,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "sea/angle.h"
+#include "tables/default_tables.h"
 
 namespace albtpu::formats {
 namespace {
@@ -70,9 +73,20 @@ ProjObject Parse(ProjContext& context, const std::string& text) {
   return ProjObject(proj_create(context.get(), text.c_str()));
 }
 
+// Lets a relocatable installation use the database that it brings. PROJ_DATA may name one of another PROJ, whose layout
+// may differ.
+void UseInstalledDatabase(PJ_CONTEXT* context) {
+  const std::filesystem::path folder = InstalledDataDirectory() / "proj";
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "proj.db", error)) return;
+  const char* const path = folder.c_str();
+  proj_context_set_search_paths(context, 1, &path);
+}
+
 }  // namespace
 
 ProjContext::ProjContext() : context_(proj_context_create()) {
+  UseInstalledDatabase(context_);
   proj_context_set_enable_network(context_, 0);
   proj_log_level(context_, PJ_LOG_ERROR);
   proj_log_func(context_, &last_message_,

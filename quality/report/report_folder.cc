@@ -82,7 +82,8 @@ absl::Status CheckPageCanBeDrawn() {
   if (status.ok()) return status;
   return absl::FailedPreconditionError(
       absl::StrCat("the page cannot be drawn (", status.message(),
-                   "); install python3-matplotlib and python3-netcdf4, or leave out the page by --no-page"));
+                   "); install python3-matplotlib and python3-netcdf4, or albtpu[report] by pip, or leave out the page "
+                   "by --no-page"));
 }
 
 absl::Status DrawPage(const std::filesystem::path& folder) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -21,7 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPython = "/usr/bin/python3";
+// Where pip installed the programs, its scripts name the Python that has the packages of pip.
+const char* Python() {
+  const char* python = std::getenv("ALBTPU_PYTHON");
+  return python != nullptr && *python != '\0' ? python : "/usr/bin/python3";
+}
 
 // This process's environment, but for where Python finds the package, in which it must not write, and what matplotlib
 // draws with.
@@ -84,18 +89,19 @@ absl::Status HiddenFolder::Publish(const std::vector<std::string>& names) const 
 }
 
 absl::Status RunPython(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {kPython, "-B"});
+  const char* const python = Python();
+  arguments.insert(arguments.begin(), {python, "-B"});
   std::vector<std::string> environment = Environment();
   std::array<int, 2> pipe_ends;
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
-    return absl::InternalError(absl::StrCat("no pipe to ", kPython, ": ", std::strerror(errno)));
+    return absl::InternalError(absl::StrCat("no pipe to ", python, ": ", std::strerror(errno)));
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
   pid_t child = 0;
   const int failure =
-      posix_spawn(&child, kPython, &actions, nullptr, Pointers(arguments).data(), Pointers(environment).data());
+      posix_spawn(&child, python, &actions, nullptr, Pointers(arguments).data(), Pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   close(pipe_ends[1]);
   std::string said;
@@ -105,14 +111,14 @@ absl::Status RunPython(std::vector<std::string> arguments) {
     if (count < 0 && errno != EINTR) break;
   }
   close(pipe_ends[0]);
-  if (failure != 0) return absl::FailedPreconditionError(absl::StrCat(kPython, ": ", std::strerror(failure)));
+  if (failure != 0) return absl::FailedPreconditionError(absl::StrCat(python, ": ", std::strerror(failure)));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return absl::OkStatus();
   while (!said.empty() && said.back() == '\n') said.pop_back();
   const std::string last = said.substr(said.rfind('\n') + 1);
-  return absl::FailedPreconditionError(last.empty() ? absl::StrCat(kPython, " failed") : last);
+  return absl::FailedPreconditionError(last.empty() ? absl::StrCat(python, " failed") : last);
 }
 
 }  // namespace albtpu

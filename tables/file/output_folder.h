@@ -34,8 +34,8 @@ class HiddenFolder {
   std::filesystem::path folder_, path_;
 };
 
-// Runs Python, for which Debian's packages are installed, with the installed package of the client. FailedPrecondition
-// with the last line of its standard error.
+// Runs the Python that the environment variable `ALBTPU_PYTHON` names, or /usr/bin/python3, with the installed package
+// of the client. FailedPrecondition with the last line of its standard error.
 absl::Status RunPython(std::vector<std::string> arguments);
 
 }  // namespace albtpu

@@ -27,6 +27,14 @@ table = xarray.open_dataset(sys.argv[1])
 xarray.testing.assert_identical(table, xarray.open_dataset(sys.argv[1], engine="netcdf4").load())
 print(xarray.backends.list_engines()["albtpu"].description, table.thu.attrs["units"], "albtpu" in sys.modules)
 """
+MISSING = """import sys
+sys.modules[sys.argv[2]] = None
+import albtpu
+try:
+    getattr(albtpu, sys.argv[3])
+except ImportError as error:
+    print(error)
+"""
 NETCDF4 = """import sys, xarray
 print(xarray.open_dataset(sys.argv[1], engine="netcdf4").thu.attrs["units"])
 xarray.open_dataset(sys.argv[1])
@@ -48,9 +56,9 @@ class Installation(unittest.TestCase):
         assert result.returncode == 0, result.stdout + result.stderr
         cls.environment = {**environment, "PYTHONPATH": str(cls.folder / "site")}
 
-    def run_python(self, program, path=TABLE):
-        result = subprocess.run([sys.executable, "-c", program, path.resolve()], capture_output=True, text=True,
-                                cwd="/", env=self.environment)
+    def run_python(self, program, path=TABLE, arguments=()):
+        result = subprocess.run([sys.executable, "-c", program, path.resolve(), *arguments], capture_output=True,
+                                text=True, cwd="/", env=self.environment)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout
 
@@ -61,6 +69,11 @@ class Installation(unittest.TestCase):
 
     def test_reads_files_without_grpc_and_xarray(self):
         self.assertEqual(self.run_python(OPEN), "False False\n")
+
+    def test_names_what_pip_installs_for_a_function(self):
+        for module, name, extra in (("grpc", "connect", "client"), ("h5py", "open_table", "tables")):
+            self.assertEqual(self.run_python(MISSING, arguments=(module, name)),
+                             f"albtpu.{name} needs {module}, which is missing; pip install 'albtpu[{extra}]'\n")
 
     def test_lets_xarray_open_tables_without_naming_an_engine(self):
         renamed = shutil.copy(TABLE, self.folder / "table.dat")

@@ -109,6 +109,12 @@ class Page(Report):
             if width == 1280:
                 self.assertLess(seen["below"], height)  # The verdict is on the first screen.
 
+    def test_is_drawn_by_the_python_that_the_environment_names(self):
+        result = query("report", self.annotated, "--output", self.folder / "undrawn",
+                       environment={"ALBTPU_PYTHON": "/nonexistent/python"})
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("(/nonexistent/python: No such file or directory); install python3-matplotlib", result.stderr)
+
     def test_has_nothing_from_outside(self):
         page = (self.made / "report.html").read_text()
         self.assertEqual(re.findall(r"""(?:src|href)=["'](?!data:)[^"']*""", page), [])

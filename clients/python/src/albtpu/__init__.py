@@ -33,7 +33,8 @@ __all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Error",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "geometry", "open_table"]
 
-# Imported on first use: table files do not need gRPC and protobuf, and services do not need HDF5.
+# Imported on first use: table files do not need gRPC and protobuf, and services do not need HDF5. pip installs neither
+# unless asked.
 _LATER = {"BUDGET_QUANTITIES": ".budget", "Service": ".service", "connect": ".service",
           "TableFile": ".table_file", "open_table": ".table_file"}
 
@@ -43,4 +44,11 @@ def __getattr__(name: str) -> Any:
         return import_module(".geometry", __name__)
     if name not in _LATER:
         raise AttributeError(f"module 'albtpu' has no attribute '{name}'")
-    return getattr(import_module(_LATER[name], __name__), name)
+    try:
+        return getattr(import_module(_LATER[name], __name__), name)
+    except ModuleNotFoundError as error:
+        extra = {"grpc": "client", "google": "client", "h5py": "tables"}.get((error.name or "").split(".")[0])
+        if extra is None:
+            raise
+        raise ModuleNotFoundError(f"albtpu.{name} needs {error.name}, which is missing; pip install 'albtpu[{extra}]'",
+                                  name=error.name) from error
