@@ -22,7 +22,7 @@ from commands import run
 from serving import Server
 
 ARCHIVE, WHEEL, SIMULATED_SURVEY, ROOTS = map(pathlib.Path, sys.argv[1:5])
-VERSION = re.search(r"-(\d+\.\d+\.\d+)-", ARCHIVE.name)[1]
+VERSION = re.search(r"albtpu-(.+)-linux-", ARCHIVE.name)[1]
 PLACE = pathlib.Path("/tmp/über uns")  # In each root, a folder with a space and an umlaut.
 FIRST, SECOND = PLACE / "albtpu 1", PLACE / "albtpu 2"
 PULSE = ("--wind-speed", "6", "--incidence", "12.5", "--azimuth", "0", "--footprint", "0.7", "--depth", "5")
