@@ -114,18 +114,18 @@ function(albtpu_kernels target scope)
 endfunction()
 
 # A GoogleTest program, registered with CTest under one label:
-#   albtpu_test(NAME LABEL [ONE_PROCESS] [COMPUTES] SOURCES ... LIBRARIES ...)
+#   albtpu_test(NAME LABEL [ONE_PROCESS] SOURCES ... LIBRARIES ...)
 # It is one test of CTest: most of its tests take milliseconds, and to start it takes longer. Those of `validation` take
 # seconds and are registered one by one, to run beside each other, unless they share in ONE_PROCESS what takes longer
-# than they do. Others run for less time than the optimization of their own code takes, unless it COMPUTES for long; the
-# libraries under test are as released.
+# than they do. Others run for less time than the optimization of their own code takes; the libraries under test are as
+# released.
 function(albtpu_test name label)
-  cmake_parse_arguments(ARG "ONE_PROCESS;COMPUTES" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_PROCESS" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   set(options "")
-  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT label STREQUAL "validation" AND NOT ARG_COMPUTES)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT label STREQUAL "validation")
     set(options -O1)
   endif()
   target_compile_options(${name} PRIVATE ${options})
