@@ -17,7 +17,7 @@ install_packages
 echo "== Building"
 cmake --preset release >/dev/null
 cmake --build --preset release -j "$(nproc)" \
-  --target albtpu-generate albtpu-serve albtpu-query albtpu_simulated_survey
+  --target albtpu-generate albtpu-serve albtpu-query albtpu_manual albtpu_simulated_survey
 cmake --install build/release --prefix out >/dev/null
 
 echo "== Making $table by Monte Carlo from $campaign"
