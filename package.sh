@@ -2,9 +2,10 @@
 # Makes the Debian packages albtpu, albtpu-generate, libalbtpu-dev and python3-albtpu in build/packages/SUITE, and
 # checks them by lintian. docs/install.md installs them.
 #
-# Usage: package.sh [--here | SUITE...]
+# Usage: package.sh [--here | --portable | SUITE...]
 #   SUITE...   each in a bare root of that Debian, made by mmdebstrap and removed at the end (default: bookworm trixie)
 #   --here     for the Debian on which it runs, without a root; installs the packages that the build needs
+#   --portable an archive and a wheel for any Linux instead, in build/packages/portable
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
@@ -42,7 +43,8 @@ if [[ $# == 1 && $1 == --here ]]; then
   build_here
   exit
 fi
-[[ $* != *-* ]] || { sed -n 's/^# \?//; 2,7p' "$0" >&2; exit 2; }
+[[ $* != --portable ]] || exec packaging/portable.sh
+[[ $* != *-* ]] || { sed -n 's/^# \?//; 2,8p' "$0" >&2; exit 2; }
 command -v mmdebstrap >/dev/null || { echo "$0: mmdebstrap is missing; apt-get install mmdebstrap" >&2; exit 1; }
 [[ $# != 0 ]] || set -- bookworm trixie
 for suite in "$@"; do

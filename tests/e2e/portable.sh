@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the archive and the wheel (packaging/portable.sh) and tests them on bare Debian 12 and 13, as root.
+# Makes the archive and the wheel (package.sh --portable) and tests them on bare Debian 12 and 13, as root.
 #
 # Usage: portable.sh      build/release must have been built
 set -euo pipefail
@@ -9,7 +9,7 @@ if ((EUID != 0)) || ! command -v mmdebstrap >/dev/null; then
   echo "skipped: portable: needs root and mmdebstrap; apt-get install mmdebstrap"
   exit 0
 fi
-packaging/portable.sh
+./package.sh --portable
 export PYTHONPATH=clients/python/src
 roots=$(mktemp --directory --tmpdir albtpu-roots.XXXXXX)
 trap 'rm -rf "$roots"' EXIT

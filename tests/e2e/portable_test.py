@@ -1,6 +1,6 @@
 """The archive and the wheel of packaging/portable.sh run on bare Debian 12 and 13, read-only and from any folder.
 
-Usage: portable_test.py ARCHIVE WHEEL SIMULATED_SURVEY ROOTS
+Usage: portable_test.py ARCHIVE WHEEL SIMULATED_SURVEY ROOTS [TEST...]
 
 Needs root and mmdebstrap, which makes the Debians in the folder ROOTS. What needs PyPI is skipped where PyPI cannot be
 reached.
@@ -31,6 +31,7 @@ LAS = ("las", "/data/flight.las", "--overwrite", "--trajectory", "/data/sbet.out
        "--wind-from", "250", "--water-column", "none", "--datum-sigma", "0", "--coverage", "p95", "--details")
 # What other software may have set; none of it is for these programs.
 HOSTILE = {"PROJ_DATA": "/data/other", "PROJ_LIB": "/data/other", "LD_LIBRARY_PATH": "/data/other"}
+PATIENCE = 1800  # s; downloads and installations on a loaded machine
 EXTRAS = "client,tables,datasets,report,progress"
 QUERY = """import sys, albtpu, numpy, xarray
 with albtpu.connect(sys.argv[1]) as service:
@@ -86,7 +87,7 @@ class Root:
                 "env", "-i", "-C", "/tmp", *variables)
 
     def run(self, *command, **options):
-        result = run(*self.command(**options), *command, timeout=1800)
+        result = run(*self.command(**options), *command, timeout=PATIENCE)
         assert result.returncode == 0, f"{command}: {result.stdout}{result.stderr}"
         return result.stdout
 
@@ -111,9 +112,10 @@ class Portable:
         """The folder of the newest wheels of PyPI for the Python of this Debian."""
         folder = self.output / name
         result = run(sys.executable, "-m", "pip", "download", "--quiet", "--only-binary=:all:", "--dest", folder,
-                     "--python-version", self.python, *requirements)
-        if result.returncode != 0:
+                     "--python-version", self.python, *requirements, timeout=PATIENCE)
+        if "No matching distribution" in result.stderr:
             self.skipTest(f"PyPI cannot be reached: {result.stderr.splitlines()[-1]}")
+        self.assertEqual(result.returncode, 0, result.stderr)
         return folder
 
     def install(self, name, requirement, wheels):
@@ -129,7 +131,7 @@ class Portable:
 
     def test_programs_run_read_only_whatever_the_environment_names(self):
         for name in ("albtpu-query", "albtpu-serve", "albtpu-generate"):
-            self.assertIn(f"{name} {VERSION} ", self.root.run(FIRST / "bin" / name, "--version", network=False))
+            self.assertIn(f"{name} {VERSION}\n", self.root.run(FIRST / "bin" / name, "--version", network=False))
         points = self.annotate(FIRST / "bin/albtpu-query", "first.las", network=False)
         self.assertEqual(self.annotate(FIRST / "bin/albtpu-query", "hostile.las", environment=HOSTILE), points)
         self.assertEqual(self.annotated.setdefault("points", points), points, "another Debian has other bytes")
@@ -164,8 +166,7 @@ class Portable:
         known = ((authority.certificate, pathlib.Path("/etc/ssl/certs/ca-certificates.crt"), "ro"),)
         with Server(FIRST / "bin/albtpu-serve", "--tls-cert", inside[certificate], "--tls-key", inside[key],
                     "--token-file", inside[token], prefix=self.root.command()) as server:
-            address = "localhost:" + server.address.rpartition(":")[2]
-            query = (FIRST / "bin/albtpu-query", "health", "--server", address, "--token-file", inside[token])
+            query = (FIRST / "bin/albtpu-query", "health", "--server", server.address, "--token-file", inside[token])
             self.assertEqual(self.root.run(*query, mounts=known), "SERVING\n")
             with self.assertRaisesRegex(AssertionError, "albtpu-query: "):
                 self.root.run(*query)
@@ -200,7 +201,8 @@ class Debian12(Portable, unittest.TestCase):
         folder = self.download("auditwheel", "auditwheel")
         run(sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--find-links", folder, "--target",
             folder / "site", "auditwheel")
-        shown = run(sys.executable, "-m", "auditwheel", "show", WHEEL, environment={"PYTHONPATH": str(folder / "site")})
+        shown = run(sys.executable, "-m", "auditwheel", "show", WHEEL, timeout=PATIENCE,
+                    environment={"PYTHONPATH": str(folder / "site")})
         self.assertRegex(" ".join(shown.stdout.split()),
                          f'{WHEEL.name} is consistent with the following platform tag: "manylinux_2_3[0-6]_x86_64"')
 
@@ -227,4 +229,4 @@ def setUpModule():
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]], verbosity=2)
