@@ -27,16 +27,20 @@ build_here() {
   lintian --fail-on error "build/packages/$suite/"*.deb
 }
 
-# Runs the same in a root of `suite`, in which this folder has the same path as outside.
+# Runs the same in a root of `suite`, in which this folder has the same path as outside. The mounts end with the command.
 build_in_root() {
-  local suite=$1 cache=${CCACHE_DIR:-$HOME/.cache/ccache} include hook
-  mkdir -p build "$cache"
+  local include
   include=$(package_names packages | paste -sd,)
-  hook="set -e; mkdir -p \"\$1$PWD\" \"\$1/ccache\"
-    mount --bind '$PWD' \"\$1$PWD\"; mount --bind '$cache' \"\$1/ccache\"
-    trap 'umount \"\$1$PWD\" \"\$1/ccache\"' EXIT
-    CCACHE_DIR=/ccache HOME=/root chroot \"\$1\" sh -c 'cd \"$PWD\" && ./package.sh --here'"
-  mmdebstrap --variant=minbase --include="$include" --customize-hook="$hook" "$suite" /dev/null
+  export here=$PWD cache=${CCACHE_DIR:-$HOME/.cache/ccache}
+  mkdir -p build "$cache"
+  # shellcheck disable=SC2016  # The variables are those of the shells that run it.
+  mmdebstrap --variant=minbase --include="$include" --customize-hook='
+    mkdir -p "$1$here" "$1/ccache"
+    exec unshare --mount sh -ec '\''
+      mount --bind "$here" "$1$here"
+      mount --bind "$cache" "$1/ccache"
+      HOME=/root CCACHE_DIR=/ccache exec chroot "$1" sh -c "cd \"\$here\" && ./package.sh --here"
+    '\'' sh "$1"' "$1" /dev/null
 }
 
 if [[ $# == 1 && $1 == --here ]]; then

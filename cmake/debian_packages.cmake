@@ -11,10 +11,7 @@ file(STRINGS /etc/os-release debian REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9]" "" debian "${debian}")
 
 # 1.0.0~rc1 is older than 1.0.0, and 1.0.0+deb12u0 than 1.0.0+deb13u0: an upgrade of Debian upgrades packages, too.
-set(version ${PROJECT_VERSION})
-if(ALBTPU_VERSION)
-  string(REPLACE "-" "~" version ${ALBTPU_VERSION})
-endif()
+string(REPLACE "-" "~" version ${ALBTPU_VERSION})
 set(CPACK_DEBIAN_PACKAGE_VERSION ${version}+deb${debian}u0)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME albtpu)

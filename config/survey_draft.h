@@ -31,7 +31,7 @@ struct SurveyDraft {
 // default or an example; in capitals it is a placeholder: NUMBER.
 std::string DraftText(const SurveyDraft& draft);
 
-// The flag of a key and its value: {"--water-classes", "41,42"}, {"--trajectory-from-returns", ""}. The key must have
+// The flag of a key and its value: {"--water-classes", "41,42"}, {"--trajectory-from-returns"}. The key must have
 // a flag.
 std::vector<std::string> FlagOf(const DraftValue& value);
 

@@ -104,7 +104,7 @@ inline constexpr Number kWaterIndex = {1.3, 1.4, "1"};
 inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
     {{"name", "--sensor", Text{"the name of a sensor, or the path of its file", "NAME|FILE.toml"}, "",
       "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the location "
-      "of the surface, the water column and the datum, instead of the share of the sea surface"},
+      "of the surface, the water column and the datum, instead of the contribution of the sea surface alone"},
      &SensorSettings::name},
     {{"lever_arm", "--lever-arm", kLeverArm, "none",
       "From the trajectory's reference point to the laser, in body axes: forward, right, down"},
@@ -144,7 +144,7 @@ inline constexpr std::array<Key<WaterSettings>, 21> kWaterKeys = {{
     {{"processed_with", "", kWaterIndex, "the group index of the water",
       "The index that the ranges were computed with"},
      &WaterSettings::processed_with},
-    {{"column", "--water-column", Word{kColumns}, "", "none: leave out the share of the water column"},
+    {{"column", "--water-column", Word{kColumns}, "", "none: leave out the contribution of the water column"},
      &WaterSettings::column},
     {{"kd", "", Number{0.001, 10, "1/m"}, "", "Attenuation of the water, of the kind that kd_kind says"},
      &WaterSettings::kd},

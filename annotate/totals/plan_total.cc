@@ -165,10 +165,11 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
                     "[datum] sigma in m, 1 sigma (0 for ellipsoidal heights)"});
   }
   if (!survey.water.without_column() && !survey.water.bias.has_value()) {
-    open.push_back({"water",
-                    "the share of the water column is not decided, so that no number may be called total; give [water] "
-                    "bias = \"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics "
-                    "of the water and the receiver, or column = \"none\" to leave it out"});
+    open.push_back(
+        {"water",
+         "the contribution of the water column is not decided, so that no number may be called total; give [water] "
+         "bias = \"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics "
+         "of the water and the receiver, or column = \"none\" to leave it out"});
   }
   return open;
 }

@@ -51,10 +51,16 @@ Arguments Numbered(const std::vector<OpenDecision>& open, std::size_t first) {
   return lines;
 }
 
-// Adds FLAG [VALUE] unless it is there.
-void Add(const Arguments& flag, Arguments& arguments) {
-  if (!flag.empty() && std::ranges::count(arguments, flag.front()) == 0)
-    arguments.insert(arguments.end(), flag.begin(), flag.end());
+// FLAG [VALUE] of an example.
+struct ExampleFlag {
+  Arguments words;
+  bool has_key = false;  // Of the survey file.
+};
+
+// Adds a flag unless it is there.
+void Add(const ExampleFlag& flag, std::vector<ExampleFlag>& flags) {
+  const auto name = [](const ExampleFlag& each) { return each.words.front(); };
+  if (std::ranges::count(flags, flag.words.front(), name) == 0) flags.push_back(flag);
 }
 
 bool IsOpen(const std::vector<OpenDecision>& open, std::string_view section) {
@@ -62,51 +68,49 @@ bool IsOpen(const std::vector<OpenDecision>& open, std::string_view section) {
 }
 
 // The flags that close what is open.
-Arguments FlagsThatClose(const std::vector<OpenDecision>& open, const Suggestions& suggestions,
-                         const LasOptions& options, const config::SurveySettings& settings) {
-  Arguments flags;
+std::vector<ExampleFlag> FlagsThatClose(const std::vector<OpenDecision>& open, const Suggestions& suggestions,
+                                        const LasOptions& options, const config::SurveySettings& settings) {
+  std::vector<ExampleFlag> flags;
   const bool by_angle = IsOpen(open, "trajectory") && !suggestions.from_returns;
   for (const OpenDecision& decision : open) {
     if (decision.section == "trajectory" && by_angle) {
-      for (std::size_t i = 0; i + 1 < suggestions.by_angle.size(); i += 2)
-        Add({suggestions.by_angle[i], suggestions.by_angle[i + 1]}, flags);
+      Add({suggestions.by_angle}, flags);
+      Add({kExampleAltitude}, flags);
     } else if (decision.section == "altitude") {
-      Add({"--altitude", "400"}, flags);
+      Add({kExampleAltitude}, flags);
     } else if (decision.section == "units") {
-      Add(suggestions.units, flags);
+      if (!suggestions.units.empty()) Add({suggestions.units}, flags);
     } else if (const DraftValue* value = FirstOf(suggestions, decision.section)) {
-      Add(FlagOf(*value), flags);
+      Add({FlagOf(*value), true}, flags);
     }
   }
   // A sensor of the example has a divergence.
   if (IsOpen(open, "beam size") && !IsOpen(open, "sensor")) {
-    if (!options.beams.divergence.has_value()) Add({"--divergence", "1"}, flags);
-    if (options.beams.scanner.has_value() || options.beams.incidence.has_value()) Add({"--altitude", "400"}, flags);
+    if (!options.beams.divergence.has_value()) Add({{"--divergence", "1"}}, flags);
+    if (options.beams.scanner.has_value() || options.beams.incidence.has_value()) Add({kExampleAltitude}, flags);
   }
   const DraftValue* const classes = FirstOf(suggestions, "output");
-  if (settings.output.classes.empty() && classes != nullptr) Add(FlagOf(*classes), flags);
+  if (settings.output.classes.empty() && classes != nullptr) Add({FlagOf(*classes), true}, flags);
   return flags;
 }
 
 // What a total by these settings, with the flags of the example, would assume.
-Arguments AssumedWith(const Arguments& flags, const LasOptions& options, config::SurveySettings settings) {
-  BeamOptions beams = options.beams;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] == "--scanner" || flags[i] == "--incidence" || flags[i] == "--altitude" || flags[i] == "--units" ||
-        flags[i] == "--divergence" || !flags[i].starts_with("--"))
-      continue;
-    const config::FlagKey key = config::FindFlag(flags[i]);
-    const absl::StatusOr<config::Value> value = ParseValue(*key.declaration, i + 1 < flags.size() ? flags[i + 1] : "");
+Arguments AssumedWith(const std::vector<ExampleFlag>& flags, const LasOptions& options,
+                      config::SurveySettings settings) {
+  for (const auto& [words, has_key] : flags) {
+    if (!has_key) continue;
+    const config::FlagKey key = config::FindFlag(words.front());
+    const absl::StatusOr<config::Value> value = ParseValue(*key.declaration, words.size() > 1 ? words[1] : "");
     if (value.ok()) key.put(*value, settings);
   }
   if (!settings.wants_total()) return {};
-  const config::SurveySettings& all = settings;
-  const absl::StatusOr<annotate::TotalPlan> plan =
-      annotate::PlanTotal(all, {.has_surface_returns = !all.surface.classes.empty(),
-                                .has_level = all.surface.level.has_value(),
-                                .trajectory_errors = all.trajectory.errors.empty() ? "" : "--trajectory-errors"});
-  Arguments lines = plan.ok() ? annotate::Assumptions(*plan) : Arguments();
-  if (!beams.divergence.has_value() && plan.ok() && plan->divergence.has_value()) {
+  const absl::StatusOr<annotate::TotalPlan> plan = annotate::PlanTotal(
+      settings, {.has_surface_returns = !settings.surface.classes.empty(),
+                 .has_level = settings.surface.level.has_value(),
+                 .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"});
+  if (!plan.ok()) return {};
+  Arguments lines = annotate::Assumptions(*plan);
+  if (!options.beams.divergence.has_value() && plan->divergence.has_value()) {
     const annotate::StatedNumber number = annotate::AssumedDivergence(*plan->divergence);
     lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
   }
@@ -119,7 +123,7 @@ absl::Status Refuse(const FirstContact& contact) {
   std::string text;
   for (const std::string& line : contact.found) absl::StrAppend(&text, line, "\n");
   AppendLines("To be decided:", Numbered(contact.open, 1), text);
-  AppendLines("And for totals; without a sensor, only the share of the sea surface is given:",
+  AppendLines("And for totals; without a sensor, only the contribution of the sea surface is given:",
               Numbered(contact.of_total, contact.open.size() + 1), text);
   AppendLines("Assumed where nothing else is given:", contact.assumed, text);
   AppendLines("For example, with the numbers of your survey in place of these:", {CommandLine(contact.example)}, text);
@@ -183,14 +187,10 @@ FirstContact ContactOf(const LasOptions& options, const config::SurveySettings& 
   std::vector<OpenDecision> all = contact.open;
   if (FirstOf(*suggestions, "sensor") != nullptr)
     all.insert(all.end(), contact.of_total.begin(), contact.of_total.end());
-  const Arguments flags = FlagsThatClose(all, *suggestions, options, settings);
-  for (std::size_t i = 0; i < flags.size();) {
-    const std::size_t size = i + 1 < flags.size() && !flags[i + 1].starts_with("--") ? 2 : 1;
-    Add(Arguments(flags.begin() + static_cast<std::ptrdiff_t>(i),
-                  flags.begin() + static_cast<std::ptrdiff_t>(i + size)),
-        contact.example);
-    i += size;
-  }
+  const std::vector<ExampleFlag> flags = FlagsThatClose(all, *suggestions, options, settings);
+  for (const ExampleFlag& flag : flags)
+    if (std::ranges::count(contact.example, flag.words.front()) == 0)
+      contact.example.insert(contact.example.end(), flag.words.begin(), flag.words.end());
   contact.assumed = AssumedWith(flags, options, settings);
   return contact;
 }

@@ -34,8 +34,9 @@ std::string SensorNames() {
 // What nothing that was found answers.
 std::vector<OpenDecision> DecisionsOf(const Suggestions& suggestions) {
   std::vector<OpenDecision> open = {
-      {"sensor", absl::StrCat("the lidar, for totals; without it, only the share of the sea surface is given. Known: ",
-                              SensorNames(), "; others by a file of their own")}};
+      {"sensor",
+       absl::StrCat("the lidar, for totals; without it, only the contribution of the sea surface is given. Known: ",
+                    SensorNames(), "; others by a file of their own")}};
   for (const OpenDecision& decision : OpenDecisionsOf(BeamOptions(), config::SurveySettings()))
     if (decision.section != "beam size") open.push_back(decision);
   for (const OpenDecision& decision : annotate::UndecidedOf(config::SurveySettings())) open.push_back(decision);
@@ -65,11 +66,13 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
     command.insert(command.end(), {"FILES", "--output-dir", "FOLDER"});
   command.insert(command.end(), {"--survey", "survey.toml"});
   command.insert(command.end(), suggestions.units.begin(), suggestions.units.end());
-  if (!suggestions.times) command.insert(command.end(), suggestions.by_angle.begin(), suggestions.by_angle.end());
+  std::vector<std::string> by_angle = suggestions.by_angle;
+  by_angle.insert(by_angle.end(), kExampleAltitude.begin(), kExampleAltitude.end());
+  if (!suggestions.times) command.insert(command.end(), by_angle.begin(), by_angle.end());
   lines.push_back("  " + join(command));
   if (suggestions.times)
-    lines.push_back(absl::StrCat("Where there is no trajectory at all, `", join(suggestions.by_angle),
-                                 "` in that line takes its place."));
+    lines.push_back(
+        absl::StrCat("Where there is no trajectory at all, `", join(by_angle), "` in that line takes its place."));
   lines.push_back("");
   lines.push_back("Found:");
   for (const LasLook& look : looks)

@@ -274,15 +274,11 @@ absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks) {
   double angle = 0;
   for (const LasLook& look : looks) angle = std::max({angle, -look.contents.least_angle, look.contents.greatest_angle});
   if (angle > 0)
-    suggestions.by_angle = {"--scanner", "across-track", "--altitude", "400"};
+    suggestions.by_angle = {"--scanner", "across-track"};
   else
-    suggestions.by_angle = {"--incidence", "20", "--altitude", "400"};
+    suggestions.by_angle = {"--incidence", "20"};
   const auto open = std::ranges::find_if(looks, [](const LasLook& look) { return !look.units_message.empty(); });
-  if (open != looks.end()) {
-    const bool survey_feet =
-        open->units_message.find("US") != std::string::npos || open->units_message.find("9003") != std::string::npos;
-    suggestions.units = {"--units", survey_feet ? "us-ft" : "ft"};
-  }
+  if (open != looks.end()) suggestions.units = {"--units", open->unit == "us-ft" ? "us-ft" : "ft"};
   return suggestions;
 }
 

@@ -49,9 +49,11 @@ std::vector<std::string> Differences(std::span<const LasLook> looks);
 struct Suggestions {
   std::vector<config::DraftValue> values;
   bool from_returns = false, times = false;  // The way of the beams follows from the returns; trajectories can be used.
-  // Flags of `las` that have no key: for the beams where no trajectory is given, and for the unit of heights.
+  // Flags of `las` that have no key, with their values: for the beams where no trajectory is given, with
+  // kExampleAltitude, and for the unit of heights, which may be empty.
   std::vector<std::string> by_angle, units;
 };
+inline const std::vector<std::string> kExampleAltitude = {"--altitude", "400"};  // m
 absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks);
 
 // The first value of a section; null if there is none.

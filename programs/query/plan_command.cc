@@ -135,7 +135,7 @@ class Planner {
     return PrepareWaters(shown);
   }
 
-  // A total for each attenuation, if the share of the water column is wanted.
+  // A total for each attenuation, if the contribution of the water column is wanted.
   absl::Status PrepareWaters(annotate::FileProgress::File& shown) {
     if (wants_column()) {
       plan_.axes.push_back({"kd", "1/m", Rising(options_.kds), {}});

@@ -1,4 +1,4 @@
-"""Adds `sea_thu` and `sea_tvu`, the share of the sea surface in THU and TVU, to a LAS or LAZ file, with laspy 2.
+"""Adds `sea_thu` and `sea_tvu`, the contribution of the sea surface in THU and TVU, to a LAS or LAZ file, with laspy 2.
 
     python3 laspy_annotate.py line.laz annotated.laz --server localhost:50051 \\
         --trajectory track.csv --water-level -23.09 --wind-speed 5 --divergence 1.5

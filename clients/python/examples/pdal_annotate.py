@@ -1,4 +1,4 @@
-"""Adds `sea_thu` and `sea_tvu`, the share of the sea surface in THU and TVU, to points in a PDAL pipeline.
+"""Adds `sea_thu` and `sea_tvu`, the contribution of the sea surface in THU and TVU, to points in a PDAL pipeline.
 
     pdal pipeline pdal_pipeline.json --readers.las.filename=line.laz --writers.las.filename=annotated.laz
 

@@ -1,4 +1,4 @@
-"""The share of the water column from outside: one pulse, LAS, CSV, points beyond it, and what is refused."""
+"""The contribution of the water column from outside: one pulse, LAS, CSV, points beyond it, and what is refused."""
 
 import json
 import math

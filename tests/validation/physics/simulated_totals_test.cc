@@ -112,8 +112,8 @@ const std::vector<TracedErrors>& Traced() {
   return traced;
 }
 
-// The covariance of the share of the sea surface, made of THU, TVU and the two refractions, is that of the traced
-// errors.
+// The covariance of the contribution of the sea surface, made of THU, TVU and the two refractions, is that of the
+// traced errors.
 TEST(SeaContribution, HasTheCovarianceOfTracedBeams) {
   constexpr std::size_t kDepth = 2;
   const double depth = kDepths[kDepth];
