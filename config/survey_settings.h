@@ -66,6 +66,8 @@ struct DatumSettings {                            // [datum]
 
 struct OutputSettings {                  // [output]
   std::vector<int> classes;              // Of the points that get an uncertainty.
+  std::optional<std::string> points;     // kPointChoices
+  std::optional<bool> use_withheld;
   std::optional<std::string> coverage;   // kCoverages
   std::optional<std::string> s44_order;  // kS44OrderNames
   std::optional<bool> details;
@@ -88,6 +90,7 @@ inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
+inline constexpr std::array<std::string_view, 2> kPointChoices = {"all", "bathymetric"};
 inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", "1sigma"};
 
 // The class of a point in LAS 1.4 is one byte.
@@ -193,9 +196,16 @@ inline constexpr std::array<Key<DatumSettings>, 2> kDatumKeys = {{
       "Height of the points' vertical datum above the ellipsoid, where the points are not ellipsoidal"},
      &DatumSettings::geoid_separation},
 }};
-inline constexpr std::array<Key<OutputSettings>, 4> kOutputKeys = {{
-    {{"classes", "--classes", kClasses, "40; 26 in point formats 0 to 5", "The classes of bathymetric points"},
+inline constexpr std::array<Key<OutputSettings>, 6> kOutputKeys = {{
+    {{"classes", "--classes", kClasses, "40, 43; 26 in point formats 0 to 5", "The classes of bathymetric points"},
      &OutputSettings::classes},
+    {{"points", "--points", Word{kPointChoices}, "all with a sensor, otherwise bathymetric",
+      "The points that get a total: all, those of other classes than --classes without sea and water, as on land; or "
+      "bathymetric ones alone. Noise (7, 18) gets none"},
+     &OutputSettings::points},
+    {{"use_withheld", "--use-withheld", YesOrNo{}, "",
+      "Points that are flagged as withheld count as any other; otherwise they get no number and take no part"},
+     &OutputSettings::use_withheld},
     {{"coverage", "--coverage", Word{kCoverages}, "2sigma",
       "2sigma for twice the standard deviation, p95 for 95 %, 1sigma for one standard deviation"},
      &OutputSettings::coverage},

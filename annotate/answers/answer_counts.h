@@ -49,8 +49,11 @@ enum class NoPulse : std::uint8_t {
   kNoSurface,            // No water surface is known there.
   kNoSea,                // The series of the sea has no state at its time.
   kAboveWater,           // The point lies above the water surface.
+  kDry,                  // The same, and it has the uncertainty of a dry point.
 };
-inline constexpr std::size_t kNoPulseCount = 5;
+inline constexpr std::size_t kNoPulseCount = 6;
+
+constexpr bool IsAbove(NoPulse why) { return why == NoPulse::kAboveWater || why == NoPulse::kDry; }
 
 std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 

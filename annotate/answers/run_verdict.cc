@@ -167,6 +167,7 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
               "check that it is of these days, in UTC; choose one of its times by --sea-time, or bridge "
               "longer gaps by longest_gap in [sea] of a survey file"};
     case NoPulse::kAboveWater:
+    case NoPulse::kDry:
       break;
   }
   LikelyCause cause{"they lie above the water surface", "check the water surface and its vertical datum"};

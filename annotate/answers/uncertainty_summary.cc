@@ -192,8 +192,8 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
   }
 }
 
-void UncertaintySummary::AddAboveWater(float depth) {
-  outcomes_.Add(NoPulse::kAboveWater);
+void UncertaintySummary::AddAboveWater(float depth, NoPulse why) {
+  outcomes_.Add(why);
   above_water_.Add(depth);
 }
 
@@ -219,7 +219,7 @@ AnswerTally UncertaintySummary::Tally() const {
   for (std::size_t i = 1; i < outside_.size(); ++i) add(OutcomeCounts::Name(i), outcomes_.count(i), outside_[i]);
   for (std::size_t i = 0; i < kNoPulseCount; ++i) {
     const auto why = static_cast<NoPulse>(i);
-    add(OutcomeName(why), outcomes_.count(why), why == NoPulse::kAboveWater ? above_water_ : CoordinateSpread());
+    add(OutcomeName(why), outcomes_.count(why), IsAbove(why) ? above_water_ : CoordinateSpread());
   }
   if (std::isfinite(min_depth_)) tally.min_depth = min_depth_;
   return tally;

@@ -77,8 +77,8 @@ class UncertaintySummary {
   void Add(const PulseBatch& pulses, const AnswerBatch& answers);
   // Chosen points without a query; those above the water by the next function.
   void Add(NoPulse why, std::uint64_t count = 1) { outcomes_.Add(why, count); }
-  // A chosen point above the water surface, at this negative depth [m].
-  void AddAboveWater(float depth);
+  // A chosen point above the water surface, at this negative depth [m]; `why` is kAboveWater or kDry.
+  void AddAboveWater(float depth, NoPulse why = NoPulse::kAboveWater);
   void Merge(const UncertaintySummary& other);
 
   const OutcomeCounts& outcomes() const { return outcomes_; }

@@ -87,6 +87,7 @@ struct BeamPlan {
   BeamSource source = ConstantIncidence();
   std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
   bool any_aircraft = false;                     // Also compute the motion of the aircraft.
+  bool dry_points = false;                       // Bottom above the water is dry, not without a beam.
   bool any_sea = false;                          // Not a table of winds: azimuths count from north.
   std::optional<float> azimuth;                  // degree from downwind, of all beams.
   std::optional<double> wind_from;               // degree, true

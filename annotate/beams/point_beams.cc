@@ -42,12 +42,14 @@ void BeamGeometry::Compute(const SurveyPoints& points, BeamScratch& scratch, Poi
        {&beams.incidence, &beams.beam_azimuth, &beams.azimuth, &beams.footprint, &beams.depth, &beams.slant_range})
     column->assign(count, kNan);
   beams.why_not.assign(count, std::nullopt);
+  beams.dry = points.dry;
+  beams.dry.resize(count);
   beams.surface = {};
   Locate(points, scratch, beams);
   if (plan_.has_track())
     FromTrack(points, scratch, beams);
   else
-    FromAngles(points, beams);
+    FromAngles(points, scratch, beams);
   if (plan_.any_aircraft) FindAircraft(points, scratch, beams);
 }
 
@@ -68,7 +70,9 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
     const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
     const std::optional<double> altitude =
         scan != nullptr ? scan->altitude : std::get<ConstantIncidence>(plan_.source).altitude;
-    altitudes.assign(count, static_cast<float>(altitude.value_or(kNan)));
+    altitudes.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+      altitudes[i] = static_cast<float>(altitude.value_or(kNan) - scratch.above[i]);
     if (scan != nullptr && scan->flight_direction.has_value())
       aircraft[BudgetInput::kHeading].assign(count, static_cast<float>(*scan->flight_direction));
   }
@@ -90,13 +94,22 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
 void BeamGeometry::Locate(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const {
   water_.At(points, frame_, scratch.heights, beams.surface);
   scratch.depth.resize(points.size());
+  scratch.above.assign(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    scratch.depth[i] = scratch.heights[i] - frame_.Z(points.z[i]);
+    const double own = frame_.Z(points.z[i]);
+    scratch.depth[i] = scratch.heights[i] - own;
     beams.depth[i] = static_cast<float>(scratch.depth[i]);
-    if (!std::isfinite(scratch.heights[i]))
+    const bool is_above = scratch.depth[i] < 0;
+    if (plan_.dry_points && is_above) beams.dry[i] = 1;
+    if (beams.dry[i] != 0) {
+      if (std::isfinite(scratch.depth[i])) scratch.above[i] = -scratch.depth[i];
+      scratch.heights[i] = own;
+      scratch.depth[i] = beams.depth[i] = 0;
+    } else if (!std::isfinite(scratch.heights[i])) {
       beams.why_not[i] = NoPulse::kNoSurface;
-    else if (scratch.depth[i] < 0)
+    } else if (is_above) {
       beams.why_not[i] = NoPulse::kAboveWater;
+    }
   }
 }
 
@@ -142,7 +155,7 @@ void BeamGeometry::FromTrack(const SurveyPoints& points, BeamScratch& scratch, P
   }
 }
 
-void BeamGeometry::FromAngles(const SurveyPoints& points, PointBeams& beams) const {
+void BeamGeometry::FromAngles(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const {
   const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
   const auto* constant = std::get_if<ConstantIncidence>(&plan_.source);
   const std::optional<double>& altitude = scan != nullptr ? scan->altitude : constant->altitude;
@@ -159,7 +172,8 @@ void BeamGeometry::FromAngles(const SurveyPoints& points, PointBeams& beams) con
       const double downwind = *plan_.wind_from + 180;
       beams.azimuth[i] = static_cast<float>(*direction - downwind);
     }
-    const double slant_range = altitude.has_value() ? *altitude / std::cos(RadiansOfDegrees(incidence)) : kNan;
+    const double slant_range =
+        altitude.has_value() ? (*altitude - scratch.above[i]) / std::cos(RadiansOfDegrees(incidence)) : kNan;
     beams.slant_range[i] = static_cast<float>(slant_range);
     beams.footprint[i] = static_cast<float>(FootprintOf(plan_, slant_range));
   }
@@ -168,7 +182,7 @@ void BeamGeometry::FromAngles(const SurveyPoints& points, PointBeams& beams) con
 void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows, PulseBatch& pulses) {
   rows.clear();
   for (std::size_t i = 0; i < beams.why_not.size(); ++i)
-    if (!beams.why_not[i].has_value()) rows.push_back(static_cast<std::uint32_t>(i));
+    if (!beams.why_not[i].has_value() && beams.dry[i] == 0) rows.push_back(static_cast<std::uint32_t>(i));
   const auto column = [&](const std::vector<float>& values, std::vector<float>& selected) {
     selected.resize(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) selected[i] = values[rows[i]];

@@ -20,11 +20,13 @@ namespace albtpu::annotate {
 // One element for each point; NaN where there is no number.
 struct PointBeams {
   std::vector<std::optional<NoPulse>> why_not;  // Absent: the point has a pulse.
+  // 1: the beam met no water before the point, and depth is 0: the point is dry, or of the bottom and above the water.
+  std::vector<std::uint8_t> dry;
   std::vector<float> incidence;                 // degree, in air, at the water
   std::vector<float> beam_azimuth;              // degree in [0, 360), clockwise from true north
   std::vector<float> azimuth;                   // degree from downwind
   std::vector<float> footprint;                 // m
-  std::vector<float> depth;                     // m below the surface; negative above it
+  std::vector<float> depth;                     // m below the surface; negative above it, 0 of a dry point
   std::vector<float> slant_range;               // m, in air
   // What a total needs beside the beam; empty unless it is wanted.
   std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
@@ -34,6 +36,7 @@ struct PointBeams {
 
 // Memory that is reused.
 struct BeamScratch {
+  std::vector<double> above;  // m, of a dry point above (or, negative, below) the surface that is known there, or 0.
   std::vector<double> heights, east, north, height, depth, convergence;
   std::vector<double> incidence, azimuth, slant_range;
   std::vector<SensorPosition> positions;
@@ -59,7 +62,7 @@ class BeamGeometry {
  private:
   void Locate(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
   void FromTrack(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
-  void FromAngles(const SurveyPoints& points, PointBeams& beams) const;
+  void FromAngles(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const;
   void FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const;
 
   const BeamPlan& plan_;
@@ -69,7 +72,7 @@ class BeamGeometry {
   const SensorMotions* motions_;
 };
 
-// The pulses of the points that have one; `rows` says which points these are. A coordinate that is the same for all
+// The pulses in water of the points that have one; `rows` says which points these are. A coordinate that is the same for all
 // pulses has one number.
 void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows, PulseBatch& pulses);
 

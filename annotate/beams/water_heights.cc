@@ -3,13 +3,34 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/samples.h"
 
 namespace albtpu::annotate {
 namespace {
 
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
+
+constexpr double kFewCrests = 0.01;  // Of all returns near the surface: so few say nothing.
+constexpr double kMedianOfHalfNormal = 0.6745;
+constexpr double kDeviations = 3.5;  // One trough in 4000 is deeper.
+
+// How far below the surface troughs reach, m, judged by the returns from crests, whose heights are those of a normal
+// distribution; 0 where there are none.
+double DeepestTrough(std::span<const ReturnPair> pairs, const std::vector<double>& heights) {
+  std::vector<double> crests;
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].upper_is_bottom) continue;
+    const double above = pairs[i].upper.z() - heights[i];
+    if (above > 0 && above <= kHighestCrest) crests.push_back(above);
+    below += above <= 0;
+  }
+  if (crests.empty() || static_cast<double>(crests.size()) < kFewCrests * static_cast<double>(below)) return 0;
+  return kDeviations / kMedianOfHalfNormal * Median(std::move(crests));
+}
 
 }  // namespace
 
@@ -38,9 +59,12 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double own = points.pulse_surface.empty() ? kNoHeight : frame.Z(points.pulse_surface[i]);
+    const auto count = [&](SurfaceFrom from) {
+      if (!points.is_dry(i)) counts.Add(from);
+    };
     if (std::isfinite(own)) {
       heights[i] = own;
-      counts.Add(SurfaceFrom::kPulse);
+      count(SurfaceFrom::kPulse);
       continue;
     }
     const std::optional<double> local =
@@ -49,9 +73,9 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
             : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]), points.times.empty() ? 0 : points.times[i]);
     if (local.has_value()) {
       heights[i] = *local;
-      counts.Add(SurfaceFrom::kLocal);
+      count(SurfaceFrom::kLocal);
     } else if (std::isfinite(heights[i])) {
-      counts.Add(SurfaceFrom::kLevel);
+      count(SurfaceFrom::kLevel);
     }
   }
 }
@@ -68,9 +92,10 @@ std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHe
   std::vector<double> heights;
   SurfaceCounts ignored;
   water.At(upper, frame, heights, ignored);
+  const double trough = DeepestTrough(pairs, heights);
   std::vector<AirRay> rays;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!std::isfinite(heights[i])) continue;
+    if (!(pairs[i].upper.z() <= heights[i] - (pairs[i].upper_is_bottom ? 0 : trough))) continue;
     const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index);
     if (!ray.has_value()) continue;
     if (rays.empty() || rays.back().time != ray->time)

@@ -27,6 +27,9 @@ struct SurveyPoints {
   std::vector<double> times;          // GPS time as the file states it.
   std::vector<double> scan_angles;    // degree, positive to the right of the flight direction.
   std::vector<double> pulse_surface;  // z of the return from the water surface of the same pulse; NaN if there is none.
+  std::vector<std::uint8_t> dry;      // 1: on land, or of the water surface itself: the beam met no water before it.
+
+  bool is_dry(std::size_t i) const { return !dry.empty() && dry[i] != 0; }
 
   std::size_t size() const { return z.size(); }
 };
@@ -59,15 +62,23 @@ struct WaterHeights {
   const formats::WaterLevelSeries* levels = nullptr;  // In the vertical unit of the points.
   std::optional<double> level;                        // In the vertical unit of the points.
 
-  // Fills `heights` with the surface at each point, m in the vertical datum of the points; NaN where none is known.
+  // Fills `heights` with the surface at each point, m in the vertical datum of the points; NaN where none is known. Dry
+  // points are not counted.
   void At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
           SurfaceCounts& counts) const;
 };
 
 // The rays in air of pairs of returns, over the water surface that is known there.
 
+// m; farther above the water surface, a return is not from its waves.
+inline constexpr double kHighestCrest = 2;
+
 // `pairs` are in order of time and in the local frame. Of the pairs of one pulse, the longest that makes a ray counts.
 // `index` is that of the water.
+//
+// An upper return that is not of the bottom may come from a trough of the waves. It lies on the way in air, and its direction to
+// the bottom is wrong by as much as refraction turns the beam. Where returns come from crests as well, at most
+// kHighestCrest above the surface, only those count that lie deeper than troughs of the same waves.
 std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
                                 double index);
 

@@ -36,8 +36,23 @@ struct Passing {
 // No bathymetric sensor has a larger median incidence.
 constexpr float kLargestMedianIncidence = 35;  // degree
 
+// No scanner looks aside as little as this. Programs that write whole degrees into the field of formats 6 to 10, which
+// counts steps of 0.006 degrees, make a 167th of 20 degrees.
+constexpr float kLeastScan = 0.5;             // degree, to one side
+constexpr std::uint64_t kEnoughAngles = 100;  // Of a few points near the middle, nothing is wrong.
+
+absl::Status CheckScanAngles(const formats::LasReader& reader, const CoordinateSpread& incidence) {
+  if (incidence.count() < kEnoughAngles || incidence.greatest() >= kLeastScan) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrFormat(
+      "%s: all scan angles are within %.2g degrees (a scanner swings by 10 to 30), so that they are probably in another "
+      "unit, such as whole degrees where point formats 6 to 10 count steps of %g; give --trajectory, "
+      "--trajectory-from-returns or --incidence",
+      reader.name(), incidence.greatest(), formats::kModernScanAngleStep));
+}
+
 absl::Status CheckIncidence(const formats::LasReader& reader, const LasAnnotation& annotation,
                             const CoordinateSpread& incidence) {
+  if (std::holds_alternative<AcrossTrackScan>(annotation.plan.source)) return CheckScanAngles(reader, incidence);
   if (!std::holds_alternative<TrajectoryFromFiles>(annotation.plan.source)) return absl::OkStatus();
   if (incidence.count() == 0 || incidence.middle() <= kLargestMedianIncidence) return absl::OkStatus();
   return absl::FailedPreconditionError(
@@ -89,8 +104,12 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
       [&](Passing& passing) {
         const LasChunkWork::Chunk& chunk = passing.chunk;
         annotated.classes.Merge(chunk.classes);
+        annotated.withheld += chunk.withheld;
+        annotated.synthetic += chunk.synthetic;
         annotated.summary.Merge(chunk.summary);
         annotated.totals.Merge(chunk.totals);
+        annotated.dry.Merge(chunk.dry);
+        annotated.submerged += chunk.submerged;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
         annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
@@ -136,6 +155,17 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
   RETURN_IF_ERROR(CheckIncidence(reader, annotation, annotated.incidence));
   annotated.geometry = JsonBox((*beams)->Json());
   annotated.notes = (*beams)->Notes();
+  if (annotated.submerged > 0)
+    annotated.notes.push_back(absl::StrCat(annotated.submerged,
+                                           " unclassified points lie below the water surface and have no number; "
+                                           "--classes with their class makes them bathymetric"));
+  if (annotated.withheld > 0)
+    annotated.notes.push_back(absl::StrCat(
+        annotated.withheld, " bathymetric points are withheld and have no number; --use-withheld gives them one"));
+  if (annotated.synthetic > 0)
+    annotated.notes.push_back(absl::StrCat(
+        annotated.synthetic, " bathymetric points are synthetic: no pulse measured them, and their numbers are those "
+                             "of a pulse there"));
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
     (*annotated.geometry)["incidence"] = {{"least", formats::JsonNumber(least)},

@@ -27,10 +27,13 @@ struct AnnotatedLas {
   bool copc_index_left_out = false;
   std::set<int> chosen_classes = {};
   formats::LasClassCounts classes = {};
+  std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
   UncertaintySummary summary;
   TotalSummary totals = {};  // Empty without a total; so are the next two.
   std::map<int, TotalSummary> totals_by_line = {};
   std::uint64_t sigmas_assumed = 0;
+  DrySummary dry = {};
+  std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
   SurfaceCounts surface = {};
   CoordinateSpread incidence = {};      // degree
   JsonBox geometry = {};                // The determination of the beams, for a summary.

@@ -1,4 +1,4 @@
-// The place and the beams of a LAS file: everything that is determined before its points are annotated.
+// The beams of a LAS file: everything that is determined before its points are annotated.
 #pragma once
 
 #include <memory>
@@ -13,24 +13,13 @@
 #include "annotate/beams/file_track.h"
 #include "annotate/beams/point_beams.h"
 #include "annotate/las/las_chunk.h"
+#include "annotate/las/las_place.h"
 #include "annotate/las/las_prescan.h"
 #include "budget/beams/track_spline.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_reader.h"
 
 namespace albtpu::annotate {
-
-// The place of a LAS file: its coordinate system, its units, and the local frame in which its points are compared.
-
-struct LasPlace {
-  LocalFrame frame;                              // Around the middle of the file.
-  std::shared_ptr<const formats::MapFrame> map;  // Null if the coordinate system is not known and need not be.
-  std::string remark;                            // For the user, about the coordinate system; may be empty.
-};
-
-// The vertical unit is that of the plan, or that of the coordinate system, or metres. Fails when the coordinate system
-// is in feet without saying whether heights are, and when trajectory files need one and there is none.
-absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPlan& plan);
 
 class LasBeams {
  public:
@@ -51,6 +40,8 @@ class LasBeams {
  private:
   void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
   absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
+  // Place and first pass, again if the points show that the header had put the place elsewhere.
+  absl::Status FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation);
   absl::Status FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
 
   LasPlace place_;

@@ -13,7 +13,7 @@ namespace albtpu::annotate {
 using laz::Store;
 
 std::set<int> LasAnnotation::ClassesOf(int point_format) const {
-  return classes.has_value() ? *classes : std::set<int>{formats::DefaultClass(point_format)};
+  return classes.has_value() ? *classes : formats::DefaultClasses(point_format);
 }
 
 AnswerStyle LasAnnotation::style_of_sea() const {
@@ -21,6 +21,21 @@ AnswerStyle LasAnnotation::style_of_sea() const {
   if (total.has_value()) of_sea.coverage = Coverage::kTwoSigma;
   return of_sea;
 }
+
+namespace {
+
+constexpr int kLastUnclassified = 1;  // ASPRS: 0 and 1 are points that nobody classified.
+
+// Whether points of this class that are not chosen lie on land or on the water: neither noise nor under water. ASPRS,
+// LAS Domain Profile for Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 water column (no
+// bottom found), 46 overlapping bottom; in older point formats what NOAA used before.
+bool MayBeDry(int point_class, const formats::LasHeader& header) {
+  if (point_class == formats::kLowNoise || point_class == formats::kHighNoise) return false;
+  if (header.point_format < formats::kFirstModernFormat) return point_class != 25 && point_class != 26;
+  return point_class != 40 && (point_class < 43 || point_class > 46);
+}
+
+}  // namespace
 
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
                            const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
@@ -32,6 +47,7 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
       seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
       utc_(utc),
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
+      use_withheld_(annotation.use_withheld),
       appended_(annotation.appended()),
       replaced_(replaced),
       extra_bytes_begin_(header.record_length - header.extra_bytes()),
@@ -44,6 +60,7 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
   selection_.standard_errors = style_.standard_errors;
   for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
   for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
+  for (int i = 0; i < formats::kClassCount && plan_.dry_points; ++i) is_dry_[i] = !is_chosen_[i] && MayBeDry(i, header);
 }
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
@@ -61,6 +78,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   if (total_ != nullptr) {
     AddWater(total_->water, chunk.pulses, chunk.answers, chunk.total.water);
     FindTotals(chunk);
+    if (plan_.dry_points) FindDryTotals(chunk);
   }
   Summarize(chunk);
   Encode(chunk);
@@ -70,14 +88,20 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
 
 void LasChunkWork::Decode(Chunk& chunk) const {
   chunk.classes = {};
+  chunk.withheld = chunk.synthetic = 0;
   chunk.chosen.resize(chunk.own);
   std::size_t found = 0;
   for (std::size_t i = chunk.before; i < chunk.before + chunk.own; ++i) {
-    const int point_class = fields_.Class(Record(chunk, i));
+    const std::string_view record = Record(chunk, i);
+    const int point_class = fields_.Class(record);
     chunk.classes.Add(point_class);
+    const bool withheld = !use_withheld_ && fields_.IsWithheld(record);
+    const bool chosen = is_chosen_[point_class];
+    chunk.withheld += chosen && withheld;
+    chunk.synthetic += chosen && !withheld && fields_.IsSynthetic(record);
     // Avoids a branch: every index is written, and the next one overwrites it unless it is chosen.
     chunk.chosen[found] = static_cast<std::uint32_t>(i);
-    found += is_chosen_[point_class];
+    found += (chosen || is_dry_[point_class]) && !withheld;
   }
   chunk.chosen.resize(found);
   const auto column = [&](auto field, std::vector<double>& values) {
@@ -92,16 +116,23 @@ void LasChunkWork::Decode(Chunk& chunk) const {
   points.times.clear();
   if (fields_.has_gps_time()) column([this](std::string_view record) { return fields_.GpsTime(record); }, points.times);
   points.pulse_surface.clear();
+  points.dry.clear();
+  if (!plan_.dry_points) return;
+  for (const std::uint32_t i : chunk.chosen) points.dry.push_back(is_dry_[fields_.Class(Record(chunk, i))]);
 }
 
 void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
   chunk.water.clear();
   const std::size_t count = chunk.records.size() / record_length_;
-  for (std::size_t i = 0; i < count; ++i)
-    if (is_water_[fields_.Class(Record(chunk, i))]) chunk.water.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view record = Record(chunk, i);
+    if (!is_water_[fields_.Class(record)] || (!use_withheld_ && fields_.IsWithheld(record))) continue;
+    chunk.water.push_back(static_cast<std::uint32_t>(i));
+  }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
   std::size_t first = 0;  // The first return from the surface that is within reach.
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    if (chunk.points.is_dry(i)) continue;
     const std::size_t point = chunk.chosen[i];
     while (first < chunk.water.size() && chunk.water[first] + kPulseReach < point) ++first;
     std::size_t nearest = kPulseReach + 1;
@@ -121,23 +152,49 @@ void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
 void LasChunkWork::FindSeas(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
     std::optional<NoPulse>& why = chunk.beams.why_not[i];
-    if (!why.has_value() && !seas_->At(chunk.points.times[i] + utc_).has_value()) why = NoPulse::kNoSea;
+    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(chunk.points.times[i] + utc_).has_value()) why = NoPulse::kNoSea;
   }
 }
 
-void LasChunkWork::FindTotals(Chunk& chunk) const {
-  const auto column = [&](const std::vector<float>& of_points, std::vector<float>& of_pulses) {
-    of_pulses.clear();
+void LasChunkWork::TakeAircraft(const PointBeams& beams, const std::vector<std::uint32_t>& rows,
+                                AircraftColumns& aircraft) const {
+  const auto column = [&](const std::vector<float>& of_points, std::vector<float>& of_rows) {
+    of_rows.clear();
     if (of_points.empty()) return;
-    of_pulses.resize(chunk.rows.size());
-    for (std::size_t i = 0; i < chunk.rows.size(); ++i) of_pulses[i] = of_points[chunk.rows[i]];
+    of_rows.resize(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) of_rows[i] = of_points[rows[i]];
   };
-  const PointBeams& beams = chunk.beams;
-  column(beams.aircraft[BudgetInput::kAltitude], chunk.aircraft[BudgetInput::kAltitude]);
-  chunk.aircraft[BudgetInput::kBeamAzimuth].clear();
-  if (plan_.has_direction()) column(beams.beam_azimuth, chunk.aircraft[BudgetInput::kBeamAzimuth]);
+  column(beams.aircraft[BudgetInput::kAltitude], aircraft[BudgetInput::kAltitude]);
+  aircraft[BudgetInput::kBeamAzimuth].clear();
+  if (plan_.has_direction()) column(beams.beam_azimuth, aircraft[BudgetInput::kBeamAzimuth]);
   for (std::size_t i = 0; i < kMotionInputs; ++i)
-    column(beams.aircraft[BudgetInput::kRoll + i], chunk.aircraft[BudgetInput::kRoll + i]);
+    column(beams.aircraft[BudgetInput::kRoll + i], aircraft[BudgetInput::kRoll + i]);
+}
+
+void LasChunkWork::FindDryTotals(Chunk& chunk) const {
+  const PointBeams& beams = chunk.beams;
+  chunk.dry_rows.clear();
+  chunk.dry_incidence.clear();
+  chunk.submerged = 0;
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    if (beams.dry[i] == 0 || beams.why_not[i].has_value()) continue;
+    // A return from under the water that nobody classified is none from land.
+    if (chunk.scratch.above[i] < 0 && fields_.Class(Record(chunk, chunk.chosen[i])) <= kLastUnclassified) {
+      ++chunk.submerged;
+      continue;
+    }
+    chunk.dry_rows.push_back(static_cast<std::uint32_t>(i));
+    chunk.dry_incidence.push_back(beams.incidence[i]);
+  }
+  TakeAircraft(beams, chunk.dry_rows, chunk.dry_aircraft);
+  ComputeDryTotals(*total_, chunk.dry_incidence, chunk.dry_aircraft, chunk.dry_total);
+  chunk.sigmas_assumed += chunk.dry_total.sigmas_assumed;
+  chunk.dry = {};
+  for (std::size_t i = 0; i < chunk.dry_rows.size(); ++i) chunk.dry.Add(chunk.dry_total, i);
+}
+
+void LasChunkWork::FindTotals(Chunk& chunk) const {
+  TakeAircraft(chunk.beams, chunk.rows, chunk.aircraft);
   ComputeTotals(*total_, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
   chunk.sigmas_assumed = chunk.total.sigmas_assumed;
   chunk.totals = {};
@@ -154,8 +211,12 @@ void LasChunkWork::Summarize(Chunk& chunk) const {
   chunk.summary.Add(chunk.pulses, chunk.answers);
   chunk.incidence = {};
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    if (chunk.points.is_dry(i)) continue;
     if (std::isfinite(chunk.beams.incidence[i])) chunk.incidence.Add(chunk.beams.incidence[i]);
     const std::optional<NoPulse>& why = chunk.beams.why_not[i];
+    if (chunk.beams.dry[i] != 0) {
+      if (!why.has_value()) chunk.summary.AddAboveWater(static_cast<float>(-chunk.scratch.above[i]), NoPulse::kDry);
+    }
     if (!why.has_value()) continue;
     if (*why == NoPulse::kAboveWater)
       chunk.summary.AddAboveWater(chunk.beams.depth[i]);
@@ -213,27 +274,30 @@ void LasChunkWork::Encode(Chunk& chunk) const {
     if (!chunk.answers.interpolated(i)) continue;
     char* const values = appended_to(chunk.rows[i]);
     if (total_ != nullptr) {
-      EncodeTotals(chunk, values, i);
+      EncodeTotals(chunk, false, i, values);
     } else {
       Store(chunk.answers[Quantity::kThu][i], values);
       Store(chunk.answers[Quantity::kTvu][i], values + sizeof(float));
     }
   }
+  for (std::size_t i = 0; i < chunk.dry_rows.size() && plan_.dry_points; ++i)
+    EncodeTotals(chunk, true, i, appended_to(chunk.dry_rows[i]));
   if (!appended_.details) return;
   const auto length_or_none = [](float value) { return value >= 0 ? value : formats::kNoNumber; };  // Also for NaN.
   const PointBeams& beams = chunk.beams;
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     char* values = appended_to(i) + appended - formats::kGeometryCount * sizeof(float);
     for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
-                              length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
+                              beams.dry[i] != 0 ? formats::kNoNumber : length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
       Store(value, values);
       values += sizeof(float);
     }
   }
 }
 
-void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const {
-  const TotalBatch& total = chunk.total;
+void LasChunkWork::EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, char* values) const {
+  const TotalBatch& total = dry ? chunk.dry_total : chunk.total;
+  const std::uint32_t point = dry ? chunk.dry_rows[i] : chunk.rows[i];
   if (!std::isfinite(total.thu[i]) || !std::isfinite(total.tvu[i])) return;
   const auto put = [&values](float value) {
     Store(value, values);
@@ -242,15 +306,16 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
   put(total.thu[i]);
   put(total.tvu[i]);
   if (!appended_.details) return;
-  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea}) put((*column)[i]);
+  for (const auto* column : {&total.thu_air, &total.tvu_air}) put((*column)[i]);
+  for (const auto* column : {&total.thu_sea, &total.tvu_sea}) put(dry ? 0 : (*column)[i]);
   for (const auto* column : {&total.thu_water, &total.tvu_water})
-    put(total_->water.share != nullptr ? (*column)[i] : formats::kNoNumber);
+    put(total_->water.share == nullptr ? formats::kNoNumber : dry ? 0 : (*column)[i]);
   const double factor = VerticalFactor(total_->options.coverage);
   for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
     put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
-  put(chunk.answers[Quantity::kBiasAlongBeam][i]);
-  put(chunk.answers[Quantity::kBiasVertical][i]);
-  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[chunk.rows[i]])) put(entry);
+  for (const Quantity bias : {Quantity::kBiasAlongBeam, Quantity::kBiasVertical})
+    put(dry ? 0 : chunk.answers[bias][i]);
+  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[point])) put(entry);
 }
 
 }  // namespace albtpu::annotate

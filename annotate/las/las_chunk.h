@@ -24,8 +24,9 @@
 namespace albtpu::annotate {
 
 struct LasAnnotation {
-  std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClass of the format.
+  std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClasses of the format.
   BeamPlan plan;
+  bool use_withheld = false;                // Points with this flag count as any other.
   std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
   bool details = false;                     // Append the geometry of each beam, too.
   bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
@@ -59,6 +60,9 @@ class LasChunkWork {
 
     std::string annotated;  // Output: the own records, each followed by the appended bytes.
     formats::LasClassCounts classes;
+    std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
+    DrySummary dry;                             // Of dry points, where the plan has them.
+    std::uint64_t submerged = 0;                // Unclassified points below the water, which have no number.
     SurfaceCounts surface;
     CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
     UncertaintySummary summary;
@@ -68,7 +72,7 @@ class LasChunkWork {
 
    private:
     friend class LasChunkWork;
-    std::vector<std::uint32_t> chosen;  // Indices of own records.
+    std::vector<std::uint32_t> chosen;  // Indices of own records that may get a number.
     std::vector<std::uint32_t> water;   // Indices of records from the surface.
     SurveyPoints points;                // Of the chosen records.
     BeamScratch scratch;
@@ -78,6 +82,11 @@ class LasChunkWork {
     AnswerBatch answers;
     AircraftColumns aircraft;  // Of the pulses.
     TotalBatch total;
+    // The same of dry points.
+    std::vector<std::uint32_t> dry_rows;
+    std::vector<float> dry_incidence;
+    AircraftColumns dry_aircraft;
+    TotalBatch dry_total;
   };
 
   absl::Status operator()(Chunk& chunk) const;
@@ -90,10 +99,14 @@ class LasChunkWork {
   void FindPulseSurface(Chunk& chunk) const;
   void FindSeas(Chunk& chunk) const;
   void FindTotals(Chunk& chunk) const;
+  void FindDryTotals(Chunk& chunk) const;
+  // Columns of `rows` of the points.
+  void TakeAircraft(const PointBeams& beams, const std::vector<std::uint32_t>& rows, AircraftColumns& aircraft) const;
   void Summarize(Chunk& chunk) const;
   void Encode(Chunk& chunk) const;
   void Replace(Chunk& chunk) const;
-  void EncodeTotals(Chunk& chunk, char* values, std::size_t pulse) const;
+  // Of row i of the totals, which is a dry one or a pulse in water.
+  void EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, char* values) const;
 
   formats::LasPointFields fields_;
   std::size_t record_length_;
@@ -101,7 +114,7 @@ class LasChunkWork {
   const BeamGeometry& beams_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
   double utc_;
-  bool pulse_surface_;
+  bool pulse_surface_, use_withheld_;
   formats::Appended appended_;
   std::vector<float> no_data_;  // Of what is appended or replaces.
   std::vector<formats::ReplacedFloat> replaced_;
@@ -109,7 +122,7 @@ class LasChunkWork {
   AnswerStyle style_;
   const TotalPlan* total_;  // Null without a total.
   AnswerSelection selection_;
-  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {};
+  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {};
   AnswerSource source_;
 };
 

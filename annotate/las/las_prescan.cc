@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "annotate/beams/pulse_sample.h"
+#include "annotate/beams/water_heights.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_points.h"
 #include "status/status_macros.h"
@@ -17,15 +18,34 @@ namespace {
 constexpr std::size_t kPrescanChunkBytes = 4 << 20;
 constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
 
+// What a point may be, as bits.
+enum Role : std::uint8_t { kChosen = 1, kSurface = 2, kAtLevel = 4, kOfPair = 8 };
+
+using Box = LasPrescan::Box;
+
+Box EmptyBox() {
+  Box box;
+  box.least.fill(std::numeric_limits<double>::infinity());
+  box.greatest.fill(-std::numeric_limits<double>::infinity());
+  return box;
+}
+
+void Extend(const std::array<double, 3>& least, const std::array<double, 3>& greatest, Box& box) {
+  for (std::size_t axis = 0; axis < least.size(); ++axis) {
+    box.least[axis] = std::min(box.least[axis], least[axis]);
+    box.greatest[axis] = std::max(box.greatest[axis], greatest[axis]);
+  }
+}
+
 // The contribution of one chunk.
 struct Part {
   formats::LasRun run;  // Some records of the next chunk follow.
   std::vector<double> times;
-  std::vector<std::uint8_t> classes;
+  std::vector<std::uint8_t> roles;
 
-  std::uint64_t chosen = 0, surface_returns = 0, level_returns = 0, off_level = 0;
+  std::uint64_t chosen = 0, surface_returns = 0, synthetic_surface = 0, level_returns = 0, off_level = 0;
   double off_level_height = 0;  // Sum, m.
-  std::array<double, 3> least, greatest;
+  Box all, of_chosen;
   double first_time, last_time;
   SurfaceReturns surface;
   std::vector<ReturnPair> pairs;
@@ -39,37 +59,41 @@ class PrescanWork {
       : fields_(reader.header()),
         length_(reader.header().record_length),
         frame_(frame),
+        use_withheld_(options.use_withheld),
         pairs_(options.pairs && fields_.has_gps_time()),
         highest_(options.water_level.has_value() ? frame.Z(*options.water_level)
                                                  : std::numeric_limits<double>::infinity()) {
-    for (const int point_class : options.classes) is_chosen_[point_class] = true;
-    for (const int point_class : options.water_classes) is_water_[point_class] = true;
+    roles_.fill(kOfPair);
+    for (const int noise : {formats::kLowNoise, formats::kHighNoise}) roles_[noise] = 0;
+    // Whatever the given classes are, these say that a return is not from under the water.
+    for (const int surface : formats::UsualSurfaceClasses(reader.header().point_format)) roles_[surface] = 0;
+    for (const int point_class : options.classes) roles_[point_class] |= kChosen | kOfPair;
+    for (const int point_class : options.water_classes) roles_[point_class] = (roles_[point_class] | kSurface) & ~kOfPair;
     if (options.water_level.has_value())
-      for (const int point_class : options.level_classes) is_at_level_[point_class] = true;
+      for (const int point_class : options.level_classes) roles_[point_class] |= kAtLevel;
   }
 
   // Two returns of one pulse, of classes that may belong to a pair.
   void AddPair(const PulseReturn& a, const PulseReturn& b, std::vector<ReturnPair>& pairs) const {
     const bool a_is_upper = a.position.z() >= b.position.z();
     const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
-    if (!lower.chosen || upper.position.z() > highest_) return;
+    if (!lower.chosen || upper.position.z() > highest_ + kHighestCrest) return;
     if ((upper.position - lower.position).norm() < kMinSeparation) return;
-    pairs.push_back({a.time, upper.position, lower.position});
+    pairs.push_back({a.time, upper.position, lower.position, upper.chosen});
   }
 
   absl::Status operator()(Part& part) const {
     const std::size_t count = part.run.records.size() / length_;
     part.times.assign(count, 0);
-    part.classes.resize(count);
+    part.roles.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string_view record = Record(part, i);
-      part.classes[i] = static_cast<std::uint8_t>(fields_.Class(record));
+      part.roles[i] = RolesOf(record);
       if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
     }
-    part.chosen = part.surface_returns = part.level_returns = part.off_level = 0;
+    part.chosen = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
     part.off_level_height = 0;
-    part.least.fill(std::numeric_limits<double>::infinity());
-    part.greatest.fill(-std::numeric_limits<double>::infinity());
+    part.all = part.of_chosen = EmptyBox();
     part.first_time = std::numeric_limits<double>::infinity();
     part.last_time = -part.first_time;
     part.surface = SurfaceReturns();
@@ -77,10 +101,13 @@ class PrescanWork {
     part.of_several = part.alone = 0;
     part.incomplete.clear();
     for (std::size_t i = 0; i < part.run.own; ++i) {
-      if (is_water_[part.classes[i]]) AddSurface(part, i);
-      if (is_at_level_[part.classes[i]]) CompareWithLevel(part, i);
-      if (is_chosen_[part.classes[i]]) AddChosen(part, i);
-      if (pairs_ && std::isfinite(part.times[i])) AddPairs(part, i);
+      const std::uint8_t roles = part.roles[i];
+      const std::array<double, 3> at = PlaceOf(Record(part, i));
+      Extend(at, at, part.all);
+      if ((roles & kSurface) != 0) AddSurface(part, i);
+      if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
+      if ((roles & kChosen) != 0) AddChosen(at, part, i);
+      if (pairs_ && IsTime(part.times[i])) AddPairs(part, i);
     }
     return absl::OkStatus();
   }
@@ -89,14 +116,25 @@ class PrescanWork {
   std::string_view Record(const Part& part, std::size_t i) const {
     return std::string_view(part.run.records).substr(i * length_, length_);
   }
+  std::array<double, 3> PlaceOf(std::string_view record) const {
+    return {fields_.X(record), fields_.Y(record), fields_.Z(record)};
+  }
   Eigen::Vector3d PositionOf(std::string_view record) const {
     return frame_.At(fields_.X(record), fields_.Y(record), fields_.Z(record));
+  }
+
+  // A withheld point has none. A synthetic one was not measured, so that no direction follows from it.
+  std::uint8_t RolesOf(std::string_view record) const {
+    if (!use_withheld_ && fields_.IsWithheld(record)) return 0;
+    const std::uint8_t roles = roles_[static_cast<std::size_t>(fields_.Class(record))];
+    return fields_.IsSynthetic(record) ? roles & ~kOfPair : roles;
   }
 
   void AddSurface(Part& part, std::size_t i) const {
     const Eigen::Vector3d at = PositionOf(Record(part, i));
     part.surface.Add(at.x(), at.y(), part.times[i], at.z());
     ++part.surface_returns;
+    part.synthetic_surface += fields_.IsSynthetic(Record(part, i));
   }
 
   void CompareWithLevel(Part& part, std::size_t i) const {
@@ -107,21 +145,12 @@ class PrescanWork {
     part.off_level_height += height;
   }
 
-  void AddChosen(Part& part, std::size_t i) const {
-    const std::string_view record = Record(part, i);
-    const std::array<double, 3> at = {fields_.X(record), fields_.Y(record), fields_.Z(record)};
-    for (std::size_t axis = 0; axis < at.size(); ++axis) {
-      part.least[axis] = std::min(part.least[axis], at[axis]);
-      part.greatest[axis] = std::max(part.greatest[axis], at[axis]);
-    }
+  static void AddChosen(const std::array<double, 3>& at, Part& part, std::size_t i) {
+    Extend(at, at, part.of_chosen);
     ++part.chosen;
-    if (!std::isfinite(part.times[i])) return;
+    if (!IsTime(part.times[i])) return;
     part.first_time = std::min(part.first_time, part.times[i]);
     part.last_time = std::max(part.last_time, part.times[i]);
-  }
-
-  bool MayBelongToAPair(int point_class) const {
-    return point_class != formats::kLowNoise && point_class != formats::kHighNoise && !is_water_[point_class];
   }
 
   PulseReturn ReturnOf(const Part& part, std::size_t i) const {
@@ -132,7 +161,7 @@ class PrescanWork {
             .number = static_cast<std::uint8_t>(fields_.ReturnNumber(record)),
             .count = static_cast<std::uint8_t>(fields_.ReturnCount(record)),
             .channel = static_cast<std::uint8_t>(fields_.ScannerChannel(record)),
-            .chosen = is_chosen_[part.classes[i]]};
+            .chosen = (part.roles[i] & kChosen) != 0};
   }
 
   // Each pair belongs to the chunk of its first record.
@@ -141,9 +170,9 @@ class PrescanWork {
     std::size_t equal = 0;  // Counting needs no branches.
     for (std::size_t j = i + 1; j < end; ++j) equal += part.times[j] == part.times[i];
     if (fields_.ReturnCount(Record(part, i)) > 1) AddReturnOfSeveral(part, i, equal);
-    if (equal == 0 || !MayBelongToAPair(part.classes[i])) return;
+    if (equal == 0 || (part.roles[i] & kOfPair) == 0) return;
     for (std::size_t j = i + 1; j < end; ++j) {
-      if (part.times[j] != part.times[i] || !MayBelongToAPair(part.classes[j])) continue;
+      if (part.times[j] != part.times[i] || (part.roles[j] & kOfPair) == 0) continue;
       if (!fields_.OfOnePulse(Record(part, i), Record(part, j))) continue;
       AddPair(ReturnOf(part, i), ReturnOf(part, j), part.pairs);
     }
@@ -157,29 +186,29 @@ class PrescanWork {
     ++part.of_several;
     part.alone += equal == 0;
     const bool complete = equal + 1 >= static_cast<std::size_t>(fields_.ReturnCount(Record(part, i)));
-    if (!complete && MayBelongToAPair(part.classes[i])) part.incomplete.push_back(ReturnOf(part, i));
+    if (!complete && (part.roles[i] & kOfPair) != 0) part.incomplete.push_back(ReturnOf(part, i));
   }
 
   formats::LasPointFields fields_;
   std::size_t length_;
   LocalFrame frame_;
+  bool use_withheld_;
   bool pairs_;
   double highest_;  // m; where the upper return of a pair may lie: the water level, if it is given.
-  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_at_level_ = {};
+  std::array<std::uint8_t, formats::kClassCount> roles_;  // By class: bits of Role.
 };
 
 void Merge(const Part& part, LasPrescan& prescan) {
   prescan.chosen += part.chosen;
   prescan.surface_returns += part.surface_returns;
+  prescan.synthetic_surface += part.synthetic_surface;
   prescan.level_returns += part.level_returns;
   prescan.off_level += part.off_level;
   prescan.off_level_height += part.off_level_height;  // The sum, until all parts are there.
   prescan.of_several += part.of_several;
   prescan.alone += part.alone;
-  for (std::size_t axis = 0; axis < part.least.size(); ++axis) {
-    prescan.least[axis] = std::min(prescan.least[axis], part.least[axis]);
-    prescan.greatest[axis] = std::max(prescan.greatest[axis], part.greatest[axis]);
-  }
+  Extend(part.all.least, part.all.greatest, prescan.all);
+  Extend(part.of_chosen.least, part.of_chosen.greatest, prescan.of_chosen);
   prescan.first_time = std::min(prescan.first_time, part.first_time);
   prescan.last_time = std::max(prescan.last_time, part.last_time);
 }
@@ -190,8 +219,7 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
                                    const LasPrescanOptions& options) {
   const std::uint64_t max_records = std::max<std::uint64_t>(kPrescanChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;
-  prescan.least.fill(std::numeric_limits<double>::infinity());
-  prescan.greatest.fill(-std::numeric_limits<double>::infinity());
+  prescan.all = prescan.of_chosen = EmptyBox();
   SurfaceReturns surface;
   PairSample pairs;
   PulseSample incomplete;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -21,8 +22,9 @@ struct LasPrescanOptions {
   std::set<int> classes;              // Of the chosen points.
   std::set<int> water_classes;        // Of returns from the water surface.
   bool pairs = false;                 // Look for pairs; needs GPS times.
-  std::optional<double> water_level;  // In the file's unit: returns above it make no pair.
+  std::optional<double> water_level;  // In the file's unit: returns above its waves make no pair.
   std::set<int> level_classes = {};   // Of returns that should lie at the water level.
+  bool use_withheld = false;          // Points with this flag count as any other.
 };
 
 // Records in a file in order of time that belong to one pulse lie at most this far apart.
@@ -31,20 +33,27 @@ inline constexpr std::size_t kPulseReach = 16;
 // m; in waves of Hs 6 m, three returns in four are nearer to the level than this.
 inline constexpr double kLevelTolerance = 2;
 
+// Whether this GPS time is one: software that does not know the time of a point writes 0.
+inline bool IsTime(double time) { return std::isfinite(time) && time != 0; }
+
 struct LasPrescan {
-  std::uint64_t chosen = 0;  // Points of the chosen classes.
-  // Of the chosen points, in the coordinates of the file; meaningless if there are none. Times that are not finite do
-  // not count.
-  std::array<double, 3> least, greatest;
+  // Bounds of points in the coordinates of the file; meaningless if there are none.
+  struct Box {
+    std::array<double, 3> least, greatest;
+  };
+  Box all;                   // Of all points.
+  std::uint64_t chosen = 0;  // Points of the chosen classes that are not withheld.
+  Box of_chosen;
+  // Of the chosen points, those that are times (IsTime).
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
-  std::uint64_t surface_returns = 0;
+  std::uint64_t surface_returns = 0, synthetic_surface = 0;  // The latter are part of the former.
   // Returns of `level_classes`, those of them that lie farther than kLevelTolerance from the water level, and the mean
   // height [m] of these.
   std::uint64_t level_returns = 0, off_level = 0;
   double off_level_height = 0;
   std::optional<LocalWaterSurface> surface;  // If there are surface returns.
   // Two returns of one pulse at least 1 m apart, the lower one of a chosen class, neither of them noise or of the
-  // surface: a sample in order of time.
+  // surface or synthetic: a sample in order of time.
   std::vector<ReturnPair> pairs;
   std::uint64_t pair_count = 0;  // Of which `pairs` is a sample.
   // Returns of pulses with several returns, and those of them that have no other one of their pulse within reach.

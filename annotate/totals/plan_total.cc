@@ -74,6 +74,7 @@ class ErrorPlan {
       if (source.Is(&AirErrors::surface_range) ? own_return : !own_return || !source.Is(&AirErrors::surface_height))
         Take(i);
     }
+    plan_.hard_range = OneReturn();
     if (missing_.empty()) return absl::OkStatus();
     return formats::UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ", sensor_.title,
                                             "; state it under [sigma] in the survey file"));
@@ -103,16 +104,20 @@ class ErrorPlan {
     missing_.push_back(absl::StrCat(std::string(source.name), " (", std::string(source.unit), ")"));
   }
 
+  // m, of the range of a return from a surface.
+  double OneReturn() const {
+    return given_.Has(&AirErrors::surface_range)           ? given_.values.surface_range
+           : sensor_.errors.Has(&AirErrors::surface_range) ? sensor_.errors.values.surface_range
+                                                           : plan_.options.errors.bottom_range;
+  }
+
   // The numbers of a source that nothing states, and why they stand for it.
   std::pair<AirErrors, std::string> Assumed(const ErrorSource& source) const {
     AirErrors assumed;
     std::copy_n(source.assumed.begin(), source.size(), source.In(assumed).begin());
-    const double one_return = given_.Has(&AirErrors::surface_range)           ? given_.values.surface_range
-                              : sensor_.errors.Has(&AirErrors::surface_range) ? sensor_.errors.values.surface_range
-                                                                              : plan_.options.errors.bottom_range;
-    if (source.Is(&AirErrors::surface_range)) assumed.surface_range = one_return;
+    if (source.Is(&AirErrors::surface_range)) assumed.surface_range = OneReturn();
     if (source.Is(&AirErrors::surface_height) && plan_.options.located != SurfaceLocation::kLevel) {
-      assumed.surface_height = one_return;
+      assumed.surface_height = OneReturn();
       return {assumed, "no better than one return"};
     }
     if (source.Is(&AirErrors::index) && index_of_state_) {

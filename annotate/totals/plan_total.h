@@ -24,6 +24,7 @@ struct TotalPlan {
   BudgetOptions options;
   std::vector<StatedNumber> numbers;
   WaterPlan water;
+  double hard_range = 0;             // m, standard deviation of the range to a hard target, such as dry land.
   std::optional<double> divergence;  // mrad, of the sensor; absent: no source gives it.
   // The standard deviations of position and attitude are those of each pulse, where its trajectory states them.
   bool position_by_pulse = false, attitude_by_pulse = false;

@@ -24,6 +24,37 @@ std::uint64_t TakeSigmas(const TotalPlan& plan, AircraftColumns& aircraft) {
   return assumed;
 }
 
+template <typename Number>
+std::span<Number> Column(std::size_t size, std::vector<Number>& numbers) {
+  numbers.resize(size);
+  return numbers;
+}
+
+CovarianceColumns Covariances(std::size_t size, bool whole, TotalBatch::Covariance& of) {
+  CovarianceColumns columns;
+  for (std::size_t i = 0; i < (whole ? 6 : 3); ++i) columns[i] = Column(size, of[i]);
+  return columns;
+}
+
+// What every total has.
+BudgetOutputs OutputsIn(std::size_t size, TotalBatch& totals) {
+  BudgetOutputs outputs;
+  outputs.thu = Column(size, totals.thu);
+  outputs.tvu = Column(size, totals.tvu);
+  outputs.thu_air = Column(size, totals.thu_air);
+  outputs.tvu_air = Column(size, totals.tvu_air);
+  outputs.total = Covariances(size, true, totals.covariance);
+  outputs.air = Covariances(size, totals.whole, totals.air);
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
+    outputs.groups[g] = Covariances(size, totals.whole, totals.groups[g]);
+  return outputs;
+}
+
+// Where the beam travelled to is not known.
+void ForgetDirections(TotalBatch& totals) {
+  for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(totals.size(), NAN);
+}
+
 }  // namespace
 
 void SelectForTotals(AnswerSelection& selection) {
@@ -49,33 +80,33 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
   SeaContribution share;
   for (std::size_t i = 0; i < share.size(); ++i) share[i] = sea.values[i];
 
-  BudgetOutputs outputs;
-  const auto column = [&](auto& numbers) {
-    numbers.resize(pulses.size);
-    return std::span(numbers);
-  };
-  const auto covariance = [&](TotalBatch::Covariance& of, CovarianceColumns& columns, bool whole) {
-    for (std::size_t i = 0; i < (whole ? 6 : 3); ++i) columns[i] = column(of[i]);
-  };
-  outputs.thu = column(totals.thu);
-  outputs.tvu = column(totals.tvu);
-  outputs.thu_air = column(totals.thu_air);
-  outputs.tvu_air = column(totals.tvu_air);
-  outputs.thu_sea = column(totals.thu_sea);
-  outputs.tvu_sea = column(totals.tvu_sea);
+  BudgetOutputs outputs = OutputsIn(pulses.size, totals);
+  outputs.thu_sea = Column(pulses.size, totals.thu_sea);
+  outputs.tvu_sea = Column(pulses.size, totals.tvu_sea);
   if (!totals.water.noise.empty()) {
-    outputs.thu_water = column(totals.thu_water);
-    outputs.tvu_water = column(totals.tvu_water);
-    covariance(totals.of_water, outputs.water, totals.whole);
+    outputs.thu_water = Column(pulses.size, totals.thu_water);
+    outputs.tvu_water = Column(pulses.size, totals.tvu_water);
+    outputs.water = Covariances(pulses.size, totals.whole, totals.of_water);
   }
-  covariance(totals.covariance, outputs.total, true);
-  covariance(totals.air, outputs.air, totals.whole);
-  covariance(totals.sea, outputs.sea, totals.whole);
-  for (std::size_t g = 0; g < kErrorGroups; ++g) covariance(totals.groups[g], outputs.groups[g], totals.whole);
-  outputs.best_orders = column(totals.best_orders);
+  outputs.sea = Covariances(pulses.size, totals.whole, totals.sea);
+  outputs.best_orders = Column(pulses.size, totals.best_orders);
   ComputePulseBudget(asked, share, plan.options, outputs);
-  if (!aircraft[BudgetInput::kBeamAzimuth].empty()) return;
-  for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(pulses.size, NAN);
+  if (aircraft[BudgetInput::kBeamAzimuth].empty()) ForgetDirections(totals);
+}
+
+void ComputeDryTotals(const TotalPlan& plan, std::span<const float> incidence, AircraftColumns& aircraft,
+                      TotalBatch& totals) {
+  totals.sigmas_assumed = TakeSigmas(plan, aircraft);
+  BudgetOptions options = plan.options;
+  options.located = SurfaceLocation::kPulse;
+  options.index = 1;
+  options.errors.bottom_range = plan.hard_range;
+  options.errors.surface_range = options.errors.surface_height = options.errors.index = 0;
+  BudgetInputs inputs{.size = incidence.size()};
+  for (const BudgetInput input : kAircraftInputs) inputs[input] = aircraft[input];
+  inputs[BudgetInput::kIncidence] = incidence;
+  ComputeBudget(inputs, options, OutputsIn(inputs.size, totals));
+  if (aircraft[BudgetInput::kBeamAzimuth].empty()) ForgetDirections(totals);
 }
 
 std::array<float, 6> OnGridAxes(const TotalBatch::Covariance& covariance, std::size_t i, float convergence) {

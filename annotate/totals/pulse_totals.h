@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "annotate/answers/batch.h"
@@ -35,6 +36,15 @@ void SelectForTotals(AnswerSelection& selection);
 // wanted by pulse, become those of the plan. `totals.water` is taken, and `sea` has its biases.
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
                    TotalBatch& totals);
+
+// The same of dry points, whose beams met neither a sea nor water: all but surface, index and water column, and the
+// range to a hard target (TotalPlan::hard_range). `incidence` in degrees, in air; altitudes are heights of the sensor
+// above the points. Of `totals` the columns of sea and water stay empty.
+//
+// The formulas are those of a pulse in water of the index 1 and no depth: nothing refracts, so that the height of a
+// surface moves no point.
+void ComputeDryTotals(const TotalPlan& plan, std::span<const float> incidence, AircraftColumns& aircraft,
+                      TotalBatch& totals);
 
 // The covariance of pulse i, whose columns are NN EE DD NE ND ED, on the axes of a map grid: XX YY ZZ XY XZ YZ, z up.
 // `convergence` [rad] is the true azimuth of its y axis.

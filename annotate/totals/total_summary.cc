@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 constexpr double kLeastLength = 1e-4, kStep = 0.01;
 constexpr std::size_t kBins = 1843;
 
-ordered_json Json(const LengthSpread& spread) {
+ordered_json SpreadJson(const LengthSpread& spread) {
   return {{"mean", spread.mean()},
           {"median", spread.quantile(0.5)},
           {"percentile_95", spread.quantile(0.95)},
@@ -116,7 +116,7 @@ std::uint64_t TotalSummary::count() const {
 }
 
 ordered_json TotalSummary::Band::Json() const {
-  ordered_json json = {{"pulses", thu.count()}, {"total_thu", annotate::Json(thu)}, {"total_tvu", annotate::Json(tvu)}};
+  ordered_json json = {{"pulses", thu.count()}, {"total_thu", SpreadJson(thu)}, {"total_tvu", SpreadJson(tvu)}};
   // Of the sums of variances over all pulses.
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   const auto shares = [&](double Sums::*axis) {
@@ -178,6 +178,44 @@ std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
     if (bands_[i].thu.count() > 0) line(BandText(i), bands_[i]);
   if (count() > 0) line("all", All());
   return text;
+}
+
+void DrySummary::Add(const TotalBatch& totals, std::size_t i) {
+  if (!std::isfinite(totals.thu[i]) || !std::isfinite(totals.tvu[i])) return;
+  thu_.Add(totals.thu[i]);
+  tvu_.Add(totals.tvu[i]);
+  for (const TotalBatch::Covariance& group : totals.groups) {
+    horizontal_ += static_cast<double>(group[0][i]) + group[1][i];
+    vertical_ += group[2][i];
+  }
+}
+
+void DrySummary::Merge(const DrySummary& other) {
+  thu_.Merge(other.thu_);
+  tvu_.Merge(other.tvu_);
+  horizontal_ += other.horizontal_;
+  vertical_ += other.vertical_;
+}
+
+std::string DrySummary::Text(Coverage coverage) const {
+  if (count() == 0) return "";
+  const auto points = static_cast<double>(count());
+  return absl::StrFormat(
+      "%d dry points (%s): total THU %.3f m in the median, %.3f m at most; total TVU %.3f m, %.3f m; RMSE %.3f m "
+      "horizontal, %.3f m vertical",
+      count(), CoverageText(coverage), thu_.quantile(0.5), thu_.greatest(), tvu_.quantile(0.5), tvu_.greatest(),
+      std::sqrt(horizontal_ / points), std::sqrt(vertical_ / points));
+}
+
+ordered_json DrySummary::Json() const {
+  const auto points = static_cast<double>(count());
+  ordered_json json = {{"points", count()}};
+  if (count() == 0) return json;
+  json["total_thu"] = SpreadJson(thu_);
+  json["total_tvu"] = SpreadJson(tvu_);
+  json["rmse_horizontal"] = std::sqrt(horizontal_ / points);
+  json["rmse_vertical"] = std::sqrt(vertical_ / points);
+  return json;
 }
 
 ordered_json WithTotal(ordered_json answers, const TotalPlan& plan, const TotalSummary& totals,

@@ -79,6 +79,24 @@ class TotalSummary {
   std::array<Band, kDepthBands> bands_;
 };
 
+// The totals of all dry points in a file or a line, which S-44 does not judge.
+class DrySummary {
+ public:
+  void Add(const TotalBatch& totals, std::size_t i);
+  void Merge(const DrySummary& other);
+  std::uint64_t count() const { return thu_.count(); }
+
+  // "12 dry points: total THU, 2 sigma, 0.1 m in the median ...; empty without points.
+  std::string Text(Coverage coverage) const;
+  // `points`, `total_thu`, `total_tvu`; `rmse_horizontal` and `rmse_vertical` [m], the roots of the mean variances, as
+  // standards of topographic lidar count.
+  nlohmann::ordered_json Json() const;
+
+ private:
+  LengthSpread thu_, tvu_;
+  double horizontal_ = 0, vertical_ = 0;  // Sums of variances, m^2.
+};
+
 // `answers`, which are those of the sea alone (UncertaintySummary), with the total beside them. What the sea has by
 // depth moves to `sea_surface`. `total` has TotalSummary::Json(), `coverage`, `assumed` and, of each line, the same.
 nlohmann::ordered_json WithTotal(nlohmann::ordered_json answers, const TotalPlan& plan, const TotalSummary& totals,

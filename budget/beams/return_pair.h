@@ -63,6 +63,7 @@ RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double>
 struct ReturnPair {
   double time = 0;               // GPS time as the points state it.
   Eigen::Vector3d upper, lower;  // The return nearer to the surface, and the deeper one.
+  bool upper_is_bottom = false;  // By its class; otherwise it may be a return from a wave.
 };
 
 // The straight line of a beam in air.

@@ -1,6 +1,7 @@
 #include "formats/las/las_crs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -122,13 +123,13 @@ CrsDescription DescribeGeoKeys(std::string_view geo_key_directory) {
   return description;
 }
 
-absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader) {
+absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader, CrsRecords records) {
   CrsDescription description;
   bool has_keys = false;
   for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
     for (const VlrEntry& entry : *entries) {
-      const bool wkt = entry.Is(kProjectionUser, kWktRecord) && description.wkt.empty();
-      const bool keys = entry.Is(kProjectionUser, kGeoKeyDirectoryRecord) && !has_keys;
+      const bool wkt = records.wkt && entry.Is(kProjectionUser, kWktRecord) && description.wkt.empty();
+      const bool keys = records.keys && entry.Is(kProjectionUser, kGeoKeyDirectoryRecord) && !has_keys;
       if (!wkt && !keys) continue;
       ASSIGN_OR_RETURN(std::string data,
                        reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt)));
@@ -146,11 +147,11 @@ absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader) {
   return description;
 }
 
-absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader) {
+absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader, CrsRecords records) {
   for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
     for (const VlrEntry& entry : *entries) {
-      const bool wkt = entry.Is(kProjectionUser, kWktRecord);
-      if (!wkt && !entry.Is(kProjectionUser, kGeoKeyDirectoryRecord)) continue;
+      const bool wkt = records.wkt && entry.Is(kProjectionUser, kWktRecord);
+      if (!wkt && !(records.keys && entry.Is(kProjectionUser, kGeoKeyDirectoryRecord))) continue;
       ASSIGN_OR_RETURN(const std::string data,
                        reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt)));
       std::optional<std::string> feet = wkt ? FindFeetInWkt(data) : FindFeetInGeoKeys(data);
@@ -158,6 +159,70 @@ absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader) {
     }
   }
   return std::optional<std::string>();
+}
+
+namespace {
+
+constexpr double kSamePlace = 2;  // m; two datums of one map differ by less, two units or zones by far more.
+
+// How far apart two coordinate systems put a point, m; infinite where one of them is not defined there.
+double Apart(const MapFrame& one, const MapFrame& other, const MapPosition& at) {
+  const std::optional<GeographicPosition> position = one.GeographicAt(at);
+  if (!position.has_value() || one.is_geographic() != other.is_geographic()) return HUGE_VAL;
+  const MapPosition again = other.Project(*position);
+  const MapMetric metric = one.MetricAt(*position);
+  const double apart = std::hypot((again.x - at.x) * metric.metres_per_x, (again.y - at.y) * metric.metres_per_y);
+  return std::isfinite(apart) ? apart : HUGE_VAL;
+}
+
+std::string NameOf(const CrsRecords& records) { return records.wkt ? "well-known text" : "GeoTIFF keys"; }
+
+}  // namespace
+
+absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, const MapPosition& middle) {
+  ASSIGN_OR_RETURN(CrsDescription both, DescribeCrs(reader));
+  const bool has_keys = both.projected != 0 || both.geographic != 0;
+  const bool choose = user.empty() && !both.wkt.empty() && has_keys;
+  CrsRecords named, other;
+  if (choose) named = other = {.wkt = reader.header().crs_is_wkt, .keys = !reader.header().crs_is_wkt};
+  if (choose) std::swap(other.wkt, other.keys);
+  LasCrs crs;
+  ASSIGN_OR_RETURN(CrsDescription description, DescribeCrs(reader, named));
+  description.user = user;
+  absl::StatusOr<std::shared_ptr<const MapFrame>> map = MapFrame::Create(reader.name(), description);
+  if (!map.ok() && choose) {
+    // The second of two records may still do.
+    named = CrsRecords();
+    map = MapFrame::Create(reader.name(), both);
+  }
+  if (!map.ok()) return map.status();
+  crs.map = *std::move(map);
+  crs.remark = crs.map->remark();
+  crs.metres_per_height_unit = crs.map->metres_per_height_unit();
+  if (choose && !(named.wkt && named.keys)) {
+    ASSIGN_OR_RETURN(const CrsDescription second, DescribeCrs(reader, other));
+    const absl::StatusOr<std::shared_ptr<const MapFrame>> more = MapFrame::Create(reader.name(), second);
+    // Keys with a projection of the user's own state no more than the datum.
+    const bool same = more.ok() && (*more)->is_geographic() && !crs.map->is_geographic() && second.wkt.empty();
+    const double apart = same ? 0 : more.ok() ? Apart(*crs.map, **more, middle) : HUGE_VAL;
+    const std::optional<double> unit = more.ok() ? (*more)->metres_per_height_unit() : std::nullopt;
+    const auto contradicts = [&](const std::string& how) {
+      absl::StrAppend(&crs.remark, crs.remark.empty() ? "" : "; ", reader.name(), ": its ", NameOf(other), " ", how,
+                      " its ", NameOf(named), ", which the header names (", crs.map->crs_name(),
+                      "); the former are not used");
+    };
+    if (apart > kSamePlace) {
+      contradicts(more.ok() ? absl::StrCat("(", (*more)->crs_name(), ") contradict") : "cannot be read beside");
+    } else {
+      named = CrsRecords();
+      if (!crs.metres_per_height_unit.has_value())
+        crs.metres_per_height_unit = unit;
+      else if (unit.has_value() && std::abs(*unit / *crs.metres_per_height_unit - 1) > 1e-9)
+        contradicts("state another unit of heights than");
+    }
+  }
+  ASSIGN_OR_RETURN(crs.feet, FindFeet(reader, named));
+  return crs;
 }
 
 }  // namespace albtpu::formats

@@ -1,6 +1,7 @@
 // The coordinate system that the records of a LAS file state, and whether it is in feet.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,14 +17,33 @@ namespace albtpu::formats {
 std::optional<std::string> FindFeetInWkt(std::string_view wkt);
 std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory);
 
-// Searches all records of LASF_Projection, WKT (2112) and GeoTIFF keys (34735), in VLRs and EVLRs.
-absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader);
+// The records that state a coordinate system: well-known text (2112) and GeoTIFF keys (34735) of LASF_Projection.
+struct CrsRecords {
+  bool wkt = true, keys = true;
+};
+
+// Searches these records in VLRs and EVLRs.
+absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader, CrsRecords records = {});
 
 // The codes of a GeoTIFF key directory; 0 where a key is missing or user-defined.
 CrsDescription DescribeGeoKeys(std::string_view geo_key_directory);
 
-// The first well-known text and the first GeoTIFF keys of LASF_Projection, in VLRs and then in EVLRs. Empty where there
-// are none; a user's text is not set. MapFrame::Create makes a projection of it.
-absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader);
+// The first well-known text and the first GeoTIFF keys, in VLRs and then in EVLRs. Empty where there are none; a user's
+// text is not set. MapFrame::Create makes a projection of it.
+absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader, CrsRecords records = {});
+
+// The coordinate system of a file.
+struct LasCrs {
+  std::shared_ptr<const MapFrame> map;           // Null if none is stated.
+  std::optional<double> metres_per_height_unit;  // Absent: not stated.
+  std::string remark;                            // For the user, about how it was found; usually empty.
+  std::optional<std::string> feet;               // What says that something is in feet, as FindFeet.
+};
+
+// Of a text and keys the record counts that the header names (LASF 1.4 R15, bit 4 of the global encoding), or the other
+// one if that is faulty. The other record only adds a unit of heights that the first lacks, and only if it puts
+// `middle`, a point of the file, at the same place; a contradiction is remarked. `user` is the text of --crs, which
+// comes before both; may be empty. Fails as MapFrame::Create.
+absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, const MapPosition& middle);
 
 }  // namespace albtpu::formats

@@ -24,6 +24,7 @@ constexpr int kOldCompressedFlag = 0x40;
 // Bits of the global encoding.
 constexpr std::uint16_t kAdjustedGpsTime = 0x1;
 constexpr std::uint16_t kWaveformInside = 0x2;
+constexpr std::uint16_t kCrsIsWkt = 0x10;
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
@@ -166,6 +167,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0)
     header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
   if (header.version_minor >= 4) {
+    header.crs_is_wkt = (global_encoding & kCrsIsWkt) != 0;
     header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
     if (header.evlr_count > 0) header.start_of_evlrs = Load<std::uint64_t>(bytes, las_field::kStartOfEvlrs);
     if (header.evlr_count > 0 && header.start_of_evlrs == 0) {

@@ -46,6 +46,7 @@ struct LasHeader {
   std::uint16_t record_length = 0;
   std::uint64_t point_count = 0;
   bool adjusted_gps_time = false;                   // Times are GPS seconds - 1e9, not seconds of the week.
+  bool crs_is_wkt = false;                          // Well-known text states the coordinate system, not GeoTIFF keys.
   std::array<double, 3> scale = {};                 // x, y, z; finite and not zero.
   std::array<double, 3> offset = {};                // Finite.
   std::array<double, 3> least = {}, greatest = {};  // The bounds that the file states, true or not.

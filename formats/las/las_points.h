@@ -29,6 +29,11 @@ inline constexpr int kLowNoise = 7, kHighNoise = 18;  // ASPRS, LAS 1.4 R15, tab
 // whose classes end at 31.
 constexpr int DefaultClass(int point_format) { return point_format >= kFirstModernFormat ? 40 : 26; }
 
+// The classes of points seen through water: that one, and submerged objects (43), which older classes do not tell apart.
+inline std::set<int> DefaultClasses(int point_format) {
+  return point_format >= kFirstModernFormat ? std::set<int>{40, 43} : std::set<int>{26};
+}
+
 // The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
 // older point formats water (9) and what NOAA used before.
 inline std::set<int> UsualSurfaceClasses(int point_format) {
@@ -61,6 +66,10 @@ class LasPointFields {
     return (laz::Load<std::uint8_t>(record, modern_ ? 15 : 14) >> 6 & 1) == 0;
   }
 
+  // The flags of a class: a point that its producer took back, and one that no pulse measured.
+  bool IsWithheld(std::string_view record) const { return HasFlag(record, 0x04, 0x80); }
+  bool IsSynthetic(std::string_view record) const { return HasFlag(record, 0x01, 0x20); }
+
   // Mostly the number of the flight line.
   int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
 
@@ -92,6 +101,10 @@ class LasPointFields {
  private:
   double Coordinate(std::string_view record, std::size_t axis) const {
     return laz::Load<std::int32_t>(record, axis * sizeof(std::int32_t)) * scale_[axis] + offset_[axis];
+  }
+
+  bool HasFlag(std::string_view record, unsigned modern, unsigned legacy) const {
+    return (laz::Load<std::uint8_t>(record, 15) & (modern_ ? modern : legacy)) != 0;
   }
 
   bool modern_;

@@ -27,7 +27,9 @@ std::string ClassHint(const annotate::Job& job, const annotate::AnnotatedLas& an
                       never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ",
                                            formats::kLegacyClassMask, "; ")
                             : "",
-                      "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
+                      "the file has ", annotated.classes.Text(),
+                      annotated.withheld > 0 ? absl::StrCat("; ", annotated.withheld, " of them are withheld") : "",
+                      "); name its bathymetric classes with --classes");
 }
 
 nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
@@ -37,6 +39,8 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
                                  {"points_by_class", annotated.classes.Json()},
                                  {"geometry", *annotated.geometry}};
   if (!annotated.sea->is_null()) json["sea"] = *annotated.sea;
+  if (annotated.withheld > 0) json["withheld"] = annotated.withheld;
+  if (annotated.synthetic > 0) json["synthetic"] = annotated.synthetic;
   if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
   return json;
 }
@@ -45,7 +49,12 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
 nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
-  return annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
+  json = annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
+  if (annotation.plan.dry_points) {
+    json["dry"] = annotated.dry.Json();
+    json["dry"]["submerged"] = annotated.submerged;
+  }
+  return json;
 }
 
 std::string AnswersText(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated,
@@ -54,6 +63,8 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
                                   annotated.totals.Text(annotation.style.coverage, order));
+  if (annotated.dry.count() > 0)
+    absl::StrAppend(&text, "\n  ", annotated.dry.Text(annotation.style.coverage));
   for (const std::string& assumed : annotate::Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
   return text;
 }

@@ -164,8 +164,8 @@ void SuggestWater(std::span<const LasLook> looks, const std::set<int>& water, co
 }  // namespace
 
 std::vector<int> LasLook::bottom() const {
-  const std::vector<int> found = contents.Of({formats::DefaultClass(formats::kFirstModernFormat)});
-  return !found.empty() ? found : contents.Of({formats::DefaultClass(0)});
+  const std::vector<int> found = contents.Of(formats::DefaultClasses(formats::kFirstModernFormat));
+  return !found.empty() ? found : contents.Of(formats::DefaultClasses(0));
 }
 
 std::vector<int> LasLook::water_surface() const {
@@ -174,7 +174,7 @@ std::vector<int> LasLook::water_surface() const {
 }
 
 bool LasLook::has_bottom_by_default() const {
-  return !contents.Of({formats::DefaultClass(header.point_format)}).empty();
+  return !contents.Of(formats::DefaultClasses(header.point_format)).empty();
 }
 
 bool LasLook::has_pairs() const { return contents.has_times() && contents.pairs >= kEnoughPairs; }

@@ -58,7 +58,7 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddBeamOptions(command, options.beams, options.flags);
   AddSeaFlags(command, options.flags, kRareSeaFlags);
   AddTotalFlags(command, options.flags);
-  AddFlags(command, {"--classes"}, group::kPoints, options.flags);
+  AddFlags(command, {"--classes", "--points", "--use-withheld"}, group::kPoints, options.flags);
   AddFlags(command, {"--details"}, group::kOutput, options.flags);
   command
       .add_flag("--replace", options.replace,
@@ -115,6 +115,7 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   annotation.style = options.style;
   TakeStyle(settings.output, annotation.style);
   annotation.details = settings.output.details.value_or(false);
+  annotation.use_withheld = settings.output.use_withheld.value_or(false);
   if (!settings.output.classes.empty())
     annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
   const bool total = settings.wants_total();
@@ -124,13 +125,15 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   ASSIGN_OR_RETURN(annotate::BeamPlan plan,
                    MakePlan(beams, options.flags.settings, settings, annotation.details || total));
   plan.any_aircraft = total;
+  plan.dry_points = settings.output.points.value_or(total ? "all" : "bathymetric") == "all";
+  if (plan.dry_points && !total)
+    return formats::UsageError("las: --points all needs a sensor: without one, only the sea adds to the uncertainty");
   if (total) {
     ASSIGN_OR_RETURN(annotation.total,
                      TotalOf(settings, plan, options.beams.divergence.has_value(), annotation.style.coverage));
   }
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
-  for (const int point_class :
-       annotation.classes.value_or(std::set<int>{formats::DefaultClass(formats::kFirstModernFormat)})) {
+  for (const int point_class : annotation.ClassesOf(formats::kFirstModernFormat)) {
     if (!plan.water_classes.contains(point_class)) continue;
     return formats::UsageError(absl::StrCat("las: class ", point_class,
                                             " is both a class of the water surface and of the bottom; name different "
@@ -161,6 +164,8 @@ nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, con
   json["classes"] = nullptr;  // The default of the point format.
   if (annotation.classes.has_value()) json["classes"] = *annotation.classes;
   json["details"] = annotation.details;
+  json["points"] = annotation.plan.dry_points ? "all" : "bathymetric";
+  if (annotation.use_withheld) json["use_withheld"] = true;
   if (annotation.replace) json["replace"] = true;
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));

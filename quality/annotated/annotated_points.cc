@@ -135,7 +135,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
       return Invalid(summary, absl::StrCat("has a class that LAS files cannot have", kRemedy));
     classes_.insert(each.get<int>());
   }
-  if (classes_.empty()) classes_ = {formats::DefaultClass(reader_.header().point_format)};
+  if (classes_.empty()) classes_ = formats::DefaultClasses(reader_.header().point_format);
   const Json unit = read["parameters"].value("metres_per_unit", Json());
   if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));

@@ -20,7 +20,7 @@ namespace albtpu::laz {
 // point; damage in their layers goes unnoticed. Only layered chunks can leave fields out: others have all of them.
 enum class WantedFields {
   kAll,
-  kReturns,  // The place and time of each return: coordinates, returns, scanner channels, classes and GPS times.
+  kReturns,  // The place and time of each return: coordinates, returns, channels, classes, flags and GPS times.
 };
 
 // Decodes one chunk after the other; the memory for the models (some hundred kB to few MB) is used again. A chunk is

@@ -41,8 +41,8 @@ class LayeredPoint {
   // In the order of the file.
   std::span<LayerStream<Coder>> streams() { return streams_; }
 
-  // Whether the stream has coordinates, returns and scanner channels, classes or times.
-  static bool TellsReturns(std::size_t stream) { return stream <= 2 || stream == 8; }
+  // Whether the stream has coordinates, returns and scanner channels, classes, flags or times.
+  static bool TellsReturns(std::size_t stream) { return stream <= 3 || stream == 8; }
 
   // Begins a chunk after its first point.
   void Begin(const char* first_point) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
 
 namespace albtpu::annotate {
 namespace {
@@ -196,6 +198,30 @@ TEST(PairRays, AreInMetresWhereThePointsAreInFeet) {
 TEST(PairRays, AreNoneWithoutAWaterSurface) {
   EXPECT_TRUE(RaysOfPairs(std::vector<ReturnPair>{PairAt(1, 0, 4)}, {}, {}, kIndex).empty());
   EXPECT_TRUE(RaysOver(0, {}).empty());
+}
+
+// Returns from waves of a standard deviation of 0.2 m, and from bottom and water column below.
+TEST(PairRays, AreNoneOfReturnsFromTroughs) {
+  constexpr int kReturns = 1000;
+  constexpr double kDeviation = 0.2;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, kDeviation);
+  std::vector<ReturnPair> waves, others;
+  for (int i = 0; i < kReturns; ++i) {
+    waves.push_back(PairAt(i, 0, 4));
+    waves.back().upper.z() = normal(random);  // And the lower one at -9 m.
+    others.push_back(PairAt(i + 0.5, 0, 4));
+  }
+  const auto rays = [](const std::vector<ReturnPair>& pairs) { return RaysOver(0, pairs).size(); };
+  EXPECT_LT(rays(waves), 0.003 * kReturns);  // Nearly a half lies below the level.
+  std::vector<ReturnPair> both = waves;
+  both.insert(both.end(), others.begin(), others.end());
+  std::ranges::sort(both, {}, &ReturnPair::time);
+  EXPECT_GE(rays(both), kReturns);
+  EXPECT_LT(rays(both), 1.003 * kReturns);
+  // Of the class of the bottom they are taken at their word.
+  for (ReturnPair& pair : waves) pair.upper_is_bottom = true;
+  EXPECT_GT(rays(waves), 0.4 * kReturns);
 }
 
 }  // namespace

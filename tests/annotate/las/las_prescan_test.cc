@@ -57,6 +57,51 @@ TEST(LasPrescan, FindsPairsOfReturnsOfOnePulse) {
   EXPECT_EQ(prescan.surface_returns, 1u);
 }
 
+TEST(LasPrescan, LeavesWithheldPointsOutUnlessTheyAreWanted) {
+  for (const int format : {1, 6}) {
+    LasSpec spec;
+    spec.point_format = format;
+    const int bottom = format == 6 ? 40 : 26, surface = format == 6 ? 41 : 9;
+    spec.points = {Return(1, -1, 1, 1, 2), Return(1, -3, bottom, 2, 2), Return(2, 5, surface, 1, 1),
+                   Return(9, -3, bottom, 1, 1)};
+    LasPrescanOptions options = {.classes = {bottom}, .water_classes = {surface}, .pairs = true, .water_level = {}};
+    for (LasPoint& point : spec.points) point.withheld = true;
+    const LasPrescan none = PrescanOf(spec, options);
+    EXPECT_EQ(none.chosen, 0u) << format;
+    EXPECT_EQ(none.surface_returns, 0u) << format;
+    EXPECT_EQ(none.pair_count, 0u) << format;
+    EXPECT_EQ(none.all.greatest[2], 5) << format;
+    options.use_withheld = true;
+    const LasPrescan all = PrescanOf(spec, options);
+    EXPECT_EQ(all.chosen, 2u) << format;
+    EXPECT_EQ(all.surface_returns, 1u) << format;
+    EXPECT_EQ(all.pair_count, 1u) << format;
+  }
+}
+
+TEST(LasPrescan, TakesNoDirectionFromSyntheticPoints) {
+  LasSpec spec;
+  spec.points = {Return(1, -1, 1, 1, 2), Return(1, -3, kBottom, 2, 2), Return(2, 0, kSurface, 1, 1)};
+  spec.points[0].synthetic = spec.points[2].synthetic = true;
+  LasPrescanOptions options = kPairs;
+  options.water_classes = {kSurface};
+  const LasPrescan prescan = PrescanOf(spec, options);
+  EXPECT_EQ(prescan.pair_count, 0u);
+  EXPECT_EQ(prescan.surface_returns, 1u);
+  EXPECT_EQ(prescan.synthetic_surface, 1u);
+}
+
+TEST(LasPrescan, TakesTimesOfZeroForNone) {
+  LasSpec spec;
+  spec.points = {Return(0, -1, 1, 1, 2), Return(0, -3, kBottom, 2, 2), Return(7, -3, kBottom, 1, 1),
+                 Return(NAN, -3, kBottom, 1, 1), Return(8, -3, kBottom, 1, 1)};
+  const LasPrescan prescan = PrescanOf(spec, kPairs);
+  EXPECT_EQ(prescan.chosen, 4u);
+  EXPECT_EQ(prescan.first_time, 7);
+  EXPECT_EQ(prescan.last_time, 8);
+  EXPECT_EQ(prescan.pair_count, 0u);
+}
+
 TEST(LasPrescan, ComparesReturnsFromTheSurfaceWithTheLevel) {
   LasSpec spec;
   spec.points = {Return(1, 0.5, kSurface, 1, 1), Return(2, -20, kSurface, 1, 1), Return(3, -22, kSurface, 1, 1),
@@ -73,7 +118,7 @@ TEST(LasPrescan, ComparesReturnsFromTheSurfaceWithTheLevel) {
 
 TEST(LasPrescan, LeavesReturnsAboveTheWaterLevelOut) {
   LasSpec spec;
-  spec.points = {Return(1, 0.5, 1, 1, 2), Return(1, -3, kBottom, 2, 2)};
+  spec.points = {Return(1, 2.5, 1, 1, 2), Return(1, -3, kBottom, 2, 2)};
   EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 0}).pairs.size(),
             0u);
   EXPECT_EQ(PrescanOf(spec, {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 1}).pairs.size(),
@@ -84,8 +129,8 @@ TEST(LasPrescan, FindsPairsAcrossTheBordersOfChunks) {
   LasSpec spec;
   constexpr int kPulses = 200000;  // Several chunks of 4 MiB.
   for (int i = 0; i < kPulses; ++i) {
-    spec.points.push_back(Return(i * 0.01, -1, 1, 1, 2));
-    spec.points.push_back(Return(i * 0.01, -3, kBottom, 2, 2));
+    spec.points.push_back(Return(1 + i * 0.01, -1, 1, 1, 2));
+    spec.points.push_back(Return(1 + i * 0.01, -3, kBottom, 2, 2));
   }
   spec.points.erase(spec.points.begin());  // Chunks of an even number of records divide the pulses.
   EXPECT_EQ(PrescanOf(spec, kPairs).pair_count, kPulses - 1u);
@@ -95,7 +140,7 @@ TEST(LasPrescan, FindsPairsAcrossTheBordersOfChunks) {
 LasSpec ScatteredPulses() {
   LasSpec spec;
   for (int number = 1; number <= 3; ++number)
-    for (int i = 0; i < 200; ++i) spec.points.push_back(Return(i * 0.01, -1.5 * number, kBottom, number, 3));
+    for (int i = 1; i <= 200; ++i) spec.points.push_back(Return(i * 0.01, -1.5 * number, kBottom, number, 3));
   return spec;
 }
 
@@ -122,11 +167,11 @@ TEST(LasPrescan, FindsPairsOfReturnsThatLieFarApartInTheFile) {
 
 TEST(LasPrescan, FindsEachPairOnceWhereSomeReturnsLieApart) {
   LasSpec spec;
-  for (int i = 0; i < 40; ++i) {  // Returns 1 and 2 side by side, and 3 far from them, in steps of one record.
+  for (int i = 1; i <= 40; ++i) {  // Returns 1 and 2 side by side, and 3 far from them, in steps of one record.
     spec.points.push_back(Return(i, -1.5, kBottom, 1, 3));
     spec.points.push_back(Return(i, -3, kBottom, 2, 3));
   }
-  for (int i = 39; i >= 0; --i) spec.points.push_back(Return(i, -4.5, kBottom, 3, 3));
+  for (int i = 40; i >= 1; --i) spec.points.push_back(Return(i, -4.5, kBottom, 3, 3));
   const LasPrescan prescan = PrescanOf(spec, kPairs);
   EXPECT_FALSE(prescan.is_scattered());
   EXPECT_EQ(prescan.pair_count, 3u * 40u);
@@ -135,7 +180,7 @@ TEST(LasPrescan, FindsEachPairOnceWhereSomeReturnsLieApart) {
 
 TEST(LasPrescan, DoesNotPairReturnsOfPulsesThatShareACoarseTime) {
   LasSpec spec = ScatteredPulses();
-  for (LasPoint& point : spec.points) point.gps_time = std::floor(point.gps_time);
+  for (LasPoint& point : spec.points) point.gps_time = std::ceil(point.gps_time);
   // Neighbours of equal time and number are of different pulses, too.
   EXPECT_EQ(PrescanOf(spec, kPairs).pair_count, 0u);
 }

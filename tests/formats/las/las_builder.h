@@ -18,6 +18,7 @@ struct LasPoint {
   double gps_time = 0;    // In formats that have it.
   int return_number = 1, return_count = 1;
   int point_source_id = -1;  // -1: the pattern of LasSpec::extra_bytes in place of it.
+  bool withheld = false, synthetic = false;
 };
 
 struct LasRecord {

@@ -88,5 +88,41 @@ TEST(LasCrs, DescribesWhatTheRecordsState) {
   EXPECT_TRUE(describe().user.empty());
 }
 
+// kMetricWkt is UTM zone 17N, EPSG:32617, in metres.
+struct TwoRecords {
+  bool wkt_counts;
+  std::vector<std::pair<int, int>> keys;
+  double unit, height_unit;  // m; 0: not stated.
+  bool remarked;
+};
+
+TEST(LasCrs, TakesTheRecordThatTheHeaderNamesAndRemarksContradictions) {
+  constexpr double kSurveyFoot = 1200.0 / 3937;
+  const TwoRecords cases[] = {
+      {true, {{3072, 32617}}, 1, 0, false},                      // The same.
+      {true, {{3072, 32617}, {4099, 9003}}, 1, kSurveyFoot, false},  // The keys add a unit of heights.
+      {true, {{3072, 2236}, {3076, 9003}, {4099, 9003}}, 1, 0, true},  // Left over from a map in feet.
+      {true, {{3072, 32618}, {4099, 9003}}, 1, 0, true},         // Another zone.
+      {true, {{2048, 4326}, {3072, 32767}}, 1, 0, false},        // A projection of the user's own.
+      {false, {{3072, 32617}, {4099, 9001}}, 1, 1, false},
+      {false, {{3072, 32618}, {4099, 9003}}, 1, kSurveyFoot, true},  // The keys count.
+  };
+  const albtpu::testing::TemporaryFolder folder;
+  for (const TwoRecords& each : cases) {
+    albtpu::testing::LasSpec spec;
+    spec.points.resize(1);
+    spec.point_format = each.wkt_counts ? 6 : 1;
+    spec.vlrs = {{"LASF_Projection", 2112, albtpu::testing::kMetricWkt},
+                 {"LASF_Projection", 34735, GeoKeys(each.keys)}};
+    const absl::StatusOr<LasReader> reader = LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+    const absl::StatusOr<LasCrs> crs = CrsOf(*reader, "", {450000, 3000000});
+    ASSERT_TRUE(crs.ok()) << crs.status();
+    const std::string which = absl::StrCat(each.keys[0].second, ", text counts: ", each.wkt_counts);
+    EXPECT_EQ(crs->map->unit(), each.unit) << which;
+    EXPECT_NEAR(crs->metres_per_height_unit.value_or(0), each.height_unit, 1e-9) << which;
+    EXPECT_EQ(crs->remark.empty(), !each.remarked) << which << crs->remark;
+  }
+}
+
 }  // namespace
 }  // namespace albtpu::formats

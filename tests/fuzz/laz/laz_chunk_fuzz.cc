@@ -25,11 +25,9 @@ bool HaveSameReturns(std::string_view one, std::string_view other, std::size_t r
   const auto same = [&](std::size_t begin, std::size_t size) {
     return one.substr(begin, size) == other.substr(begin, size);
   };
-  const auto channel = [](char flags) { return laz::ScannerChannel(static_cast<std::uint8_t>(flags)); };
   for (std::size_t at = 0; at < one.size(); at += record_length) {
-    const std::size_t flags = at + laz::kFlagsOffset;
     if (!same(at + laz::kXOffset, 12) || !same(at + laz::kReturnsOffset, 1) || !same(at + laz::kClassOffset, 1) ||
-        !same(at + laz::kTimeOffset, 8) || channel(one[flags]) != channel(other[flags]))
+        !same(at + laz::kFlagsOffset, 1) || !same(at + laz::kTimeOffset, 8))
       return false;
   }
   return one.size() == other.size();

@@ -1,0 +1,110 @@
+#include "annotate/las/las_place.h"
+
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "formats/las/las_crs.h"
+#include "formats/las/las_points.h"
+#include "status/status_macros.h"
+
+namespace albtpu::annotate {
+namespace {
+
+// The coordinate system; without a map if it is not known and need not be.
+absl::StatusOr<formats::LasCrs> CrsFor(const formats::LasReader& reader, const BeamPlan& plan,
+                                       const formats::MapPosition& middle) {
+  std::string user;
+  bool required = false;
+  if (const auto* files = std::get_if<TrajectoryFromFiles>(&plan.source)) {
+    user = files->crs.value_or("");
+    required = true;
+  } else if (const auto* returns = std::get_if<TrajectoryFromReturns>(&plan.source)) {
+    user = returns->crs.value_or("");
+    required = returns->crs.has_value();
+  }
+  absl::StatusOr<formats::LasCrs> crs = formats::CrsOf(reader, user, middle);
+  if (crs.ok() || required) return crs;
+  formats::LasCrs unknown;
+  ASSIGN_OR_RETURN(unknown.feet, formats::FindFeet(reader));
+  return unknown;
+}
+
+absl::StatusOr<double> MetresPerHeightUnit(const formats::LasReader& reader, const BeamPlan& plan,
+                                           const formats::LasCrs& crs) {
+  if (plan.metres_per_unit.has_value()) return *plan.metres_per_unit;
+  if (crs.metres_per_height_unit.has_value()) return *crs.metres_per_height_unit;
+  std::string what = crs.feet.value_or("");
+  const formats::MapFrame* const map = crs.map.get();
+  if (what.empty() && map != nullptr && !map->is_geographic() && map->unit() > 0.3 && map->unit() < 0.31)
+    what = map->crs_name();
+  if (what.empty()) return 1.0;
+  return absl::FailedPreconditionError(
+      absl::StrCat(reader.name(), ": its coordinate system is in feet (", what,
+                   "); give the unit of its heights and of --water-level by --units m, ft or us-ft"));
+}
+
+// Coordinates that are within the range of longitudes and latitudes, in steps of at most half a metre if they were
+// degrees; as metres, no survey has steps of 0.005 mm.
+bool LooksGeographic(const formats::LasHeader& header, const formats::MapPosition& middle) {
+  constexpr double kLargestStep = 5e-6;
+  return std::abs(header.scale[0]) < kLargestStep && std::abs(header.scale[1]) < kLargestStep &&
+         std::abs(middle.x) <= 360 && std::abs(middle.y) <= 90;
+}
+
+// The middle of the box of the header, unless the first point lies outside.
+absl::StatusOr<formats::MapPosition> StatedMiddle(const formats::LasReader& reader) {
+  const formats::LasHeader& header = reader.header();
+  if (header.point_count == 0) return formats::MapPosition();
+  ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
+  const formats::LasPointFields fields(header);
+  const formats::MapPosition first = {fields.X(record), fields.Y(record)};
+  const auto is_inside = [&](double value, std::size_t axis) {
+    // The box may be rounded otherwise than the points.
+    const double tolerance = 2 * std::abs(header.scale[axis]);
+    return header.least[axis] - tolerance <= value && value <= header.greatest[axis] + tolerance;
+  };
+  if (!is_inside(first.x, 0) || !is_inside(first.y, 1)) return first;
+  return formats::MapPosition{(header.least[0] + header.greatest[0]) / 2, (header.least[1] + header.greatest[1]) / 2};
+}
+
+}  // namespace
+
+absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPlan& plan,
+                                 std::optional<formats::MapPosition> given) {
+  formats::MapPosition middle;
+  if (given.has_value()) {
+    middle = *given;
+  } else {
+    ASSIGN_OR_RETURN(middle, StatedMiddle(reader));
+  }
+  LasPlace place;
+  ASSIGN_OR_RETURN(const formats::LasCrs crs, CrsFor(reader, plan, middle));
+  ASSIGN_OR_RETURN(const double metres_per_z, MetresPerHeightUnit(reader, plan, crs));
+  place.map = crs.map;
+  // Without a coordinate system, x and y are in the unit of heights.
+  place.frame = {.origin_x = middle.x,
+                 .origin_y = middle.y,
+                 .metres_per_x = metres_per_z,
+                 .metres_per_y = metres_per_z,
+                 .metres_per_z = metres_per_z};
+  if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), middle)) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        reader.name(), ": its points seem to be in degrees (x ", middle.x, ", y ", middle.y,
+        "), but it states no coordinate system that can be used; name it by --crs, such as --crs EPSG:4326"));
+  }
+  if (place.map == nullptr) return place;
+  place.remark = crs.remark;
+  const std::optional<formats::GeographicPosition> position = place.map->GeographicAt(middle);
+  if (!position.has_value()) {
+    if (!plan.has_track()) return place;
+    return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": its points lie where its coordinate system, ",
+                                                   place.map->crs_name(), ", is not defined (x ", middle.x, ", y ",
+                                                   middle.y, "); give the right one by --crs"));
+  }
+  const formats::MapMetric metric = place.map->MetricAt(*position);
+  place.frame.metres_per_x = metric.metres_per_x;
+  place.frame.metres_per_y = metric.metres_per_y;
+  return place;
+}
+
+}  // namespace albtpu::annotate
