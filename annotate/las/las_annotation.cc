@@ -43,6 +43,11 @@ constexpr std::uint64_t kEnoughAngles = 100;  // Of a few points near the middle
 
 absl::Status CheckScanAngles(const formats::LasReader& reader, const CoordinateSpread& incidence) {
   if (incidence.count() < kEnoughAngles || incidence.greatest() >= kLeastScan) return absl::OkStatus();
+  if (incidence.greatest() == 0) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(reader.name(), ": all scan angles are 0, so that nobody recorded them; give --trajectory, "
+                                    "--trajectory-from-returns or --incidence"));
+  }
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s: all scan angles are within %.2g degrees (a scanner swings by 10 to 30), so that they are probably in another "
       "unit, such as whole degrees where point formats 6 to 10 count steps of %g; give --trajectory, "

@@ -1,5 +1,6 @@
 #include "annotate/las/las_beams.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -54,16 +55,39 @@ std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box&
   return wrong;
 }
 
+// "x": the axis whose bounds are those of the points with another offset or another scale, so that one of the three is
+// wrong, and nothing says which. Empty if there is none.
+std::string ContradictedAxis(const formats::LasHeader& header, const LasPrescan::Box& box, const LocalFrame& frame) {
+  const std::array<double, 3> metres = {frame.metres_per_x, frame.metres_per_y, frame.metres_per_z};
+  for (std::size_t axis = 0; axis < metres.size() && header.point_count > 0; ++axis) {
+    const double least = header.least[axis] - header.offset[axis], found_least = box.least[axis] - header.offset[axis];
+    const double greatest = header.greatest[axis] - header.offset[axis];
+    const double found_greatest = box.greatest[axis] - header.offset[axis];
+    const double step = 4 * std::abs(header.scale[axis]);
+    if (!(std::abs(least - found_least) * metres[axis] > kRoundedBounds)) continue;
+    if (!(std::abs(greatest - found_greatest) * metres[axis] > kRoundedBounds)) continue;
+    const bool shifted = std::abs((least - found_least) - (greatest - found_greatest)) <= step;
+    // With a negative factor, the greatest is that of the least; a factor of 1 would exchange the two alone.
+    const auto scaled = [&](double first, double second) {
+      const double factor = first / found_least;
+      return factor != 0 && std::abs(factor - 1) > 1e-9 &&
+             std::abs(factor * found_greatest - second) <= step * std::max(1.0, std::abs(factor));
+    };
+    if (shifted || scaled(least, greatest) || scaled(greatest, least)) return std::string(1, "xyz"[axis]);
+  }
+  return "";
+}
+
 TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
                    const WaterHeights& water, double index) {
   return {.name = reader.name(),
           .frame = place.frame,
           .map = place.map,
           .times = TimesOf(reader, prescan),
-          .extent = {.x_min = prescan.of_chosen.least[0],
-                     .x_max = prescan.of_chosen.greatest[0],
-                     .y_min = prescan.of_chosen.least[1],
-                     .y_max = prescan.of_chosen.greatest[1]},
+          .extent = {.x_min = prescan.of_numbered.least[0],
+                     .x_max = prescan.of_numbered.greatest[0],
+                     .y_min = prescan.of_numbered.least[1],
+                     .y_max = prescan.of_numbered.greatest[1]},
           .rays = RaysOfPairs(prescan.pairs, water, place.frame, index),
           .pairs = prescan.pair_count,
           .remark = prescan.is_scattered()
@@ -76,7 +100,7 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
 }  // namespace
 
 absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
+  if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   if (!(file.times.span.first <= file.times.span.last)) {
     return absl::FailedPreconditionError(
@@ -103,7 +127,7 @@ absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimel
     records_ = {seas.fixed().first, seas.fixed().second};
     return absl::OkStatus();
   }
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
+  if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a sea.
   ASSIGN_OR_RETURN(utc_, formats::UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()},
                                             *seas.settings().file));
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
@@ -141,11 +165,19 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
                                         .pairs = plan.has_track(),
                                         .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
                                         .level_classes = formats::UsualSurfaceClasses(format),
-                                        .use_withheld = annotation.use_withheld}));
+                                        .use_withheld = annotation.use_withheld,
+                                        .dry_points = plan.dry_points}));
     return absl::OkStatus();
   };
   if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
     RETURN_IF_ERROR(scan());
+    if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_.frame); !axis.empty()) {
+      return absl::FailedPreconditionError(
+          absl::StrCat(reader.name(), ": the bounds in its header are those of its points with another offset or scale "
+                                      "of ", axis, ", so that one of them is wrong (",
+                       WrongBounds(reader.header(), prescan_.all, place_.frame),
+                       "); correct the header, or its bounds alone if the points are right"));
+    }
     if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_.frame); !wrong.empty()) {
       notes_.push_back(absl::StrCat("the header states bounds that the points do not have (", wrong,
                                     "); those of the points are used"));

@@ -26,15 +26,6 @@ namespace {
 
 constexpr int kLastUnclassified = 1;  // ASPRS: 0 and 1 are points that nobody classified.
 
-// Whether points of this class that are not chosen lie on land or on the water: neither noise nor under water. ASPRS,
-// LAS Domain Profile for Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 water column (no
-// bottom found), 46 overlapping bottom; in older point formats what NOAA used before.
-bool MayBeDry(int point_class, const formats::LasHeader& header) {
-  if (point_class == formats::kLowNoise || point_class == formats::kHighNoise) return false;
-  if (header.point_format < formats::kFirstModernFormat) return point_class != 25 && point_class != 26;
-  return point_class != 40 && (point_class < 43 || point_class > 46);
-}
-
 }  // namespace
 
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
@@ -60,7 +51,7 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
   selection_.standard_errors = style_.standard_errors;
   for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
   for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
-  for (int i = 0; i < formats::kClassCount && plan_.dry_points; ++i) is_dry_[i] = !is_chosen_[i] && MayBeDry(i, header);
+  for (int i = 0; i < formats::kClassCount && plan_.dry_points; ++i) is_dry_[i] = !is_chosen_[i] && formats::MayBeDry(i, header.point_format);
 }
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {

@@ -19,7 +19,7 @@ constexpr std::size_t kPrescanChunkBytes = 4 << 20;
 constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
 
 // What a point may be, as bits.
-enum Role : std::uint8_t { kChosen = 1, kSurface = 2, kAtLevel = 4, kOfPair = 8 };
+enum Role : std::uint8_t { kChosen = 1, kSurface = 2, kAtLevel = 4, kOfPair = 8, kNumbered = 16 };
 
 using Box = LasPrescan::Box;
 
@@ -43,9 +43,9 @@ struct Part {
   std::vector<double> times;
   std::vector<std::uint8_t> roles;
 
-  std::uint64_t chosen = 0, surface_returns = 0, synthetic_surface = 0, level_returns = 0, off_level = 0;
+  std::uint64_t numbered = 0, surface_returns = 0, synthetic_surface = 0, level_returns = 0, off_level = 0;
   double off_level_height = 0;  // Sum, m.
-  Box all, of_chosen;
+  Box all, of_numbered;
   double first_time, last_time;
   SurfaceReturns surface;
   std::vector<ReturnPair> pairs;
@@ -67,7 +67,9 @@ class PrescanWork {
     for (const int noise : {formats::kLowNoise, formats::kHighNoise}) roles_[noise] = 0;
     // Whatever the given classes are, these say that a return is not from under the water.
     for (const int surface : formats::UsualSurfaceClasses(reader.header().point_format)) roles_[surface] = 0;
-    for (const int point_class : options.classes) roles_[point_class] |= kChosen | kOfPair;
+    for (int i = 0; i < formats::kClassCount && options.dry_points; ++i)
+      if (formats::MayBeDry(i, reader.header().point_format)) roles_[i] |= kNumbered;
+    for (const int point_class : options.classes) roles_[point_class] |= kChosen | kNumbered | kOfPair;
     for (const int point_class : options.water_classes) roles_[point_class] = (roles_[point_class] | kSurface) & ~kOfPair;
     if (options.water_level.has_value())
       for (const int point_class : options.level_classes) roles_[point_class] |= kAtLevel;
@@ -91,9 +93,9 @@ class PrescanWork {
       part.roles[i] = RolesOf(record);
       if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
     }
-    part.chosen = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
+    part.numbered = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
     part.off_level_height = 0;
-    part.all = part.of_chosen = EmptyBox();
+    part.all = part.of_numbered = EmptyBox();
     part.first_time = std::numeric_limits<double>::infinity();
     part.last_time = -part.first_time;
     part.surface = SurfaceReturns();
@@ -106,7 +108,7 @@ class PrescanWork {
       Extend(at, at, part.all);
       if ((roles & kSurface) != 0) AddSurface(part, i);
       if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
-      if ((roles & kChosen) != 0) AddChosen(at, part, i);
+      if ((roles & kNumbered) != 0) AddNumbered(at, part, i);
       if (pairs_ && IsTime(part.times[i])) AddPairs(part, i);
     }
     return absl::OkStatus();
@@ -145,9 +147,9 @@ class PrescanWork {
     part.off_level_height += height;
   }
 
-  static void AddChosen(const std::array<double, 3>& at, Part& part, std::size_t i) {
-    Extend(at, at, part.of_chosen);
-    ++part.chosen;
+  static void AddNumbered(const std::array<double, 3>& at, Part& part, std::size_t i) {
+    Extend(at, at, part.of_numbered);
+    ++part.numbered;
     if (!IsTime(part.times[i])) return;
     part.first_time = std::min(part.first_time, part.times[i]);
     part.last_time = std::max(part.last_time, part.times[i]);
@@ -199,7 +201,7 @@ class PrescanWork {
 };
 
 void Merge(const Part& part, LasPrescan& prescan) {
-  prescan.chosen += part.chosen;
+  prescan.numbered += part.numbered;
   prescan.surface_returns += part.surface_returns;
   prescan.synthetic_surface += part.synthetic_surface;
   prescan.level_returns += part.level_returns;
@@ -208,7 +210,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
   prescan.of_several += part.of_several;
   prescan.alone += part.alone;
   Extend(part.all.least, part.all.greatest, prescan.all);
-  Extend(part.of_chosen.least, part.of_chosen.greatest, prescan.of_chosen);
+  Extend(part.of_numbered.least, part.of_numbered.greatest, prescan.of_numbered);
   prescan.first_time = std::min(prescan.first_time, part.first_time);
   prescan.last_time = std::max(prescan.last_time, part.last_time);
 }
@@ -219,7 +221,7 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
                                    const LasPrescanOptions& options) {
   const std::uint64_t max_records = std::max<std::uint64_t>(kPrescanChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;
-  prescan.all = prescan.of_chosen = EmptyBox();
+  prescan.all = prescan.of_numbered = EmptyBox();
   SurfaceReturns surface;
   PairSample pairs;
   PulseSample incomplete;

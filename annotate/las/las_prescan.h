@@ -25,6 +25,7 @@ struct LasPrescanOptions {
   std::optional<double> water_level;  // In the file's unit: returns above its waves make no pair.
   std::set<int> level_classes = {};   // Of returns that should lie at the water level.
   bool use_withheld = false;          // Points with this flag count as any other.
+  bool dry_points = false;            // Points that may be dry (MayBeDry) get a number, too.
 };
 
 // Records in a file in order of time that belong to one pulse lie at most this far apart.
@@ -42,9 +43,9 @@ struct LasPrescan {
     std::array<double, 3> least, greatest;
   };
   Box all;                   // Of all points.
-  std::uint64_t chosen = 0;  // Points of the chosen classes that are not withheld.
-  Box of_chosen;
-  // Of the chosen points, those that are times (IsTime).
+  std::uint64_t numbered = 0;  // Points that may get a number: chosen and dry ones.
+  Box of_numbered;
+  // Of the same points, those that are times (IsTime).
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
   std::uint64_t surface_returns = 0, synthetic_surface = 0;  // The latter are part of the former.
   // Returns of `level_classes`, those of them that lie farther than kLevelTolerance from the water level, and the mean

@@ -40,6 +40,15 @@ inline std::set<int> UsualSurfaceClasses(int point_format) {
   return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
 }
 
+// Whether points of this class lie on land or on the water: neither noise nor under water. ASPRS, LAS Domain Profile for
+// Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 no bottom found, 46 overlapping bottom; in
+// older point formats what NOAA used before.
+constexpr bool MayBeDry(int point_class, int point_format) {
+  if (point_class == kLowNoise || point_class == kHighNoise) return false;
+  if (point_format < kFirstModernFormat) return point_class != 25 && point_class != 26;
+  return point_class != 40 && (point_class < 43 || point_class > 46);
+}
+
 // Reads the fields of records, which have the format that the header states.
 class LasPointFields {
  public:

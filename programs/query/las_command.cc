@@ -80,15 +80,16 @@ class LasFiles {
                                                                              annotation_, source_, progress, kind_));
     const std::uint64_t points = annotated.classes.points();
     const std::uint64_t bathymetric = annotated.summary.outcomes().total();
-    const bool none = points > 0 && bathymetric == 0;
+    const bool none = points > 0 && bathymetric == 0 && annotated.dry.count() == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
     if (none && options_.files.output_folder.empty())
       return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
     if (none) annotate::Note(ClassHint(job, annotated) + "; all its points get no-data");
+    if (!none && points > 0 && bathymetric == 0) annotate::Note(ClassHint(job, annotated) + "; all are taken as dry");
     if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
       NoteResolution(annotated.point_format);
     points_ += points;
-    bathymetric_ += bathymetric;
+    numbered_ += bathymetric + annotated.dry.count();
     return annotate::AnnotatedFile{
         std::move(annotated.file),
         annotate::Findings{
@@ -102,7 +103,7 @@ class LasFiles {
                                    [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
   }
 
-  bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }
+  bool found_none() const { return points_ > 0 && numbered_ == 0; }
 
  private:
   // Once for all files, which mostly have the same point format.
@@ -118,7 +119,7 @@ class LasFiles {
   std::optional<formats::LasKind> kind_;  // Of the outputs.
   annotate::AnswerSource source_;
   bool resolution_noted_ = false;
-  std::uint64_t points_ = 0, bathymetric_ = 0;
+  std::uint64_t points_ = 0, numbered_ = 0;
 };
 
 // Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
@@ -184,7 +185,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
        .cause = ContextOf(annotation.plan, source.table())},
       source.table());
   // With --resume, the files that were skipped may have such points.
-  if (status.ok() && !options.files.resume && files.found_no_bathymetry())
+  if (status.ok() && !options.files.resume && files.found_none())
     return absl::FailedPreconditionError("no file has a point of the bathymetric classes; name them with --classes");
   return status;
 }

@@ -51,7 +51,7 @@ TEST(LasPrescan, FindsPairsOfReturnsOfOnePulse) {
   EXPECT_EQ(prescan.pairs[0].time, 1);
   EXPECT_EQ(prescan.pairs[0].upper.z(), -1);
   EXPECT_EQ(prescan.pairs[0].lower.z(), -3);
-  EXPECT_EQ(prescan.chosen, 6u);
+  EXPECT_EQ(prescan.numbered, 6u);
   EXPECT_EQ(prescan.first_time, 1);
   EXPECT_EQ(prescan.last_time, 7);
   EXPECT_EQ(prescan.surface_returns, 1u);
@@ -67,13 +67,13 @@ TEST(LasPrescan, LeavesWithheldPointsOutUnlessTheyAreWanted) {
     LasPrescanOptions options = {.classes = {bottom}, .water_classes = {surface}, .pairs = true, .water_level = {}};
     for (LasPoint& point : spec.points) point.withheld = true;
     const LasPrescan none = PrescanOf(spec, options);
-    EXPECT_EQ(none.chosen, 0u) << format;
+    EXPECT_EQ(none.numbered, 0u) << format;
     EXPECT_EQ(none.surface_returns, 0u) << format;
     EXPECT_EQ(none.pair_count, 0u) << format;
     EXPECT_EQ(none.all.greatest[2], 5) << format;
     options.use_withheld = true;
     const LasPrescan all = PrescanOf(spec, options);
-    EXPECT_EQ(all.chosen, 2u) << format;
+    EXPECT_EQ(all.numbered, 2u) << format;
     EXPECT_EQ(all.surface_returns, 1u) << format;
     EXPECT_EQ(all.pair_count, 1u) << format;
   }
@@ -96,7 +96,7 @@ TEST(LasPrescan, TakesTimesOfZeroForNone) {
   spec.points = {Return(0, -1, 1, 1, 2), Return(0, -3, kBottom, 2, 2), Return(7, -3, kBottom, 1, 1),
                  Return(NAN, -3, kBottom, 1, 1), Return(8, -3, kBottom, 1, 1)};
   const LasPrescan prescan = PrescanOf(spec, kPairs);
-  EXPECT_EQ(prescan.chosen, 4u);
+  EXPECT_EQ(prescan.numbered, 4u);
   EXPECT_EQ(prescan.first_time, 7);
   EXPECT_EQ(prescan.last_time, 8);
   EXPECT_EQ(prescan.pair_count, 0u);
@@ -193,7 +193,7 @@ TEST(LasPrescan, MakesASurfaceOfItsReturns) {
   ASSERT_TRUE(prescan.surface.has_value());
   EXPECT_EQ(prescan.surface->HeightAt(1, 1, 4), 0.25);
   EXPECT_EQ(prescan.surface->HeightAt(1000, 1, 4), std::nullopt);
-  EXPECT_EQ(prescan.chosen, 0u);
+  EXPECT_EQ(prescan.numbered, 0u);
 }
 
 }  // namespace

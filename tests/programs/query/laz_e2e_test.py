@@ -101,8 +101,8 @@ class LazTest(programs.Test):
                      "point-color.las.laz", "simple.laz"):
             with self.subTest(name):
                 source, target = self.sample(name), self.folder / f"out {name}"
-                result = query("las", source, target, "--table", self.table, "--classes", "0,1,2,3,4,5",
-                               "--units", "m", *FLAGS)
+                result = query("las", source, target, "--table", self.table, "--classes", "0,1,2,3,4,5", "--units", "m",
+                               "--incidence", 12, "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
                 self.assertTrue(target.exists(), result.stderr)
                 old, new = self.as_las(source), self.as_las(target)
                 np.testing.assert_array_equal(new.records[:, :-8], old.records)

@@ -132,7 +132,7 @@ class SameTotals(programs.Test):
                 result, out = self.ask_las()
                 self.assertEqual(result.returncode, 0, result.stderr)
                 number = {key: values.astype(np.float32) for key, values in LasFile(out).columns().items()}
-                rows = np.flatnonzero(number["total_thu"] >= 0)[:2000]
+                rows = np.flatnonzero((number["total_thu"] >= 0) & (number["water_depth"] >= 0))[:2000]
                 self.assertGreater(len(rows), 100)
                 pulses = self.folder / "of_points.csv"
                 pulses.write_text("incidence,beam_azimuth,altitude,footprint,depth\n" + "".join(

@@ -99,11 +99,13 @@ class TotalsTest(programs.Test):
         self.assertTrue((of["CovarianceXY"]**2 <= of["VarianceX"] * of["VarianceY"]).all())
         summary = json.loads((self.folder / "out.las.json").read_text())
         total = summary["answers"]["total"]
-        self.assertEqual(total["pulses"], answered.sum())
+        wet = number["water_depth"][answered] >= 0
+        self.assertEqual(total["pulses"], wet.sum())
+        self.assertEqual(summary["answers"]["dry"]["points"], (~wet).sum())
         self.assertEqual(total["coverage"], "2sigma")
         self.assertTrue(any("boresight" in line for line in total["assumed"]))
         self.assertFalse(any("position" in line for line in total["assumed"]))
-        self.assertEqual(sum(line["pulses"] for line in total["lines"].values()), answered.sum())
+        self.assertEqual(sum(line["pulses"] for line in total["lines"].values()), wet.sum())
         # The same from LAS to LAZ and back, and through a server.
         laz, again = self.folder / "out.laz", self.folder / "again.las"
         query(*arguments, laz, check=0)
