@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -61,7 +62,7 @@ TotalPlan Plan() {
   return plan;
 }
 
-Matrix3d Drawn(const Flight& flight, const TotalPlan& plan, int draws) {
+std::vector<Vector3d> DrawnErrors(const Flight& flight, const TotalPlan& plan, int draws) {
   const AirErrors& errors = plan.options.errors;
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;
@@ -77,10 +78,11 @@ Matrix3d Drawn(const Flight& flight, const TotalPlan& plan, int draws) {
   const double range = kAltitude / std::cos(incidence), to_radians = std::numbers::pi / 180;
   const Matrix3d body = Turned(flight.roll, flight.pitch, flight.heading);
   const Vector3d truth = body * flight.lever + range * u;
-  Matrix3d sum = Matrix3d::Zero();
+  std::vector<Vector3d> drawn;
   for (int i = 0; i < draws; ++i) {
     const Vector3d position = three(errors.position), attitude = three(errors.attitude);
-    const Vector3d boresight = three(errors.boresight), lever = three({errors.lever_arm, errors.lever_arm, errors.lever_arm});
+    const Vector3d boresight = three(errors.boresight);
+    const Vector3d lever = three({errors.lever_arm, errors.lever_arm, errors.lever_arm});
     const Vector3d seen = u + errors.scan * to_radians * (normal(engine) * outward + normal(engine) * sideways);
     const double time = errors.time * normal(engine);
     const double ranged = range + plan.hard_range * normal(engine) + errors.range_offset * normal(engine);
@@ -90,9 +92,9 @@ Matrix3d Drawn(const Flight& flight, const TotalPlan& plan, int draws) {
     const Vector3d in_body = SmallTurn(boresight) * (body.transpose() * seen);
     Vector3d point = position + time * flight.velocity + turned * flight.lever + lever + ranged * (turned * in_body);
     point.z() += plan.options.datum * normal(engine);
-    sum += (point - truth) * (point - truth).transpose();
+    drawn.push_back(point - truth);
   }
-  return sum / draws;
+  return drawn;
 }
 
 TotalBatch Computed(const Flight& flight, const TotalPlan& plan) {
@@ -121,7 +123,10 @@ TEST(DryTotals, AreThoseOfDraws) {
     TotalPlan plan = Plan();
     for (std::size_t axis = 0; axis < 3; ++axis)
       plan.options.lever_arm[axis] = flight.lever[static_cast<Eigen::Index>(axis)];
-    const Matrix3d drawn = Drawn(flight, plan, 400000);
+    const std::vector<Vector3d> errors = DrawnErrors(flight, plan, 400000);
+    const auto draws = static_cast<double>(errors.size());
+    Matrix3d drawn = Matrix3d::Zero();
+    for (const Vector3d& error : errors) drawn += error * error.transpose() / draws;
     const TotalBatch totals = Computed(flight, plan);
     const double scale = drawn.trace();
     const double computed[6] = {totals.covariance[0][0], totals.covariance[1][0], totals.covariance[2][0],
@@ -131,6 +136,13 @@ TEST(DryTotals, AreThoseOfDraws) {
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(computed[i], expected[i], 0.009 * scale) << flight.incidence << " " << i;
     EXPECT_NEAR(totals.thu[0], 2 * std::sqrt(drawn(0, 0) + drawn(1, 1)), 0.005 * totals.thu[0]);
     EXPECT_NEAR(totals.tvu[0], 2 * std::sqrt(drawn(2, 2)), 0.005 * totals.tvu[0]);
+    plan.options.coverage = Coverage::kP95;
+    const TotalBatch at_95 = Computed(flight, plan);
+    const auto share = [&](auto is_within) {
+      return static_cast<double>(std::ranges::count_if(errors, is_within)) / draws;
+    };
+    EXPECT_NEAR(share([&](const Vector3d& e) { return e.head<2>().norm() <= at_95.thu[0]; }), 0.95, 0.0015);
+    EXPECT_NEAR(share([&](const Vector3d& e) { return std::abs(e.z()) <= at_95.tvu[0]; }), 0.95, 0.0015);
   }
 }
 

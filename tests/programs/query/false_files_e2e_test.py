@@ -104,14 +104,14 @@ class FalseFiles(programs.Test):
         return ("--survey", self.toml_file, "--table", PATHS["shipped_table"], "--trajectory", self.survey.sbet,
                 *(surface or ("--water-level", self.survey.water_level)))
 
-    def annotated(self, data, *flags):
-        """What `las` printed, and the columns that it wrote; None where it refused."""
+    def annotated(self, data, *flags, failing=False):
+        """What `las` printed, and the columns that it wrote; None where it refused. If `failing`, it did both."""
         source, target = self.folder / "in.las", self.folder / "out.las"
         source.write_bytes(data)
         target.unlink(missing_ok=True)
         result = query("las", source, target, "--overwrite", *flags)
         self.assertIn(result.returncode, (0, 1), result.stderr)
-        self.assertEqual(result.returncode == 0, target.exists())
+        self.assertEqual(result.returncode == 0 or failing, target.exists())
         return result.stderr, LasFile(target).columns() if target.exists() else None
 
     def assert_same(self, columns, expected, but=()):
@@ -268,16 +268,22 @@ class DryPoints(FalseFiles):
         self.assertTrue((land["total_thu"] > 0).all())
         np.testing.assert_array_equal(land["total_thu"][dry], columns["total_thu"][dry])
 
-    def test_bottom_above_the_water(self):
-        level = self.survey.water_level
-        heights = LasFile(self.survey.las).z[LasFile(self.survey.las).classes == 40]
-        lower = float(np.quantile(heights, 0.8))  # A fifth of the bottom falls dry.
-        _, columns = self.annotated(self.sound, *self.flags("--water-level", lower), "--surface-located", "level")
-        if columns is None:  # The returns contradict such a level: they tell where the water is.
-            return
-        summary = json.loads((self.folder / "out.las.json").read_text())
-        self.assertGreater(summary["answers"]["outcomes"]["DRY"], 0)
-        self.assertLess(lower, level)
+    def test_bottom_above_the_water_is_dry_and_says_so(self):
+        las = LasFile(self.survey.las)
+        lower = float(np.quantile(las.z[las.classes == 40], 0.8))  # A fifth of the bottom falls dry.
+        printed, columns = self.annotated(self.sound, *self.flags()[:4], "--incidence", 20, "--beam-azimuth", 0,
+                                          "--altitude", 400, "--water-level", lower)
+        dry = (las.classes == 40) & (las.z > lower)
+        outcomes = json.loads((self.folder / "out.las.json").read_text())["answers"]["outcomes"]
+        self.assertEqual(outcomes["DRY"], dry.sum())
+        self.assertIn(f"{dry.sum()} DRY", printed)
+        self.assertTrue((columns["total_thu"][dry] > 0).all())
+        self.assertTrue((columns["thu_sea"][dry] == 0).all())
+        # If most of the bottom is above it, the level is wrong, and the run fails although all points have numbers.
+        lowest = float(np.quantile(las.z[las.classes == 40], 0.2))
+        printed, _ = self.annotated(self.sound, *self.flags()[:4], "--incidence", 20, "--beam-azimuth", 0, "--altitude",
+                                    400, "--water-level", lowest, failing=True)
+        self.assertIn("above the water surface", printed)
 
 
 class Mutations(FalseFiles):
