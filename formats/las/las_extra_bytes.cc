@@ -159,6 +159,40 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   return floats;
 }
 
+absl::StatusOr<std::string> ReadExtraBytesRecord(const LasReader& reader) {
+  std::vector<std::string> records;
+  for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
+    for (const VlrEntry& entry : *entries) {
+      if (!entry.Is(kSpecUser, kExtraBytesRecord)) continue;
+      if (entry.data_size > kLargestExtraBytesRecord) {
+        return InvalidExtraBytes(reader.name(), absl::StrCat("its Extra Bytes record has ", entry.data_size,
+                                                             " bytes; expected at most ", kLargestExtraBytesRecord));
+      }
+      ASSIGN_OR_RETURN(records.emplace_back(), reader.ReadAt(entry.data_offset, entry.data_size));
+    }
+  }
+  if (records.empty()) return std::string();
+  const std::string& longest = *std::ranges::max_element(records, {}, &std::string::size);
+  if (std::ranges::all_of(records, [&](const std::string& each) { return longest.starts_with(each); })) return longest;
+  std::size_t bytes = 0, entries = 0;
+  std::set<std::string, std::less<>> names;
+  std::string list;
+  for (const std::string& record : records) {
+    ASSIGN_OR_RETURN(const Described known, Read(reader.name(), record));
+    list += record;
+    bytes += known.bytes;
+    for (const Known& entry : known.entries) entries += entry.type != kUndocumented;
+    for (const Known& entry : known.entries)
+      if (entry.type != kUndocumented) names.insert(entry.name);
+  }
+  if (bytes <= reader.header().extra_bytes() && names.size() == entries) return list;
+  return InvalidExtraBytes(
+      reader.name(),
+      absl::StrCat("describes its extra bytes in ", records.size(), " records that contradict each other (",
+                   names.size() < entries ? "a name is described twice" : absl::StrCat(bytes, " bytes are described"),
+                   ", points have ", reader.header().extra_bytes(), " extra bytes); keep the right one"));
+}
+
 absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
                                                      std::size_t extra_bytes,
                                                      const std::vector<AppendedFloat>& appended, bool replace) {

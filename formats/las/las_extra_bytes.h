@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/las/las_reader.h"
 #include "tables/coverage.h"
 
 namespace albtpu::formats {
@@ -40,6 +41,12 @@ inline constexpr std::size_t kGeometryCount = 5;  // incidence, beam_azimuth, fo
 
 // Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;
+
+// The data of the Extra Bytes record of a file; empty if it has none. A file should have one VLR of them. Some have
+// several, or an EVLR: their entries are one list, in the order of the file. Where one of them has the whole list, and
+// the others its beginning, that is the list. Fails when the list is ambiguous: when records describe a name twice, or
+// more bytes than a point has.
+absl::StatusOr<std::string> ReadExtraBytesRecord(const LasReader& reader);
 
 // Extra bytes of the input that have the name of an appended float, and take its values in its place.
 struct ReplacedFloat {

@@ -15,9 +15,10 @@ using laz::Load;
 // LAS Specification 1.4 R15, tables 6-17.
 constexpr std::array<std::size_t, kLargestPointFormat + 1> kRecordLengths = {20, 28, 26, 34, 57, 63,
                                                                              30, 36, 38, 59, 67};
-// By the minor version: the last point format that LAS 1.0 to 1.4 define.
-constexpr std::array<int, 5> kLastFormats = {1, 1, 3, 5, 10};
-constexpr std::array<std::size_t, 5> kHeaderSizes = {227, 227, 227, 235, 375};
+// By the minor version: the first and the last point format that LAS 1.0 to 1.5 define.
+constexpr std::array<int, 6> kFirstFormats = {0, 0, 0, 0, 0, 6};
+constexpr std::array<int, 6> kLastFormats = {1, 1, 3, 5, 10, 10};
+constexpr std::array<std::size_t, 6> kHeaderSizes = {227, 227, 227, 235, 375, kLargestLasHeader};
 
 // The other upper bit of the point format, which the first LASzip set.
 constexpr int kOldCompressedFlag = 0x40;
@@ -25,6 +26,10 @@ constexpr int kOldCompressedFlag = 0x40;
 constexpr std::uint16_t kAdjustedGpsTime = 0x1;
 constexpr std::uint16_t kWaveformInside = 0x2;
 constexpr std::uint16_t kCrsIsWkt = 0x10;
+constexpr std::uint16_t kHasTimeOffset = 0x40;
+
+constexpr double kAdjustment = 1e9;        // s, of adjusted standard GPS time.
+constexpr double kUnitOfTimeOffset = 1e6;  // s
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
@@ -41,9 +46,9 @@ absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
     return Truncated(name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
   const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
-  if (major != 1 || minor > 4) {
+  if (major != 1 || minor > 5) {
     return Invalid(name, absl::StrCat("is LAS ", major, ".", minor,
-                                      " (expected 1.0 to 1.4); convert it by `las2las -set_version 1.4` or "
+                                      " (expected 1.0 to 1.5); convert it by `las2las -set_version 1.4` or "
                                       "`pdal translate --writers.las.minor_version=4`"));
   }
   return absl::OkStatus();
@@ -62,10 +67,10 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
 }
 
 absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
-  const int last_format = kLastFormats[header.version_minor];
-  if (header.point_format > last_format) {
+  const int first_format = kFirstFormats[header.version_minor], last_format = kLastFormats[header.version_minor];
+  if (header.point_format < first_format || header.point_format > last_format) {
     return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.", header.version_minor,
-                                      "; expected 0 to ", last_format));
+                                      "; expected ", first_format, " to ", last_format));
   }
   const std::size_t minimum = MinimumRecordLength(header.point_format);
   if (header.record_length < minimum) {
@@ -74,10 +79,38 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
   }
   for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
     const double scale = header.scale[axis], offset = header.offset[axis];
-    if (std::isfinite(scale) && scale != 0 && std::isfinite(offset)) continue;
+    if (std::abs(scale) >= kLeastScale && std::abs(scale) <= kGreatestScale && std::abs(offset) <= kGreatestOffset)
+      continue;
     return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ", offset,
-                                      "; expected finite numbers and a scale other than zero"));
+                                      "; expected a scale from ", kLeastScale, " to ", kGreatestScale,
+                                      " and an offset of at most ", kGreatestOffset, ": correct the header"));
   }
+  return absl::OkStatus();
+}
+
+// What the header says of times: seconds of the week, GPS seconds - 1e9, or in LAS 1.5 GPS seconds less an offset.
+absl::Status ReadTimes(const std::string& name, std::string_view bytes, std::uint16_t encoding, LasHeader& header) {
+  header.adjusted_gps_time = (encoding & kAdjustedGpsTime) != 0;
+  const bool has_offset = (encoding & kHasTimeOffset) != 0;
+  if (header.version_minor == 4 && has_offset) {
+    return Invalid(name,
+                   "its global encoding has the time offset flag of LAS 1.5 (bit 6), but it is LAS 1.4, which has no "
+                   "time offset; correct the version or the flag");
+  }
+  if (header.version_minor < 5) return absl::OkStatus();
+  const double offset = Load<std::uint16_t>(bytes, las_field::kTimeOffset) * kUnitOfTimeOffset;
+  if (has_offset && !header.adjusted_gps_time) {
+    return Invalid(name,
+                   "its global encoding has the time offset flag (bit 6) without that of standard GPS time (bit 0); "
+                   "set both, or neither for seconds of the week");
+  }
+  const bool means_nothing = offset == 0 || (header.adjusted_gps_time && offset == kAdjustment);
+  if (!has_offset && !means_nothing) {
+    return Invalid(name, absl::StrCat("its header states a time offset of ", offset,
+                                      " s, but its global encoding lacks the time offset flag (bit 6); set the flag, "
+                                      "or the offset to 0"));
+  }
+  if (has_offset) header.time_shift = offset - kAdjustment;
   return absl::OkStatus();
 }
 
@@ -163,7 +196,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   // Before 1.2 these bytes are reserved, and times are seconds of the week.
   const std::uint16_t global_encoding =
       header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
-  header.adjusted_gps_time = (global_encoding & kAdjustedGpsTime) != 0;
+  RETURN_IF_ERROR(ReadTimes(name, bytes, global_encoding, header));
   if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0)
     header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
   if (header.version_minor >= 4) {
@@ -204,6 +237,10 @@ VlrEntry ParseCommon(std::string_view bytes, std::uint64_t offset) {
 
 }  // namespace
 
+bool MustBeCounted(const VlrEntry& entry) {
+  return entry.user_id.starts_with("LASF_") || entry.user_id == laz::kLaszipUser || entry.user_id == kCompatibleUser;
+}
+
 absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const LasHeader& header,
                                                std::string_view head) {
   std::vector<VlrEntry> entries;
@@ -225,6 +262,14 @@ absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const La
     }
     next = entry.end();
     entries.push_back(std::move(entry));
+  }
+  if (next + kVlrHeaderSize > head.size()) return entries;
+  const VlrEntry more = ParseCommon(head.substr(next), next);
+  const std::uint64_t end = next + kVlrHeaderSize + Load<std::uint16_t>(head.substr(next), kVlrLengthField);
+  if (MustBeCounted(more) && end <= head.size()) {
+    return absl::InvalidArgumentError(absl::StrCat(name, ": its header counts ", header.vlr_count,
+                                                   " variable length records, but another follows at byte ", next, " (",
+                                                   more.user_id, " ", more.record_id, "); correct the number"));
   }
   return entries;
 }

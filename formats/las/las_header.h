@@ -1,5 +1,5 @@
-// The public header block of LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), the sizes of point records,
-// and variable length records. LAZ files have the same header.
+// The public header block of LAS 1.0 to 1.5 (ASPRS, LAS Specification 1.4 R15, table 3, and 1.5 R00), the sizes of point
+// records, and variable length records. LAZ files have the same header.
 #pragma once
 
 #include <array>
@@ -31,9 +31,11 @@ inline constexpr std::size_t kStartOfWaveformPacket = 227;  // u64, from 1.3
 inline constexpr std::size_t kStartOfEvlrs = 235;           // u64, from 1.4
 inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
 inline constexpr std::size_t kPointCount = 247;             // u64, from 1.4
+inline constexpr std::size_t kTimeBounds = 375;             // 2 f64: greatest and least GPS time, from 1.5
+inline constexpr std::size_t kTimeOffset = 391;             // u16, 10^6 s, from 1.5
 }  // namespace las_field
 
-inline constexpr std::size_t kLargestLasHeader = 375;  // Bytes in 1.4; 227 up to 1.2, 235 in 1.3.
+inline constexpr std::size_t kLargestLasHeader = 393;  // Bytes in 1.5; 227 up to 1.2, 235 in 1.3, 375 in 1.4.
 inline constexpr int kLargestPointFormat = 10;
 
 struct LasHeader {
@@ -45,10 +47,12 @@ struct LasHeader {
   bool compressed = false;  // LAZ.
   std::uint16_t record_length = 0;
   std::uint64_t point_count = 0;
-  bool adjusted_gps_time = false;                   // Times are GPS seconds - 1e9, not seconds of the week.
-  bool crs_is_wkt = false;                          // Well-known text states the coordinate system, not GeoTIFF keys.
-  std::array<double, 3> scale = {};                 // x, y, z; finite and not zero.
-  std::array<double, 3> offset = {};                // Finite.
+  bool adjusted_gps_time = false;  // Times are GPS seconds - 1e9, not seconds of the week; once `time_shift` is added.
+  // s, of the time offset of LAS 1.5: what is added to a time of a record to make it GPS seconds - 1e9.
+  double time_shift = 0;
+  bool crs_is_wkt = false;  // Well-known text states the coordinate system, not GeoTIFF keys.
+  std::array<double, 3> scale = {};                 // x, y, z; of a magnitude from kLeastScale to kGreatestScale.
+  std::array<double, 3> offset = {};                // At most kGreatestOffset in magnitude.
   std::array<double, 3> least = {}, greatest = {};  // The bounds that the file states, true or not.
   std::uint64_t start_of_waveform_packet = 0;       // 0: none in this file.
   std::uint64_t start_of_evlrs = 0;                 // 0: none.
@@ -60,6 +64,10 @@ struct LasHeader {
   }
 };
 
+// In units of the coordinates. A degree has 1e-12 as 0.1 um; steps of more than 10 m or feet measure nothing.
+inline constexpr double kLeastScale = 1e-12, kGreatestScale = 10;
+inline constexpr double kGreatestOffset = 1e11;  // The circumference of the earth is 4e10 mm.
+
 // Whether records of this format have a GPS time: formats 1 and 3 to 10.
 constexpr bool HasGpsTime(int point_format) { return point_format != 0 && point_format != 2; }
 
@@ -69,7 +77,7 @@ std::size_t MinimumRecordLength(int point_format);
 // Reads the header and checks that it is consistent with itself and with the size of the file, so that all its offsets
 // lie inside the file. Where the points of LAZ end is not known here: what follows is only known to lie behind their
 // beginning. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
-// begins the messages. InvalidArgument: not LAS, not LAS 1.0-1.4, or an inconsistent header. DataLoss:
+// begins the messages. InvalidArgument: not LAS, not LAS 1.0-1.5, or an inconsistent header. DataLoss:
 // truncated.
 absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes, std::uint64_t file_size);
 
@@ -96,8 +104,16 @@ struct VlrEntry {
 inline constexpr std::string_view kSpecUser = "LASF_Spec";
 inline constexpr std::uint16_t kExtraBytesRecord = 4;
 
-// The VLRs in `head`, which has all bytes before the points. Fails when they extend beyond it.
+// The user of the record of LASzip's compatibility mode: points of formats 6 to 10 in the form of formats 1 to 5.
+inline constexpr std::string_view kCompatibleUser = "lascompatible";
+
+// The VLRs in `head`, which has all bytes before the points. Fails when they extend beyond it, and when a record of
+// the specification or of LASzip follows them that the header does not count.
 absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const LasHeader& header, std::string_view head);
+
+// Whether the points are read wrong without records of this user: those of the specification ("LASF_") and of LASzip.
+// Bytes of this form lie behind the records that a header counts only where it counts too few.
+bool MustBeCounted(const VlrEntry& entry);
 
 // The EVLR whose header is `bytes`, at `offset`. Fails when it extends beyond the file.
 absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view bytes, std::uint64_t offset,

@@ -56,7 +56,8 @@ class LasPointFields {
       : modern_(header.point_format >= kFirstModernFormat),
         gps_time_(HasGpsTime(header.point_format) ? (modern_ ? 22 : 20) : 0),
         scale_(header.scale),
-        offset_(header.offset) {}
+        offset_(header.offset),
+        time_shift_(header.time_shift) {}
 
   // In the units of the file's coordinates.
   double X(std::string_view record) const { return Coordinate(record, 0); }
@@ -83,8 +84,17 @@ class LasPointFields {
   int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
 
   bool has_gps_time() const { return gps_time_ != 0; }
-  // As the file states it. Requires has_gps_time().
-  double GpsTime(std::string_view record) const { return laz::Load<double>(record, gps_time_); }
+  // In the form that the header states, less the time offset of LAS 1.5; 0 where the file has 0, which is no time.
+  // Requires has_gps_time().
+  double GpsTime(std::string_view record) const {
+    const auto time = laz::Load<double>(record, gps_time_);
+    return time == 0 ? time : time + time_shift_;
+  }
+
+  // Whether the producer of the point took it back.
+  bool IsWithheld(std::string_view record) const {
+    return (laz::Load<std::uint8_t>(record, 15) & (modern_ ? 0x04 : 0x80)) != 0;
+  }
 
   // The number of this return in its pulse, the number of returns of the pulse and the channel of the scanner, which
   // formats 0-5 do not have.
@@ -119,6 +129,7 @@ class LasPointFields {
   bool modern_;
   std::size_t gps_time_;  // Offset in the record; 0: the format has none.
   std::array<double, 3> scale_, offset_;
+  double time_shift_;  // s
 };
 
 class LasClassCounts {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "formats/laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -32,6 +33,7 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
   RETURN_IF_ERROR(reader.ReadHead());
   RETURN_IF_ERROR(reader.ReadEvlrs());
   RETURN_IF_ERROR(reader.ReadLaszipRecord());
+  RETURN_IF_ERROR(reader.CheckCompatibility());
   posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
   return reader;
 }
@@ -72,6 +74,23 @@ absl::Status LasReader::ReadHead() {
   ASSIGN_OR_RETURN(header_, ParseLasHeader(name_, beginning, file_size()));
   ASSIGN_OR_RETURN(head_, ReadAt(0, header_.offset_to_points));
   ASSIGN_OR_RETURN(vlrs_, ListVlrs(name_, header_, head_));
+  return absl::OkStatus();
+}
+
+// LASzip's compatibility mode stores formats 6 to 10 as 1 to 5: classes above 31 as 0, scan angles as whole degrees, and
+// the rest in extra bytes of these names (LASzip 3.4.3, laszip_dll.cpp). The record of the mode may be lost on the way.
+absl::Status LasReader::CheckCompatibility() const {
+  if (header_.point_format >= 6) return absl::OkStatus();
+  for (const VlrEntry& vlr : vlrs_) {
+    const bool described = vlr.Is(kSpecUser, kExtraBytesRecord) &&
+                           head().substr(vlr.data_offset, vlr.data_size).find("LAS 1.4 classification") != head().npos;
+    if (vlr.user_id != kCompatibleUser && !described) continue;
+    return Named(absl::InvalidArgumentError(
+        absl::StrCat("has points of LAS 1.4 in the compatibility mode of LASzip (lascompatible), as point format ",
+                     header_.point_format,
+                     ", in which classes above 31 are 0 and scan angles are rounded; restore "
+                     "them by `laszip -i IN.laz -o OUT.las`")));
+  }
   return absl::OkStatus();
 }
 
@@ -116,7 +135,18 @@ absl::Status LasReader::ReadEvlrs() {
     evlrs_.push_back(evlr);
     next = evlr.end();
   }
-  return absl::OkStatus();
+  // A header that counts none may still say where they begin.
+  if (header_.version_minor >= 4 && header_.evlr_count == 0)
+    next = laz::Load<std::uint64_t>(head_, las_field::kStartOfEvlrs);
+  if (next < header_.offset_to_points || next > file_size() || file_size() - next < kEvlrHeaderSize)
+    return absl::OkStatus();
+  ASSIGN_OR_RETURN(const std::string bytes, ReadAt(next, kEvlrHeaderSize));
+  const absl::StatusOr<VlrEntry> more = ParseEvlr(name_, bytes, next, file_size());
+  if (!more.ok() || !MustBeCounted(*more)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name_, ": its header counts ", header_.evlr_count,
+                                                 " extended variable length records, but another follows at byte ",
+                                                 next, " (", more->user_id, " ", more->record_id,
+                                                 "); correct the number"));
 }
 
 }  // namespace albtpu::formats

@@ -76,6 +76,7 @@ class LasReader {
   absl::Status ReadHead();
   absl::Status ReadEvlrs();
   absl::Status ReadLaszipRecord();
+  absl::Status CheckCompatibility() const;
 
   std::string name_;
   std::unique_ptr<const File> file_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
@@ -23,20 +24,6 @@ constexpr std::uint16_t kFirstVlrSignature = 0xAABB;
 
 absl::Status Invalid(const LasReader& reader, const std::string& message) {
   return reader.Named(absl::InvalidArgumentError(message));
-}
-
-// The record that describes the extra bytes; nullopt if the file has none.
-absl::StatusOr<std::optional<VlrEntry>> FindExtraBytesRecord(const LasReader& reader) {
-  for (const VlrEntry& evlr : reader.evlrs())
-    if (evlr.Is(kSpecUser, kExtraBytesRecord))
-      return Invalid(reader, "describes its extra bytes in an EVLR after the points; expected a VLR before them");
-  std::optional<VlrEntry> found;
-  for (const VlrEntry& vlr : reader.vlrs()) {
-    if (!vlr.Is(kSpecUser, kExtraBytesRecord)) continue;
-    if (found.has_value()) return Invalid(reader, "describes its extra bytes in two VLRs; expected one");
-    found = vlr;
-  }
-  return found;
 }
 
 std::string Vlr(const LasReader& reader, std::string_view user, std::uint16_t record_id, std::string_view description,
@@ -70,6 +57,7 @@ std::uint64_t KeptEvlrs(const LasReader& reader) {
 }  // namespace
 
 bool IsKept(const LasReader& reader, const VlrEntry& entry) {
+  if (entry.Is(kSpecUser, kExtraBytesRecord)) return entry.offset < reader.header().offset_to_points;
   return reader.kind() == LasKind::kLas || (entry.user_id != kCopcUser && entry.user_id != laz::kLaszipUser);
 }
 
@@ -83,9 +71,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
                                       bool replace) {
   const LasHeader& header = reader.header();
   const std::string_view input = reader.head();
-  ASSIGN_OR_RETURN(const std::optional<VlrEntry> existing, FindExtraBytesRecord(reader));
-  const std::string_view described =
-      existing.has_value() ? input.substr(existing->data_offset, existing->data_size) : "";
+  ASSIGN_OR_RETURN(const std::string described, ReadExtraBytesRecord(reader));
   ASSIGN_OR_RETURN(const AppendedDescription description,
                    DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace));
   const std::string& data = description.record;
@@ -100,6 +86,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   LasHead head{
       .bytes = std::string(input.substr(0, header.header_size)), .record = {}, .replaced = description.replaced};
   std::uint64_t vlr_count = 0;
+  bool has_description = false;
   const auto add = [&](std::string_view vlr) {
     head.bytes += vlr;
     ++vlr_count;
@@ -107,6 +94,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   for (const VlrEntry& vlr : reader.vlrs()) {
     if (!IsKept(reader, vlr)) continue;
     if (vlr.Is(kSpecUser, kExtraBytesRecord)) {
+      if (std::exchange(has_description, true)) continue;
       std::string extended(input.substr(vlr.offset, kVlrHeaderSize));
       Store(static_cast<std::uint16_t>(data.size()), extended.data() + kVlrLengthField);
       add(extended + data);
@@ -114,7 +102,7 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
       add(input.substr(vlr.offset, vlr.end() - vlr.offset));
     }
   }
-  if (!existing.has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
+  if (!has_description) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
   if (kind == LasKind::kLaz) {
     const std::size_t points = std::clamp<std::size_t>(kChunkBytes / record_length, 1, laz::kCommonChunkSize);
     head.record = laz::RecordFor(header.point_format, record_length, static_cast<std::uint32_t>(points));

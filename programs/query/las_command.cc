@@ -195,7 +195,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
 void AddLasCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<LasOptions>();
   CLI::App* command = program.add_subcommand("las",
-                                             "Copy LAS and LAZ files (1.0 to 1.4) and append to each point "
+                                             "Copy LAS and LAZ files (1.0 to 1.5) and append to each point "
                                              "total_thu and total_tvu, or without a sensor "
                                              "sea_thu and sea_tvu");
   AddLasOptions(*command, *options);

@@ -109,7 +109,8 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
   command->add_flag("--json", options->json, "JSON, with every band and every two lines");
   Group(*command, "How points are gathered", {"--patch"});
   Group(*command, "Output", {"--json"});
-  EndHelp(*command, "Lines are distinguished by the point source ID.", "annotated", "annotated --patch 3 --json");
+  EndHelp(*command, "Lines are distinguished by the point source ID, and by pauses where it is equal.", "annotated",
+          "annotated --patch 3 --json");
   command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
 }
 

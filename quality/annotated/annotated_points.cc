@@ -10,10 +10,14 @@
 #include <system_error>
 #include <utility>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/run/file_jobs.h"
+#include "annotate/run/file_progress.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
@@ -88,6 +92,15 @@ Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
   return beam && !may_lack_surface ? Gap::kAboveWater : Gap::kNoSurface;
 }
 
+// Metres in a unit of the coordinates of well-known text of version 1: the last one of the horizontal system.
+std::optional<double> UnitOfWkt(const std::string& wkt) {
+  const std::size_t at = wkt.rfind("UNIT[\""), comma = at == std::string::npos ? at : wkt.find("\",", at);
+  if (comma == std::string::npos) return std::nullopt;
+  double metres = 0;
+  const std::string number = wkt.substr(comma + 2, wkt.find_first_of(",]", comma + 2) - comma - 2);
+  return absl::SimpleAtod(number, &metres) ? std::optional(metres) : std::nullopt;
+}
+
 absl::Status Invalid(const fs::path& path, const std::string& problem) {
   return absl::InvalidArgumentError(absl::StrCat(path.string(), ": ", problem));
 }
@@ -127,6 +140,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   const Json beams = read["parameters"].value("incidence_from", Json());
   may_lack_surface_ = beams.is_string() && annotate::IsByAngle(beams.get<std::string>()) &&
                       read["answers"]["outcomes"].contains("NO_SURFACE");
+  use_withheld_ = read["parameters"].value("use_withheld", Json()) == true;
   const Json classes = read["parameters"].value("classes", Json());
   if (!classes.is_null() && !classes.is_array())
     return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
@@ -146,12 +160,8 @@ absl::Status AnnotatedLasFile::ReadSummary() {
 }
 
 absl::Status AnnotatedLasFile::FindFloats() {
-  std::map<std::string, std::size_t, std::less<>> offsets;
-  for (const formats::VlrEntry& vlr : reader_.vlrs()) {
-    if (!vlr.Is(formats::kSpecUser, formats::kExtraBytesRecord)) continue;
-    ASSIGN_OR_RETURN(const std::string record, reader_.ReadAt(vlr.data_offset, vlr.data_size));
-    ASSIGN_OR_RETURN(offsets, formats::FloatOffsets(reader_.name(), record, reader_.header().extra_bytes()));
-  }
+  ASSIGN_OR_RETURN(const std::string record, formats::ReadExtraBytesRecord(reader_));
+  ASSIGN_OR_RETURN(const auto offsets, formats::FloatOffsets(reader_.name(), record, reader_.header().extra_bytes()));
   const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
   for (const FloatOfPoint& each : kFloats) {
     const auto found = offsets.find(each.name);
@@ -167,6 +177,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
   const Json& parameters = (*summary_)["parameters"];
   formats::CrsDescription crs = description;
   if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
+  bool has_map = false;
   if (!crs.empty()) {
     const auto frame = formats::MapFrame::Create(path_.string(), crs);
     if (frame.ok() && (*frame)->is_geographic()) {
@@ -176,14 +187,20 @@ absl::Status AnnotatedLasFile::FindCrs() {
     if (frame.ok()) {
       crs_name_ = (*frame)->crs_name();
       crs_wkt_ = (*frame)->wkt();
-      metres_per_unit_ = metres_per_height_unit_ = (*frame)->unit();
-      if ((*frame)->metres_per_height_unit().has_value()) metres_per_height_unit_ = *(*frame)->metres_per_height_unit();
+      has_map = true;
+      metres_per_unit_ = (*frame)->unit();
+      // Heights without a unit are metres, as albtpu-query las reads them.
+      metres_per_height_unit_ = (*frame)->metres_per_height_unit().value_or(1);
+      // A unit of its own in GeoTIFF keys is none of the text.
+      if (std::abs(UnitOfWkt(crs_wkt_).value_or(metres_per_unit_) / metres_per_unit_ - 1) > 1e-7) crs_wkt_.clear();
     } else {
       crs_name_ = "not understood";
     }
   }
+  // --units is that of heights. Without a coordinate system, x and y are in it, too.
   if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number())
-    metres_per_unit_ = metres_per_height_unit_ = unit.get<double>();
+    metres_per_height_unit_ = unit.get<double>();
+  if (!has_map) metres_per_unit_ = metres_per_height_unit_;
   return absl::OkStatus();
 }
 
@@ -193,7 +210,7 @@ std::string AnnotatedLasFile::table_digest() const {
   return digest.is_string() ? digest.get<std::string>() : "";
 }
 
-absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit) const {
+absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit) const {
   annotate::FileProgress::File shown(progress, reader_.name());
   absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader_, 0, 0);
   if (!runs.ok()) return reader_.Named(runs.status());
@@ -203,6 +220,7 @@ absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const V
   for (const int each : classes_)
     if (each >= 0 && each < formats::kClassCount) wanted[each] = true;
   formats::LasRun run;
+  LeftOutPoints left_out;
   std::vector<AnnotatedPoint> points;
   while (true) {
     const absl::StatusOr<bool> more = runs->Next(kRunPoints, run);
@@ -212,7 +230,16 @@ absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const V
     for (std::size_t i = 0; i < run.own; ++i) {
       const std::string_view record =
           std::string_view(run.records).substr(i * header.record_length, header.record_length);
-      if (!wanted[fields.Class(record)]) continue;
+      const int point_class = fields.Class(record);
+      if (point_class == formats::kLowNoise || point_class == formats::kHighNoise) {
+        ++left_out.noise;
+        continue;
+      }
+      if (!wanted[point_class]) continue;
+      if (!use_withheld_ && fields.IsWithheld(record)) {
+        ++left_out.withheld;
+        continue;
+      }
       AnnotatedPoint& point = points.emplace_back();
       point.x = fields.X(record);
       point.y = fields.Y(record);
@@ -236,7 +263,19 @@ absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const V
     const std::uint64_t done = run.first + run.own;
     shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
   }
-  return reader_.CheckUnchanged();
+  RETURN_IF_ERROR(reader_.CheckUnchanged());
+  return left_out;
+}
+
+Json LeftOutJson(const LeftOutPoints& points) { return {{"withheld", points.withheld}, {"noise", points.noise}}; }
+
+std::string LeftOutText(const LeftOutPoints& points) {
+  std::vector<std::string> parts;
+  if (points.withheld > 0) parts.push_back(absl::StrCat(points.withheld, " withheld points"));
+  if (points.noise > 0)
+    parts.push_back(absl::StrCat(points.noise, " points of noise (classes ", formats::kLowNoise, " and ",
+                                 formats::kHighNoise, ")"));
+  return absl::StrCat(absl::StrJoin(parts, " and "), " take no part");
 }
 
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
@@ -256,6 +295,11 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
   }
   std::vector<AnnotatedLasFile> files;
   for (const fs::path& path : paths) {
+    ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(path));
+    if (reader.header().point_count == 0) {
+      annotate::Note(absl::StrCat(path.string(), ": has no points, and is left out"));
+      continue;
+    }
     ASSIGN_OR_RETURN(AnnotatedLasFile file, AnnotatedLasFile::Open(path));
     files.push_back(std::move(file));
     const AnnotatedLasFile &first = files.front(), &last = files.back();
@@ -264,14 +308,23 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
       return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last, " (in ",
                                                      first.path().string(), " it is ", in_first, "); ", remedy));
     };
-    if (last.crs_name() != first.crs_name() || last.metres_per_unit() != first.metres_per_unit())
+    if (last.crs_name() != first.crs_name())
       return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
+    if (last.metres_per_unit() != first.metres_per_unit()) {
+      const auto unit = [](double metres) { return absl::StrFormat("%.10g m", metres); };
+      return differ("unit of x and y", unit(first.metres_per_unit()), unit(last.metres_per_unit()),
+                    "report each unit apart");
+    }
     if (last.coverage() != first.coverage()) {
       return differ("coverage", std::string(annotate::CoverageName(first.coverage())),
                     std::string(annotate::CoverageName(last.coverage())), "annotate all files with one --coverage");
     }
     if (last.table_digest() != first.table_digest())
       return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
+  }
+  if (files.empty()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(folder_or_file.string(), ": no file has points; give the outputs of albtpu-query las"));
   }
   return files;
 }

@@ -24,12 +24,26 @@ namespace albtpu::quality {
 // the water at it. kNoTrajectory: none at its time, or one that is too uncertain.
 enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory };
 
+// Points that take no part, and are counted apart.
+struct LeftOutPoints {
+  std::uint64_t withheld = 0;  // Of the bathymetric classes, by their flag.
+  std::uint64_t noise = 0;     // Of classes 7 and 18, whatever the bathymetric classes are.
+
+  bool empty() const { return withheld == 0 && noise == 0; }
+  void Add(const LeftOutPoints& other) { withheld += other.withheld, noise += other.noise; }
+};
+
+nlohmann::ordered_json LeftOutJson(const LeftOutPoints& points);
+
+// "12 withheld points and 3 points of noise (classes 7 and 18) take no part".
+std::string LeftOutText(const LeftOutPoints& points);
+
 // A point of the bathymetric classes. Lengths in m but for x and y, which are those of the file; THU and TVU at the
 // coverage of the file; variances at 1 sigma, on the axes of the file. A contribution that was left out is 0, and so is
 // an unknown bias.
 struct AnnotatedPoint {
   double x = 0, y = 0, z = 0;
-  double time = 0;  // GPS time as the file states it, s; 0 if its points have none.
+  double time = 0;  // GPS time, s (LasPointFields::GpsTime); 0 if its points have none.
   int line = 0;     // Point source ID.
   Gap gap = Gap::kNone;
   bool has_number = false;  // Otherwise only the members above are known.
@@ -59,11 +73,13 @@ class AnnotatedLasFile {
   const std::string& crs_name() const { return crs_name_; }  // "not stated" if the file states none.
   const std::string& crs_wkt() const { return crs_wkt_; }
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
+  double metres_per_height_unit() const { return metres_per_height_unit_; }
 
   using Visit = std::function<void(std::span<const AnnotatedPoint>)>;
 
-  // All bathymetric points in their order, some at a time. Fails when the file cannot be read or was modified.
-  absl::Status ForEach(annotate::FileProgress& progress, const Visit& visit) const;
+  // All bathymetric points in their order, some at a time, without those left out. Fails when the file cannot be read
+  // or was modified.
+  absl::StatusOr<LeftOutPoints> ForEach(annotate::FileProgress& progress, const Visit& visit) const;
 
  private:
   explicit AnnotatedLasFile(formats::LasReader reader) : reader_(std::move(reader)) {}
@@ -76,14 +92,16 @@ class AnnotatedLasFile {
   std::shared_ptr<const nlohmann::ordered_json> summary_;
   Coverage coverage_ = Coverage::kTwoSigma;
   std::set<int> classes_;
+  bool use_withheld_ = false;         // As --use-withheld of the annotation.
   bool may_lack_surface_ = false;     // Of points whose beams are known by angles.
   std::vector<std::size_t> offsets_;  // In a record, by kFloats of the implementation.
   std::string crs_name_ = "not stated", crs_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
 };
 
-// The annotated files in a folder by name, or the file itself. All have the same coordinate system, coverage and table.
-// Fails with the names of the first two files that differ.
+// The annotated files in a folder by name, or the file itself, but for those without points, which are noted. All have
+// the same coordinate system, unit of x and y, coverage and table. Fails with the names of the first two files that
+// differ, and where no file has points.
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesystem::path& folder_or_file);
 
 }  // namespace albtpu::quality

@@ -168,12 +168,15 @@ nlohmann::ordered_json CrossCheckJson(const CrossCheck& check) {
                                  {"by_share_of_sea", BandsJson(check.by_sea_share)},
                                  {"lines", nlohmann::ordered_json::array()}};
   if (!check.guilty.empty()) json["guilty_share"] = check.guilty;
+  if (!check.left_out.empty()) json["left_out"] = LeftOutJson(check.left_out);
   for (const LineDifference& line : check.lines) {
     json["lines"].push_back({{"a", line.line_a},
                              {"b", line.line_b},
                              {"pairs", line.pairs},
                              {"mean_difference", line.mean},
                              {"standard_error", nullptr}});
+    if (std::isfinite(line.begin_a)) json["lines"].back()["a_begin"] = line.begin_a;
+    if (std::isfinite(line.begin_b)) json["lines"].back()["b_begin"] = line.begin_b;
     if (std::isfinite(line.standard_error)) json["lines"].back()["standard_error"] = line.standard_error;
   }
   return json;
@@ -198,13 +201,15 @@ std::string CrossCheckText(const CrossCheck& check) {
   } else {
     absl::StrAppend(&text, "the share that differs most from its prediction: ", check.guilty, "\n");
   }
+  if (!check.left_out.empty()) absl::StrAppend(&text, LeftOutText(check.left_out), "\n");
   constexpr std::size_t kShown = 5;
   for (std::size_t i = 0; i < std::min(kShown, check.lines.size()); ++i) {
     const LineDifference& line = check.lines[i];
     const std::string error = std::isfinite(line.standard_error) ? absl::StrFormat("%.3f m", line.standard_error)
                                                                  : "not known from one place";
-    absl::StrAppendFormat(&text, "line %d lies %+.3f m above line %d (standard error %s, %d pairs)\n", line.line_a,
-                          line.mean, line.line_b, error, line.pairs);
+    absl::StrAppendFormat(&text, "%s lies %+.3f m above %s (standard error %s, %d pairs)\n",
+                          NameOf(FlightLine{line.line_a, line.begin_a}), line.mean,
+                          NameOf(FlightLine{line.line_b, line.begin_b}), error, line.pairs);
   }
   return text;
 }
@@ -226,7 +231,8 @@ absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, OverlapPatc
   annotate::FileProgress progress = ProgressOver(files);
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
-    RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); }));
+    RETURN_IF_ERROR(
+        file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points); }).status());
   }
   return absl::OkStatus();
 }
@@ -235,28 +241,39 @@ std::optional<CrossCheck> CheckPatches(OverlapPatches& patches) {
   std::vector<Patch> taken = patches.Take();
   std::vector<CrossPair> pairs;
   for (Patch& patch : taken) AppendPairs(patch, pairs);
-  return CheckPairs(pairs);
+  std::optional<CrossCheck> check = CheckPairs(pairs);
+  if (!check.has_value()) return check;
+  for (LineDifference& each : check->lines) {
+    const FlightLine a = patches.lines().Line(static_cast<std::uint16_t>(each.line_a)),
+                     b = patches.lines().Line(static_cast<std::uint16_t>(each.line_b));
+    each.line_a = a.id, each.begin_a = a.begin;
+    each.line_b = b.id, each.begin_b = b.begin;
+  }
+  return check;
 }
 
 absl::StatusOr<CrossCheck> CrossCheckOf(const std::vector<AnnotatedLasFile>& files, double patch) {
   OverlapPatches patches(patch, files.front().metres_per_unit(), files.front().coverage());
   annotate::FileProgress progress = ProgressOver(files);
   std::uint64_t points = 0;
+  LeftOutPoints left_out;
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
-    RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> some) {
+    ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(progress, [&](std::span<const AnnotatedPoint> some) {
       points += some.size();
       patches.Find(some);
     }));
+    left_out.Add(of_file);
   }
   if (points == 0) return NoBathymetricPoint(files);
   RETURN_IF_ERROR(FillPatches(files, patches));
   std::optional<CrossCheck> check = CheckPatches(patches);
-  if (check.has_value()) return *std::move(check);
-  return absl::FailedPreconditionError(
-      "no lines overlap (lines are distinguished by the point source ID); give files of several lines over "
-      "the "
-      "same bottom");
+  if (!check.has_value()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(patches.lines().NothingToCompare(), "; give files of several lines over the same bottom"));
+  }
+  check->left_out = left_out;
+  return *std::move(check);
 }
 
 }  // namespace albtpu::quality

@@ -5,6 +5,7 @@
 // datum) cancel and are not tested here.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -28,7 +29,8 @@ struct CrossBand {
 
 // The height difference between two lines.
 struct LineDifference {
-  int line_a = 0, line_b = 0;
+  int line_a = 0, line_b = 0;                                                    // Point source IDs.
+  double begin_a = std::numeric_limits<double>::quiet_NaN(), begin_b = begin_a;  // As FlightLine::begin.
   std::size_t pairs = 0;
   double mean = 0;            // m, line a less line b.
   double standard_error = 0;  // m, from differences between places of the overlap; NaN of a single one.
@@ -36,6 +38,7 @@ struct LineDifference {
 
 struct CrossCheck {
   std::size_t pairs = 0;
+  LeftOutPoints left_out;
   std::size_t outliers = 0;  // Left out: beyond kOutlier standard deviations, estimated by the median.
   double chi_square = 0;
   double chi_square_within_lines = 0;  // Without the mean difference of each two lines.
@@ -57,7 +60,8 @@ struct CrossCheck {
 inline constexpr double kOutlier = 6;
 inline constexpr double kMinDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
 
-// Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs.
+// Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs. The
+// lines of the result have their numbers as IDs.
 std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs);
 
 nlohmann::ordered_json CrossCheckJson(const CrossCheck& check);
@@ -78,7 +82,7 @@ absl::Status NoBathymetricPoint(const std::vector<AnnotatedLasFile>& files);
 // After `patches` have seen all points once: the second reading.
 absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, OverlapPatches& patches);
 
-// After that. Absent if no lines overlap. `patches` is empty then.
+// After that. Absent if no lines overlap (FlightLines::NothingToCompare). `patches` has no points then.
 std::optional<CrossCheck> CheckPatches(OverlapPatches& patches);
 
 // All of it, from files that are not empty. FailedPrecondition if there is no point, or if no lines overlap.

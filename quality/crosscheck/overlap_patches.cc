@@ -29,12 +29,17 @@ std::uint64_t OverlapPatches::KeyOf(const AnnotatedPoint& point) const {
 
 void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
   for (const AnnotatedPoint& point : points) {
+    times_.Add(point.line, point.time);
     const std::uint64_t key = KeyOf(point);
     if (key == 0) continue;
     Known& known = known_[key];
-    const auto line = static_cast<std::uint16_t>(point.line);
-    if (known.points == 0) known.first_line = line;
-    known.overlap |= known.first_line != line;
+    const auto id = static_cast<std::uint16_t>(point.line);
+    if (known.points == 0) known.first_id = id;
+    known.overlap |= known.first_id != id;
+    if (known.first_id == id && std::isfinite(point.time) && point.time != 0) {
+      known.first_time = std::min(known.first_time, point.time);
+      known.last_time = std::max(known.last_time, point.time);
+    }
     ++known.points;
     if (known_.size() > kMaxKnown) Thin();
   }
@@ -47,7 +52,13 @@ void OverlapPatches::Thin() {
 }
 
 void OverlapPatches::Choose() {
-  std::erase_if(known_, [](const auto& each) { return !each.second.overlap; });
+  lines_ = FlightLines(times_);
+  times_ = LineTimes();
+  std::erase_if(known_, [this](const auto& each) {
+    const Known& known = each.second;
+    return !known.overlap &&
+           lines_.NumberOf(known.first_id, known.first_time) == lines_.NumberOf(known.first_id, known.last_time);
+  });
   const auto points = [this] {
     std::size_t sum = 0;
     for (const auto& [key, known] : known_) sum += known.points;
@@ -66,6 +77,8 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
     const std::uint64_t key = KeyOf(point);
     const auto found = key == 0 ? chosen_.end() : chosen_.find(key);
     if (found == chosen_.end()) continue;
+    const std::optional<std::uint16_t> line = lines_.NumberOf(point.line, point.time);
+    if (!line.has_value()) continue;
     const double x = point.x * metres_per_unit_, y = point.y * metres_per_unit_;
     if (found->second == UINT32_MAX) {
       found->second = static_cast<std::uint32_t>(patches_.size());
@@ -93,7 +106,7 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
                             .sea_in_horizontal = static_cast<float>(of_sea),
                             .depth = point.depth,
                             .incidence = point.incidence,
-                            .line = static_cast<std::uint16_t>(point.line)});
+                            .line = *line});
   }
 }
 

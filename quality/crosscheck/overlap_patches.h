@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "quality/annotated/annotated_points.h"
+#include "quality/crosscheck/flight_lines.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {
@@ -20,7 +22,7 @@ struct PatchPoint {
   // The horizontal entries of the same covariance, m^2, and the sea's part of them (0 to 1).
   float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, sea_in_horizontal = 0;
   float depth = 0, incidence = 0;
-  std::uint16_t line = 0;
+  std::uint16_t line = 0;  // Its number (FlightLines).
 };
 
 struct Patch {
@@ -47,19 +49,25 @@ class OverlapPatches {
 
   std::vector<Patch> Take() { return std::move(patches_); }  // In the order of their first points.
 
+  // Of all points. Known after Choose().
+  const FlightLines& lines() const { return lines_; }
+
   double sampled() const { return 1.0 / static_cast<double>(mask_ + 1); }  // Of the patches of several lines.
 
  private:
   struct Known {
     std::uint32_t points = 0;
-    std::uint16_t first_line = 0;
-    bool overlap = false;
+    std::uint16_t first_id = 0;
+    bool overlap = false;                                                                  // Points of several IDs.
+    double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;  // s, of the first ID.
   };
   // Of the patch of a point; 0 if it is not taken.
   std::uint64_t KeyOf(const AnnotatedPoint& point) const;
   void Thin();
 
   double side_, metres_per_unit_;
+  LineTimes times_;
+  FlightLines lines_;
   Coverage coverage_;
   std::uint64_t mask_ = 0;  // Patches whose hash has none of these bits are taken.
   std::unordered_map<std::uint64_t, Known> known_;
@@ -70,7 +78,7 @@ class OverlapPatches {
 // Neighbouring points of two lines, and how much their heights differ beyond the slope of the bottom.
 
 struct CrossPair {
-  std::uint16_t line_a = 0, line_b = 0;      // a < b
+  std::uint16_t line_a = 0, line_b = 0;      // Numbers of lines, a < b.
   double x = 0, y = 0;                       // m, of the patch.
   float difference = 0;                      // m, height in line a less that in line b, without the slope.
   float distance = 0;                        // m, horizontal.

@@ -186,9 +186,12 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
   file.Text(NC_GLOBAL, "coverage", annotate::CoverageName(facts.coverage));
   const int y = file.Dimension("y", rows), x = file.Dimension("x", columns);
   const double metres = facts.metres_per_unit;
-  const char* const unit = std::abs(metres - 1) < 1e-9        ? "m"
-                           : std::abs(metres - 0.3048) < 1e-8 ? "foot"  // The US survey foot is longer by 6e-7 m.
-                                                              : "US_survey_foot";
+  // Names of UDUNITS. The US survey foot is longer than the foot by 6e-7 m.
+  const auto is = [metres](double of_unit) { return std::abs(metres / of_unit - 1) < 1e-8; };
+  const std::string unit = is(1)               ? "m"
+                           : is(0.3048)        ? "foot"
+                           : is(1200.0 / 3937) ? "US_survey_foot"
+                                               : absl::StrFormat("%.15g m", metres);
   const auto axis = [&](const char* name, int dimension) {
     const int variable = file.Variable(name, NC_DOUBLE, {dimension});
     file.Text(variable, "standard_name", absl::StrCat("projection_", name, "_coordinate"));

@@ -106,9 +106,18 @@ std::string ReportText(const nlohmann::ordered_json& report) {
       why.push_back(absl::StrCat(count.get<std::uint64_t>(), " ", outcome));
     absl::StrAppend(&text, "  ", points - numbers, " points have no number (", absl::StrJoin(why, ", "), ")\n");
   }
+  if (report.contains("left_out")) {
+    const auto& left_out = report["left_out"];
+    absl::StrAppend(&text, "  ",
+                    LeftOutText({.withheld = left_out["withheld"].get<std::uint64_t>(),
+                                 .noise = left_out["noise"].get<std::uint64_t>()}),
+                    "\n");
+  }
   const auto& check = report["crosscheck"];
-  if (check.is_null())
-    return text + "  no lines overlap, so that the files cannot show whether the prediction is true\n";
+  if (check.is_null()) {
+    return absl::StrCat(text, "  ", report["nothing_to_compare"].get<std::string>(),
+                        ", so that the files cannot show whether the prediction is true\n");
+  }
   const auto& factor = check["factor"];
   absl::StrAppendFormat(&text,
                         "  %d pairs of points of overlapping lines: reduced chi-square %.2f, sigma would have to be "

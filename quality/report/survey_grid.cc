@@ -160,14 +160,6 @@ absl::Status TooLarge(const std::string& why) {
 
 }  // namespace
 
-absl::Status SurveyGrid::CheckExtent(double min_x, double max_x, double min_y, double max_y) const {
-  const double columns = std::ceil((max_x - min_x) / cell_) + 1;
-  const double rows = std::ceil((max_y - min_y) / cell_) + 1;
-  const double farthest = std::max({std::abs(min_x), std::abs(max_x), std::abs(min_y), std::abs(max_y)});
-  if (columns * rows <= kMaxCells && farthest / cell_ < kGreatestIndex) return absl::OkStatus();
-  return TooLarge(absl::StrFormat("%.0f x %.0f cells of %g, at most %.0f", columns, rows, cell_, kMaxCells));
-}
-
 void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   if (!status_.ok()) return;
   const double x = std::floor(point.x / cell_), y = std::floor(point.y / cell_);
@@ -225,7 +217,7 @@ SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
     max_column_ = first ? column : std::max(max_column_, column);
     min_row_ = first ? row : std::min(min_row_, row);
     max_row_ = first ? row : std::max(max_row_, row);
-    if (static_cast<double>(columns()) * static_cast<double>(rows()) > 1.1 * kMaxCells)
+    if (static_cast<double>(columns()) * static_cast<double>(rows()) > kMaxCells)
       status_ = TooLarge(absl::StrFormat("points lie %d x %d cells apart", columns(), rows()));
   }
   last_key_ = key;

@@ -96,18 +96,15 @@ class SurveyGrid {
  public:
   static constexpr int kTile = 64;                      // Cells along a side of a tile.
   static constexpr std::size_t kMostBytes = 400 << 20;  // Of cells with points.
-  static constexpr double kMaxCells = 2e8;              // Of the rectangle around all points.
+  static constexpr double kMaxCells = 2.2e8;            // Of the tiles in the rectangle around all points.
 
   // `cell` is the side of a cell in the units of the coordinates, above 0.
   SurveyGrid(double cell, Coverage coverage) : cell_(cell), coverage_(coverage) {}
 
-  // ResourceExhausted when the rectangle would have more than kMaxCells cells.
-  absl::Status CheckExtent(double min_x, double max_x, double min_y, double max_y) const;
-
   // `best_order`: 0 none, otherwise 1 plus the strictest order met. Once status() is not OK, points are ignored.
   void Add(const AnnotatedPoint& point, std::uint8_t best_order);
 
-  // ResourceExhausted when the cells with points need more than kMostBytes.
+  // ResourceExhausted when the cells with points need more than kMostBytes, or the rectangle has more than kMaxCells.
   const absl::Status& status() const { return status_; }
 
   double cell() const { return cell_; }

@@ -84,12 +84,13 @@ class Reporter {
         patches_(options.patch, first_.metres_per_unit(), first_.coverage()) {}
 
   absl::StatusOr<SurveyReport> Make() {
-    RETURN_IF_ERROR(CheckExtent());
     annotate::FileProgress progress = ProgressOver(files_);
     for (const AnnotatedLasFile& file : files_) {
       progress.NextFile();
       OfFile& of_file = of_files_.emplace_back();
-      RETURN_IF_ERROR(file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); }));
+      ASSIGN_OR_RETURN(const LeftOutPoints left_out,
+                       file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); }));
+      left_out_.Add(left_out);
       RETURN_IF_ERROR(grid_.status());
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
@@ -104,18 +105,6 @@ class Reporter {
   }
 
  private:
-  absl::Status CheckExtent() const {
-    std::array<double, 2> least, greatest;
-    least.fill(std::numeric_limits<double>::infinity());
-    greatest.fill(-std::numeric_limits<double>::infinity());
-    for (const AnnotatedLasFile& file : files_)
-      for (std::size_t i = 0; i < 2; ++i) {
-        least[i] = std::min(least[i], file.reader().header().least[i]);
-        greatest[i] = std::max(greatest[i], file.reader().header().greatest[i]);
-      }
-    return grid_.CheckExtent(least[0], greatest[0], least[1], greatest[1]);
-  }
-
   void Add(std::span<const AnnotatedPoint> points, OfFile& of_file) {
     const Coverage coverage = first_.coverage();
     for (const AnnotatedPoint& point : points) {
@@ -153,6 +142,8 @@ class Reporter {
     std::uint64_t named = 0;
     for (const auto& [outcome, count] : counts) named += count;
     const std::uint64_t without = all_.points() - all_.with_number();
+    // Summaries may count points that are left out here.
+    if (named > without) counts.clear(), named = 0;
     if (named < without) counts["UNKNOWN"] = without - named;
     return counts.empty() ? Json::object() : Json(counts);
   }
@@ -258,6 +249,7 @@ class Reporter {
                  {"coverage", annotate::CoverageName(first_.coverage())},
                  {"crs", first_.crs_name()},
                  {"metres_per_unit", first_.metres_per_unit()},
+                 {"metres_per_height_unit", first_.metres_per_height_unit()},
                  {"table", first_.summary().value("table", Json())},
                  {"cell", options_.cell},
                  {"wanted", WantedJson()},
@@ -275,6 +267,8 @@ class Reporter {
       of_line.update(tally.Json(classes_));
       json["lines"].push_back(std::move(of_line));
     }
+    if (!left_out_.empty()) json["left_out"] = LeftOutJson(left_out_);
+    if (!check.has_value()) json["nothing_to_compare"] = patches_.lines().NothingToCompare();
     if (check.has_value()) {
       json["crosscheck"] = CrossCheckJson(*check);
       json["crosscheck"]["patch"] = options_.patch;
@@ -296,6 +290,7 @@ class Reporter {
   std::vector<OfFile> of_files_;
   Histogram thu_{kThuStep}, tvu_{kTvuStep};
   Failing failing_;
+  LeftOutPoints left_out_;
   SurveyGrid grid_;
   OverlapPatches patches_;
 };

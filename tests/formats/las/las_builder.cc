@@ -87,7 +87,7 @@ std::string GeoKeys(const std::vector<std::pair<int, int>>& keys) {
 }
 
 std::string BuildLas(const LasSpec& spec) {
-  constexpr std::size_t kHeaderSizes[] = {227, 227, 227, 235, 375};
+  constexpr std::size_t kHeaderSizes[] = {227, 227, 227, 235, 375, 393};
   const std::size_t own_size = kHeaderSizes[spec.version_minor];
   const std::size_t header_size = own_size + spec.header_tail.size();
   std::string vlrs, points, evlrs;
@@ -102,9 +102,10 @@ std::string BuildLas(const LasSpec& spec) {
   const bool waveform_inside = !spec.waveform_packet.empty();
   // Bit 4: the coordinate system is well-known text, as formats 6-10 require. Bit 1: waveforms are in the file. Bit 0:
   // the form of GPS times.
-  Put<std::uint16_t>(header, 6,
-                     static_cast<std::uint16_t>((spec.point_format >= 6 ? 0x10 : 0) | (waveform_inside ? 0x2 : 0) |
-                                                (spec.adjusted_time ? 1 : 0)));
+  Put<std::uint16_t>(
+      header, 6,
+      static_cast<std::uint16_t>((spec.point_format >= 6 ? 0x10 : 0) | (waveform_inside ? 0x2 : 0) |
+                                 (spec.adjusted_time ? 1 : 0) | (spec.time_offset.has_value() ? 0x40 : 0)));
   Put<std::uint8_t>(header, 24, 1);
   Put<std::uint8_t>(header, 25, static_cast<std::uint8_t>(spec.version_minor));
   PutText(header, 26, "SIMULATION");
@@ -138,6 +139,17 @@ std::string BuildLas(const LasSpec& spec) {
     Put<std::uint32_t>(header, 243, static_cast<std::uint32_t>(spec.evlrs.size()));
     Put<std::uint64_t>(header, 247, count);
     Put<std::uint64_t>(header, 255, count);
+  }
+  if (spec.version_minor >= 5) {
+    double least = 0, greatest = 0;  // Of times that are not 0.
+    for (const LasPoint& point : spec.points) {
+      if (point.gps_time == 0) continue;
+      least = least == 0 ? point.gps_time : std::fmin(least, point.gps_time);
+      greatest = greatest == 0 ? point.gps_time : std::fmax(greatest, point.gps_time);
+    }
+    Put<double>(header, 375, greatest);
+    Put<double>(header, 383, least);
+    Put<std::uint16_t>(header, 391, spec.time_offset.value_or(0));
   }
   return header + spec.header_tail + vlrs + spec.gap + points + spec.waveform_packet + evlrs;
 }

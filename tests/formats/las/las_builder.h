@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,8 +38,9 @@ struct LasSpec {
   std::string gap;                     // Bytes between the VLRs and the points.
   std::string waveform_packet;         // After the points; the header states its offset (from 1.3).
   double scale = 0.001;
-  std::array<double, 3> offset{};  // Of x, y and z.
-  bool adjusted_time = false;      // Times are GPS time - 1e9 s; otherwise seconds of the GPS week.
+  std::array<double, 3> offset{};                 // Of x, y and z.
+  bool adjusted_time = false;                     // Times are GPS time - 1e9 s; otherwise seconds of the GPS week.
+  std::optional<std::uint16_t> time_offset = {};  // Of 1.5, 10^6 s, with its flag; requires adjusted_time.
 };
 
 std::string BuildLas(const LasSpec& spec);

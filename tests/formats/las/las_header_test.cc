@@ -36,8 +36,12 @@ std::string With(std::string file, std::size_t field, Number number) {
 }
 
 TEST(LasHeader, ReadsEveryVersionAndFormat) {
-  for (int version = 0; version <= 4; ++version) {
-    for (int format = 0; format <= (version < 2 ? 1 : version == 2 ? 3 : version == 3 ? 5 : 10); ++format) {
+  for (int version = 0; version <= 5; ++version) {
+    for (int format = version == 5 ? 6 : 0; format <= (version < 2    ? 1
+                                                       : version == 2 ? 3
+                                                       : version == 3 ? 5
+                                                                      : 10);
+         ++format) {
       const LasSpec spec = Spec(version, format);
       const absl::StatusOr<LasHeader> header = Parse(BuildLas(spec));
       EXPECT_EQ(header->version_minor, version);
@@ -57,7 +61,7 @@ TEST(LasHeader, RejectsOtherFiles) {
 }
 
 TEST(LasHeader, RejectsOtherVersions) {
-  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 5)), HasSubstr("is LAS 1.5"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 6)), HasSubstr("is LAS 1.6"));
   EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMajor, 2)), HasSubstr("is LAS 2.4"));
 }
 

@@ -142,7 +142,7 @@ def _crosscheck(report: Report) -> str:
     check = report["crosscheck"]
     title = "<h2>Is the predicted uncertainty right? Overlapping lines</h2>"
     if check is None:
-        return f"{title}<p>{verdict.NO_OVERLAP}</p>"
+        return f"{title}<p>{text(verdict.nothing_to_compare(report))}</p>"
     rows = [["pairs of neighbouring points", f"{check['pairs']:,}; {check['outliers']} outliers left out"],
             ["reduced chi-square", f"{check['chi_square']:.2f} (1: as predicted); without the mean difference of each"
              f" two lines {check['chi_square_within_lines']:.2f}"],

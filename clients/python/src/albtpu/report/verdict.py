@@ -8,8 +8,6 @@ Report = dict[str, Any]
 
 COVERAGES = {"p95": "95 %", "2sigma": "2σ", "1sigma": "1σ"}
 
-NO_OVERLAP = "No lines overlap, so the files cannot show whether the prediction is right."
-
 OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "UNCERTAIN_TRAJECTORY": "a trajectory too uncertain to give an incidence",
             "NO_SURFACE": "no water surface known above them",
@@ -134,10 +132,16 @@ def _help(report: Report) -> str:
     return f"The largest share of the vertical variance, {100 * shares[share]:.0f} %, is {REMEDIES[share]}."
 
 
+def nothing_to_compare(report: Report) -> str:
+    """Why overlapping lines say nothing, where the report has no cross-check."""
+    reason = report.get("nothing_to_compare", "no lines overlap")
+    return f"{reason[:1].upper()}{reason[1:]}, so the files cannot show whether the prediction is right."
+
+
 def _truth(report: Report) -> str:
     check = report["crosscheck"]
     if check is None:
-        return NO_OVERLAP
+        return nothing_to_compare(report)
     factor = check["factor"]
     text = f"Overlapping lines: σ would have to be {estimate_text(factor)} times as large"
     if factor["low"] is None:
