@@ -40,12 +40,17 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
       use_withheld_(annotation.use_withheld),
       appended_(annotation.appended()),
+      numbers_(formats::AppendedFloats(appended_)),
       replaced_(replaced),
       extra_bytes_begin_(header.record_length - header.extra_bytes()),
       style_(annotation.style_of_sea()),
       total_(annotation.total.has_value() ? &*annotation.total : nullptr),
       source_(source) {
-  for (const formats::AppendedFloat& each : formats::AppendedFloats(appended_)) no_data_.push_back(each.no_data);
+  for (const formats::AppendedFloat& each : numbers_) {
+    const std::size_t at = no_data_.size();
+    no_data_.resize(at + each.size());  // 0 of a byte.
+    if (!each.is_byte) Store(each.no_data, no_data_.data() + at);
+  }
   UncertaintySummary::Select(selection_);
   if (total_ != nullptr) SelectForTotals(selection_);
   selection_.standard_errors = style_.standard_errors;
@@ -217,31 +222,31 @@ void LasChunkWork::Summarize(Chunk& chunk) const {
 }
 
 void LasChunkWork::Replace(Chunk& chunk) const {
-  const std::size_t length = record_length_ + no_data_.size() * sizeof(float);
-  const std::size_t new_length = length - replaced_.size() * sizeof(float);
+  const std::size_t length = record_length_ + no_data_.size();
+  std::size_t new_length = length;
+  for (const formats::ReplacedFloat& replaced : replaced_) new_length -= numbers_[replaced.appended].size();
   char* const begin = chunk.annotated.data();
   for (std::size_t i = 0; i < chunk.own; ++i) {
     char* const record = begin + i * length;
     char* const values = record + record_length_;
     for (const formats::ReplacedFloat& replaced : replaced_) {
-      float value;
-      std::memcpy(&value, values + replaced.appended * sizeof(float), sizeof(float));
+      const char* const value = values + replaced.appended * sizeof(float);
       char* const place = record + extra_bytes_begin_ + replaced.offset;
       if (replaced.is_double)
-        Store(static_cast<double>(value), place);
+        Store(static_cast<double>(laz::Load<float>({value, sizeof(float)}, 0)), place);
       else
-        Store(value, place);
+        std::memcpy(place, value, numbers_[replaced.appended].size());
     }
     // The new values close up, and the record moves to its place among the shorter records.
     char* end = values;
     auto next = replaced_.begin();
-    for (std::size_t k = 0; k < no_data_.size(); ++k) {
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
       if (next != replaced_.end() && next->appended == k) {
         ++next;
         continue;
       }
-      std::memmove(end, values + k * sizeof(float), sizeof(float));
-      end += sizeof(float);
+      std::memmove(end, values + k * sizeof(float), numbers_[k].size());
+      end += numbers_[k].size();
     }
     std::memmove(begin + i * new_length, record, new_length);
   }
@@ -249,7 +254,7 @@ void LasChunkWork::Replace(Chunk& chunk) const {
 }
 
 void LasChunkWork::Encode(Chunk& chunk) const {
-  const std::size_t appended = no_data_.size() * sizeof(float);
+  const std::size_t appended = no_data_.size();
   const std::size_t annotated_length = record_length_ + appended;
   chunk.annotated.resize(chunk.own * annotated_length);
   const char* const records = chunk.records.data() + chunk.before * record_length_;
@@ -277,7 +282,7 @@ void LasChunkWork::Encode(Chunk& chunk) const {
   const auto length_or_none = [](float value) { return value >= 0 ? value : formats::kNoNumber; };  // Also for NaN.
   const PointBeams& beams = chunk.beams;
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
-    char* values = appended_to(i) + appended - formats::kGeometryCount * sizeof(float);
+    char* values = appended_to(i) + appended - appended_.share_of() - formats::kGeometryCount * sizeof(float);
     for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
                               beams.dry[i] != 0 ? formats::kNoNumber : length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
       Store(value, values);
@@ -290,6 +295,9 @@ void LasChunkWork::EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, cha
   const TotalBatch& total = dry ? chunk.dry_total : chunk.total;
   const std::uint32_t point = dry ? chunk.dry_rows[i] : chunk.rows[i];
   if (!std::isfinite(total.thu[i]) || !std::isfinite(total.tvu[i])) return;
+  if (appended_.share_of())
+    Store(static_cast<std::uint8_t>(dry ? formats::ShareOf::kLand : formats::ShareOf::kWater),
+          values + no_data_.size() - 1);
   const auto put = [&values](float value) {
     Store(value, values);
     values += sizeof(float);

@@ -116,7 +116,8 @@ class LasChunkWork {
   double utc_;
   bool pulse_surface_, use_withheld_;
   formats::Appended appended_;
-  std::vector<float> no_data_;  // Of what is appended or replaces.
+  std::vector<formats::AppendedFloat> numbers_;  // What is appended or replaces: floats, and a byte at the end.
+  std::string no_data_;                          // Its bytes where there is no number.
   std::vector<formats::ReplacedFloat> replaced_;
   std::size_t extra_bytes_begin_;  // In a record of the input.
   AnswerStyle style_;

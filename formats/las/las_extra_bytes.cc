@@ -28,7 +28,7 @@ constexpr std::size_t kDescriptionField = 160;
 
 constexpr std::uint8_t kUndocumented = 0;  // The options field has the number of bytes.
 constexpr std::size_t kMaxUndocumented = 255;
-constexpr std::uint8_t kFloat = 9, kDouble = 10;
+constexpr std::uint8_t kByte = 1, kFloat = 9, kDouble = 10;
 constexpr std::uint8_t kNoDataIsSet = 0x01;
 
 // Types 1-10 are u8, i8, u16 .. i64, f32, f64; the deprecated types 11-20 and 21-30 are two and three of these.
@@ -89,7 +89,8 @@ std::string Entry(std::uint8_t type, std::uint8_t options, std::string_view name
   return entry;
 }
 
-std::string FloatEntry(const AppendedFloat& appended, std::uint8_t type = kFloat) {
+std::string EntryOf(const AppendedFloat& appended, std::uint8_t type) {
+  if (appended.is_byte) return Entry(type, 0, appended.name, appended.description);
   std::string entry = Entry(type, kNoDataIsSet, appended.name, appended.description);
   Store(static_cast<double>(appended.no_data), entry.data() + kNoDataField);  // As f64, also for a float.
   return entry;
@@ -115,6 +116,12 @@ class FreeNames {
 };
 
 }  // namespace
+
+std::size_t BytesOf(const std::vector<AppendedFloat>& appended) {
+  std::size_t bytes = 0;
+  for (const AppendedFloat& each : appended) bytes += each.size();
+  return bytes;
+}
 
 std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -156,6 +163,7 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
     floats.push_back({"water_depth", "below the water surface, m", kNoNumber});
     floats.push_back({"slant_range", "in air, sensor to water, m", kNoNumber});
   }
+  if (appended.share_of()) floats.push_back({"share_of", "total: 0 none, 1 land, 2 water", 0, true});
   return floats;
 }
 
@@ -212,14 +220,15 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     if (std::count_if(known.entries.begin(), known.entries.end(), is_ours) > 1)
       return InvalidExtraBytes(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
     const auto entry = std::find_if(known.entries.begin(), known.entries.end(), is_ours);
-    if (entry->type != kFloat && entry->type != kDouble) {
+    if (appended[i].is_byte ? entry->type != kByte : entry->type != kFloat && entry->type != kDouble) {
       return InvalidExtraBytes(name,
                                absl::StrCat("has ", ours, " as type ", entry->type,
-                                            " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
-                                            "the file from which it was made"));
+                                            " of Extra Bytes; --replace takes ",
+                                            appended[i].is_byte ? "bytes (1)" : "floats (9) and doubles (10)",
+                                            ": annotate the file from which it was made"));
     }
     const auto place = static_cast<std::size_t>(entry - known.entries.begin()) * kEntrySize;
-    record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
+    record.replace(place, kEntrySize, EntryOf(appended[i], static_cast<std::uint8_t>(entry->type)));
     description.replaced.push_back({i, entry->offset, entry->type == kDouble});
   }
   if (known.bytes > extra_bytes) return MoreThanExist(name, known.bytes, extra_bytes);
@@ -230,7 +239,7 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     left -= bytes;
   }
   for (const AppendedFloat& ours : appended)
-    if (known.names.count(ours.name) == 0) record += FloatEntry(ours);
+    if (known.names.count(ours.name) == 0) record += EntryOf(ours, ours.is_byte ? kByte : kFloat);
   if (record.size() > kLargestExtraBytesRecord) {
     return InvalidExtraBytes(
         name, absl::StrCat("describes so many extra bytes that ", appended.size(), " more descriptions exceed ",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,11 +15,20 @@
 
 namespace albtpu::formats {
 
-// One of the floats that are appended to each record.
+// One of the numbers that are appended to each record.
 struct AppendedFloat {
   std::string_view name, description;  // At most 32 bytes each.
   float no_data = 0;
+  bool is_byte = false;  // An unsigned byte instead, without a no-data value.
+
+  std::size_t size() const { return is_byte ? 1 : sizeof(float); }
 };
+
+// Together, of a list.
+std::size_t BytesOf(const std::vector<AppendedFloat>& appended);
+
+// The byte share_of: what a total is made of.
+enum class ShareOf : std::uint8_t { kNone, kLand, kWater };
 
 inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of angles is NaN.
 
@@ -28,10 +38,12 @@ struct Appended {
   bool total = false;    // The total uncertainty, not the contribution of the sea surface alone.
   bool water = false;    // The total includes the water column.
   bool details = false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
+
+  bool share_of() const { return total && details; }
 };
 
 // In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
-// more; with details the geometry.
+// more; with details the geometry; of a total with details share_of, the only byte.
 std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 
 inline constexpr std::size_t kUncertaintyCount = 2;
@@ -52,7 +64,7 @@ absl::StatusOr<std::string> ReadExtraBytesRecord(const LasReader& reader);
 struct ReplacedFloat {
   std::size_t appended = 0;  // Which of the appended floats.
   std::size_t offset = 0;    // In the extra bytes of a point.
-  bool is_double = false;
+  bool is_double = false;    // Otherwise the type of what is appended.
 };
 
 struct AppendedDescription {

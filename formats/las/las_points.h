@@ -91,11 +91,6 @@ class LasPointFields {
     return time == 0 ? time : time + time_shift_;
   }
 
-  // Whether the producer of the point took it back.
-  bool IsWithheld(std::string_view record) const {
-    return (laz::Load<std::uint8_t>(record, 15) & (modern_ ? 0x04 : 0x80)) != 0;
-  }
-
   // The number of this return in its pulse, the number of returns of the pulse and the channel of the scanner, which
   // formats 0-5 do not have.
   int ReturnNumber(std::string_view record) const {

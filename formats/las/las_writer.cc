@@ -75,7 +75,8 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   ASSIGN_OR_RETURN(const AppendedDescription description,
                    DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace));
   const std::string& data = description.record;
-  const std::size_t appended_bytes = (appended.size() - description.replaced.size()) * sizeof(float);
+  std::size_t appended_bytes = BytesOf(appended);
+  for (const ReplacedFloat& replaced : description.replaced) appended_bytes -= appended[replaced.appended].size();
   const std::size_t record_length = header.record_length + appended_bytes;
   const auto no_room = [&] {
     return Invalid(reader, absl::StrCat("has no room for ", appended_bytes, " more bytes in records of ",

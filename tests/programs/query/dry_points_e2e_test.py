@@ -47,6 +47,7 @@ class DryPointsTest(programs.Test):
         self.assertTrue((columns["total_thu"][column] == -1).all())
         self.assertEqual(answers["dry"]["points"], dry.sum())
         self.assertEqual(answers["total"]["pulses"], wet.sum())
+        np.testing.assert_array_equal(columns["share_of"], np.where(wet, 2, np.where(column, 0, 1)))
         for name in ("thu_sea", "tvu_sea", "bias_vertical"):
             self.assertTrue((columns[name][dry] == 0).all(), name)
         rmse = np.sqrt(np.mean((columns["total_tvu"][dry] / 2)**2))

@@ -50,8 +50,10 @@ class LasFile:
         return self.field(16, "i1") * 1.0 if self.point_format < 6 else self.field(18, "<i2") * 0.006
 
     def columns(self):
-        """The extra dimensions by name, where all are float32, in double precision."""
-        return {name: self.field(where[0], "<f4").astype(float) for name, where in self.extra_dimensions().items()}
+        """The extra dimensions by name, where all are float32 or bytes, in double precision."""
+        kinds = {1: "u1", 9: "<f4"}
+        return {name: self.field(offset, kinds[kind]).astype(float)
+                for name, (offset, kind, *_) in self.extra_dimensions().items()}
 
     def extra_dimensions(self):
         """The contents of the Extra Bytes record: name -> (offset in a point, type, no-data, description)."""
