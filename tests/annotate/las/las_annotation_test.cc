@@ -218,17 +218,6 @@ TEST_F(LasAnnotationTest, RejectsVlrsOfWrongLength) {
   EXPECT_THAT(Annotate(file), HasSubstr("ends after the file"));
 }
 
-TEST_F(LasAnnotationTest, RejectsExtraBytesDescribedTwiceOrInAnEvlr) {
-  LasSpec spec = Spec(4, 6);
-  spec.extra_bytes = 1;
-  const albtpu::testing::LasRecord record = {"LASF_Spec", 4, ExtraBytesEntry(1, 0, "x")};
-  spec.vlrs = {record, record};
-  EXPECT_THAT(Annotate(spec), HasSubstr("in two VLRs"));
-  spec.vlrs.clear();
-  spec.evlrs = {record};
-  EXPECT_THAT(Annotate(spec), HasSubstr("in an EVLR"));
-}
-
 TEST_F(LasAnnotationTest, RejectsLazThatIsMarkedOnlyByItsVlr) {
   LasSpec spec = Spec(4, 6);
   spec.vlrs.push_back({"laszip encoded", 22204, "x"});
