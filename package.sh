@@ -3,15 +3,17 @@
 # checks them by lintian. docs/install.md installs them.
 #
 # Usage: package.sh [--here | --portable | SUITE...]
-#   SUITE...   each in a bare root of that Debian, made by mmdebstrap and removed at the end (default: bookworm trixie)
+#   SUITE...   each in a bare root of that Debian, made by mmdebstrap and removed at the end (default: bookworm trixie);
+#              as root
 #   --here     for the Debian on which it runs, without a root; installs the packages that the build needs
 #   --portable an archive and a wheel for any Linux instead, in build/packages/portable
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
 # Of the changelogs and all files. A root knows them only from here: it need not see the repository.
-export ALBTPU_COMMIT=${ALBTPU_COMMIT:-$(git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)}
-export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
+git=(git -c "safe.directory=$PWD")  # Of a user's folder that root works in.
+export ALBTPU_COMMIT=${ALBTPU_COMMIT:-$("${git[@]}" describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)}
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$("${git[@]}" log -1 --format=%ct 2>/dev/null || date +%s)}
 
 build_here() {
   local suite
@@ -27,7 +29,7 @@ build_here() {
   lintian --fail-on error "build/packages/$suite/"*.deb
 }
 
-# Runs the same in a root of `suite`, in which this folder has the same path as outside. The mounts end with the command.
+# Runs the same in a root of $1, in which this folder has the same path as outside. The mounts end with the command.
 build_in_root() {
   local include
   include=$(package_names packages | paste -sd,)
@@ -47,9 +49,10 @@ if [[ $# == 1 && $1 == --here ]]; then
   build_here
   exit
 fi
-[[ $* != --portable ]] || exec packaging/portable.sh
-[[ $* != *-* ]] || { sed -n 's/^# \?//; 2,8p' "$0" >&2; exit 2; }
+[[ $* != *-* || $* == --portable ]] || { sed -n 's/^# \?//; 2,9p' "$0" >&2; exit 2; }
+((EUID == 0)) || { echo "$0: only root can make roots of Debian; use --here, or sudo" >&2; exit 1; }
 command -v mmdebstrap >/dev/null || { echo "$0: mmdebstrap is missing; apt-get install mmdebstrap" >&2; exit 1; }
+[[ $* != --portable ]] || exec packaging/portable.sh
 [[ $# != 0 ]] || set -- bookworm trixie
 for suite in "$@"; do
   echo "== Building the packages of $suite"

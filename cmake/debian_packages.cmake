@@ -28,12 +28,26 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# What all packages have: name, section, copyright and changelog.
+# The libraries of packages.txt; of some only headers are compiled in, which no dependency of a package tells.
+file(READ packages.txt libraries)
+string(REGEX MATCH "\n# libraries,[^\n]*\n([^#]*)\n#" libraries "${libraries}")
+string(REPLACE "\n" ";" libraries "${CMAKE_MATCH_1}")
+
+# What all packages have: name, section, copyright and changelog; all but that of Python have the licences of libraries.
 #   albtpu_debian_package(COMPONENT package section [comment for its copyright file])
 function(albtpu_debian_package component package section)
   set(COMMENT "")
   if(ARGN)
     set(COMMENT "Comment: ${ARGN}\n")
+  endif()
+  set(LIBRARIES "")
+  if(NOT component STREQUAL "python")
+    set(LIBRARIES "Comment: The licences of libraries of which it contains code are in libraries.\n")
+    foreach(library IN LISTS libraries)
+      file(REAL_PATH /usr/share/doc/${library}/copyright licence)
+      install(FILES ${licence} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}/libraries RENAME ${library}.txt
+              COMPONENT ${component})
+    endforeach()
   endif()
   configure_file(${packaging}/copyright.in ${made}/${package}/copyright @ONLY)
   file(CONFIGURE OUTPUT ${made}/${package}/changelog CONTENT
@@ -69,6 +83,7 @@ install(FILES ${packaging}/albtpu/albtpu-serve.service DESTINATION /usr/lib/syst
 install(FILES ${packaging}/albtpu/albtpu-serve.default DESTINATION /etc/default RENAME albtpu-serve
         COMPONENT programs)
 # The server serves one folder: the shipped tables by links, and those that are put beside them.
+file(REMOVE_RECURSE ${made}/tables)
 file(MAKE_DIRECTORY ${made}/tables)
 foreach(table IN LISTS shipped_tables)
   cmake_path(GET table FILENAME file)

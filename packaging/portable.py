@@ -90,20 +90,28 @@ def package_of(file):
     for path in (file, pathlib.Path("/", *file.parts[2:])):
         found = subprocess.run(["dpkg-query", "--search", path], capture_output=True, text=True)
         if found.returncode == 0:
-            package = found.stdout.split(": ")[0]
-            form = "${Package}\t${Version}\t${source:Package} ${source:Version}"
-            return output("dpkg-query", "--show", f"--showformat={form}", package).split("\t")
+            return found.stdout.split(": ")[0]
     raise SystemExit(f"{sys.argv[0]}: no package has {file}")
 
 
-def write_licences(copied, folder):
-    """Writes the licence of each package that libraries were copied from, and README.md, which lists them."""
+def compiled_in():
+    """The Debian packages of which the programs contain at least headers; these are built without MPI."""
+    section = re.search(r"\n# libraries,.*\n([^#]*)\n#", (HERE.parent / "packages.txt").read_text())[1]
+    return set(section.split()) - {"libopenmpi-dev"}
+
+
+def write_licences(copied, compiled, folder):
+    """Writes the licence of each package that was copied from or compiled in, and README.md, which lists them."""
     folder.mkdir()
     packages = collections.defaultdict(list)
     for name, file in copied.items():
-        packages[tuple(package_of(file))].append(name)
+        packages[package_of(file)].append(name)
+    for package in compiled:
+        packages[package].append("compiled into the programs")
     common, rows = set(), []
-    for (package, version, source), names in sorted(packages.items()):
+    for package, names in sorted(packages.items()):
+        form = "${Package}\t${Version}\t${source:Package} ${source:Version}"
+        package, version, source = output("dpkg-query", "--show", f"--showformat={form}", package).split("\t")
         text = pathlib.Path("/usr/share/doc", package, "copyright").read_text(errors="replace")
         (folder / f"{package}.txt").write_text(text)
         common |= set(re.findall(r"/usr/share/common-licenses/([\w.-]*\w)", text))
@@ -171,7 +179,7 @@ def pack_wheel(tree, copied, work, folder):
     shutil.copyfile(HERE / "albtpu_programs/__init__.py", content / "albtpu_programs/__init__.py")
     information = next(content.glob("*.dist-info"))
     write_licences({name: file for name, file in copied.items() if name in used | {DATABASE.name}},
-                   information / "licenses")
+                   compiled_in() - {"libfftw3-dev"}, information / "licenses")
     with open(information / "entry_points.txt", "a") as file:
         file.write("\n[console_scripts]\nalbtpu-query = albtpu_programs:query\nalbtpu-serve = albtpu_programs:serve\n")
     with open(information / "top_level.txt", "a") as file:
@@ -200,7 +208,7 @@ def main(installed, folder, version):
     (tree / "share/albtpu/proj").mkdir()
     shutil.copyfile(DATABASE, tree / "share/albtpu/proj" / DATABASE.name)
     copied[DATABASE.name] = DATABASE
-    write_licences(copied, tree / "LICENSES")
+    write_licences(copied, compiled_in(), tree / "LICENSES")
     folder.mkdir(parents=True, exist_ok=True)
     pack_archive(tree, folder / f"{tree.name}.tar.xz")
     pack_wheel(tree, copied, work, folder)

@@ -11,8 +11,9 @@ source ./packages.sh
 
 target=build/packages/portable
 build=build/portable
-ALBTPU_COMMIT=${ALBTPU_COMMIT:-$(git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)}
-SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || stat --format=%Y CMakeLists.txt)}
+git=(git -c "safe.directory=$PWD")  # Of a user's folder that root works in.
+ALBTPU_COMMIT=${ALBTPU_COMMIT:-$("${git[@]}" describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)}
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$("${git[@]}" log -1 --format=%ct 2>/dev/null || date +%s)}
 export SOURCE_DATE_EPOCH  # Of all files in the archive and in the wheel.
 
 compile_here() {

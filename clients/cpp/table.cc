@@ -1,6 +1,6 @@
 // Interpolates a table in process: the uncertainty of one pulse and of a flight line.
 //
-//   table /usr/local/share/albtpu/tables/survey.h5
+//   table /usr/share/albtpu/tables/survey.h5
 #include <albtpu/tables/column_query.h>
 #include <albtpu/tables/interpolation.h>
 #include <albtpu/tables/table_io.h>

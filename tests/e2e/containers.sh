@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Builds the images with podman or docker and tests them as docs/operations.md describes. Their base is made of Debian
-# packages, so that no registry is needed.
+# Builds the packages of this machine's Debian, and from them the images with podman or docker, and tests these as
+# docs/operations.md describes. Their base is made of Debian packages, so that no registry is needed.
 #
-# Usage: containers.sh      the programs must have been built in build/release
+# Usage: containers.sh      as root; the programs must have been built in build/release
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source ./packages.sh
 
-base=localhost/albtpu-test-base
+SUITE=$(. /etc/os-release && echo "$VERSION_CODENAME")
+export SUITE
+base=localhost/albtpu-test-base-$SUITE
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -36,11 +38,12 @@ reason=$("$engine" info 2>&1 >/dev/null) || skip "$engine does not work here: ${
 
 if ! "$engine" image inspect "$base" >/dev/null 2>&1; then
   echo "== Making a base image from Debian packages"
-  mmdebstrap --quiet --variant=minbase bookworm "$scratch/base.tar"
+  mmdebstrap --quiet --variant=minbase "$SUITE" "$scratch/base.tar"
   "$engine" import "$scratch/base.tar" "$base" >/dev/null
 fi
 reason=$("$engine" run --rm "$base" true 2>&1) || skip "$engine cannot run containers here: ${reason##*$'\n'}"
 
+./package.sh --here
 export ALBTPU_TAG=test  # Leaves other images of this machine alone.
 echo "== Building the images"
 ENGINE=$engine docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>&1 || {
@@ -51,6 +54,6 @@ ENGINE=$engine docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>
 echo "== Running the images"
 export PYTHONPATH=clients/python/src
 status=0
-/usr/bin/python3 -B tests/e2e/containers_test.py "$engine" "$base" build/release . || status=1
+/usr/bin/python3 -B tests/e2e/containers_test.py "$engine" build/release . || status=1
 /usr/bin/python3 -B tests/e2e/orchestration_test.py "$engine" "$base" . || status=1
 exit "$status"

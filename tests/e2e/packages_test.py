@@ -85,8 +85,8 @@ class Packages(unittest.TestCase):
 
     @classmethod
     def with_server(cls, script):
-        return cls.in_root("albtpu-serve 2>log& trap 'kill %1; wait' EXIT; until grep -q ready log; do sleep 0.1; done;"
-                           f" {script}")
+        return cls.in_root("rm -f log; albtpu-serve 2>log& server=$!; trap 'kill $server; wait' EXIT; "
+                           f"until grep -qs ready log; do kill -0 $server; sleep 0.1; done; {script}")
 
     @classmethod
     def files(cls):

@@ -135,7 +135,10 @@ class Loopback(ProxyTest):
         dead = dict.fromkeys(VARIABLES, f"http://127.0.0.1:{unused_port()}")
         self.assert_all_work(address, dead)
         port = address.rpartition(":")[2]
-        for other in (f"localhost:{port}", f"dns:///127.0.0.1:{port}", f"ipv4:127.0.0.1:{port}"):
+        others = [f"dns:///127.0.0.1:{port}", f"ipv4:127.0.0.1:{port}"]
+        if os.path.exists("/etc/hosts"):  # A bare root has none, and then nothing there knows the name.
+            others.append(f"localhost:{port}")
+        for other in others:
             result = self.run_client((QUERY, "health", "--server", other), dead)
             self.assertEqual(result.returncode, 0, result.stderr)
 

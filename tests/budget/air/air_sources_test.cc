@@ -110,7 +110,7 @@ TEST(AirSources, AgreeWithDrawnErrors) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   const Unknowns sigma = Sigmas(kOracle);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const AirPulse pulse = RandomPulse(random);
     const bool given = i % 2 == 1;
     const Matrix3d covariance = Covariance(pulse, given ? SurfaceLocation::kLevel : SurfaceLocation::kPulse, kOracle);
