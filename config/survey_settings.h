@@ -64,9 +64,9 @@ struct DatumSettings {                            // [datum]
   std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
 };
 
-struct OutputSettings {                  // [output]
-  std::vector<int> classes;              // Of the points that get an uncertainty.
-  std::optional<std::string> points;     // kPointChoices
+struct OutputSettings {               // [output]
+  std::vector<int> classes;           // Of the points that get an uncertainty.
+  std::optional<std::string> points;  // kPointChoices
   std::optional<bool> use_withheld;
   std::optional<std::string> coverage;   // kCoverages
   std::optional<std::string> s44_order;  // kS44OrderNames

@@ -22,12 +22,12 @@ struct PointBeams {
   std::vector<std::optional<NoPulse>> why_not;  // Absent: the point has a pulse.
   // 1: the beam met no water before the point, and depth is 0: the point is dry, or of the bottom and above the water.
   std::vector<std::uint8_t> dry;
-  std::vector<float> incidence;                 // degree, in air, at the water
-  std::vector<float> beam_azimuth;              // degree in [0, 360), clockwise from true north
-  std::vector<float> azimuth;                   // degree from downwind
-  std::vector<float> footprint;                 // m
-  std::vector<float> depth;                     // m below the surface; negative above it, 0 of a dry point
-  std::vector<float> slant_range;               // m, in air
+  std::vector<float> incidence;     // degree, in air, at the water
+  std::vector<float> beam_azimuth;  // degree in [0, 360), clockwise from true north
+  std::vector<float> azimuth;       // degree from downwind
+  std::vector<float> footprint;     // m
+  std::vector<float> depth;         // m below the surface; negative above it, 0 of a dry point
+  std::vector<float> slant_range;   // m, in air
   // What a total needs beside the beam; empty unless it is wanted.
   std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
   AircraftColumns aircraft;        // Altitude and motion.
@@ -72,8 +72,8 @@ class BeamGeometry {
   const SensorMotions* motions_;
 };
 
-// The pulses in water of the points that have one; `rows` says which points these are. A coordinate that is the same for all
-// pulses has one number.
+// The pulses in water of the points that have one; `rows` says which points these are. A coordinate that is the same
+// for all pulses has one number.
 void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::uint32_t>& rows, PulseBatch& pulses);
 
 }  // namespace albtpu::annotate

@@ -76,9 +76,9 @@ inline constexpr double kHighestCrest = 2;
 // `pairs` are in order of time and in the local frame. Of the pairs of one pulse, the longest that makes a ray counts.
 // `index` is that of the water.
 //
-// An upper return that is not of the bottom may come from a trough of the waves. It lies on the way in air, and its direction to
-// the bottom is wrong by as much as refraction turns the beam. Where returns come from crests as well, at most
-// kHighestCrest above the surface, only those count that lie deeper than troughs of the same waves.
+// An upper return that is not of the bottom may come from a trough of the waves. It lies on the way in air, and its
+// direction to the bottom is wrong by as much as refraction turns the beam. Where returns come from crests as well, at
+// most kHighestCrest above the surface, only those count that lie deeper than troughs of the same waves.
 std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
                                 double index);
 

@@ -45,14 +45,16 @@ absl::Status CheckScanAngles(const formats::LasReader& reader, const CoordinateS
   if (incidence.count() < kEnoughAngles || incidence.greatest() >= kLeastScan) return absl::OkStatus();
   if (incidence.greatest() == 0) {
     return absl::FailedPreconditionError(
-        absl::StrCat(reader.name(), ": all scan angles are 0, so that nobody recorded them; give --trajectory, "
-                                    "--trajectory-from-returns or --incidence"));
+        absl::StrCat(reader.name(),
+                     ": all scan angles are 0, so that nobody recorded them; give --trajectory, "
+                     "--trajectory-from-returns or --incidence"));
   }
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "%s: all scan angles are within %.2g degrees (a scanner swings by 10 to 30), so that they are probably in another "
-      "unit, such as whole degrees where point formats 6 to 10 count steps of %g; give --trajectory, "
-      "--trajectory-from-returns or --incidence",
-      reader.name(), incidence.greatest(), formats::kModernScanAngleStep));
+  return absl::FailedPreconditionError(
+      absl::StrFormat("%s: all scan angles are within %.2g degrees (a scanner swings by 10 to 30), so that they are "
+                      "probably in another "
+                      "unit, such as whole degrees where point formats 6 to 10 count steps of %g; give --trajectory, "
+                      "--trajectory-from-returns or --incidence",
+                      reader.name(), incidence.greatest(), formats::kModernScanAngleStep));
 }
 
 absl::Status CheckIncidence(const formats::LasReader& reader, const LasAnnotation& annotation,
@@ -168,9 +170,10 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
     annotated.notes.push_back(absl::StrCat(
         annotated.withheld, " bathymetric points are withheld and have no number; --use-withheld gives them one"));
   if (annotated.synthetic > 0)
-    annotated.notes.push_back(absl::StrCat(
-        annotated.synthetic, " bathymetric points are synthetic: no pulse measured them, and their numbers are those "
-                             "of a pulse there"));
+    annotated.notes.push_back(
+        absl::StrCat(annotated.synthetic,
+                     " bathymetric points are synthetic: no pulse measured them, and their numbers are those "
+                     "of a pulse there"));
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
     (*annotated.geometry)["incidence"] = {{"least", formats::JsonNumber(least)},

@@ -103,9 +103,10 @@ absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPla
   if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   if (!(file.times.span.first <= file.times.span.last)) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(reader.name(), ": the GPS times of its points are all 0 or no numbers, so that no position of the sensor belongs to them; "
-                     "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
+    return absl::FailedPreconditionError(absl::StrCat(
+        reader.name(),
+        ": the GPS times of its points are all 0 or no numbers, so that no position of the sensor belongs to them; "
+        "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
   }
   ASSIGN_OR_RETURN(FileTrack track, std::holds_alternative<TrajectoryFromFiles>(plan.source)
                                         ? TrackFromFiles(file, plan)
@@ -151,8 +152,7 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   if (!place.ok() && reader.header().point_count > 0) {
     ASSIGN_OR_RETURN(const std::string first, formats::FirstRecord(reader));
     const formats::LasPointFields fields(reader.header());
-    absl::StatusOr<LasPlace> at_first =
-        PlaceOf(reader, plan, formats::MapPosition{fields.X(first), fields.Y(first)});
+    absl::StatusOr<LasPlace> at_first = PlaceOf(reader, plan, formats::MapPosition{fields.X(first), fields.Y(first)});
     if (at_first.ok()) place = std::move(at_first);
   }
   if (!place.ok()) return place.status();
@@ -172,18 +172,20 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
     RETURN_IF_ERROR(scan());
     if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_.frame); !axis.empty()) {
-      return absl::FailedPreconditionError(
-          absl::StrCat(reader.name(), ": the bounds in its header are those of its points with another offset or scale "
-                                      "of ", axis, ", so that one of them is wrong (",
-                       WrongBounds(reader.header(), prescan_.all, place_.frame),
-                       "); correct the header, or its bounds alone if the points are right"));
+      return absl::FailedPreconditionError(absl::StrCat(
+          reader.name(),
+          ": the bounds in its header are those of its points with another offset or scale "
+          "of ",
+          axis, ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_.frame),
+          "); correct the header, or its bounds alone if the points are right"));
     }
     if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_.frame); !wrong.empty()) {
       notes_.push_back(absl::StrCat("the header states bounds that the points do not have (", wrong,
                                     "); those of the points are used"));
       const std::array<double, 3>&least = prescan_.all.least, &greatest = prescan_.all.greatest;
-      ASSIGN_OR_RETURN(place_, PlaceOf(reader, plan, formats::MapPosition{(least[0] + greatest[0]) / 2,
-                                                                          (least[1] + greatest[1]) / 2}));
+      ASSIGN_OR_RETURN(
+          place_,
+          PlaceOf(reader, plan, formats::MapPosition{(least[0] + greatest[0]) / 2, (least[1] + greatest[1]) / 2}));
       RETURN_IF_ERROR(scan());
     }
     if (prescan_.synthetic_surface > 0)

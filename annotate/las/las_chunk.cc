@@ -56,7 +56,8 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
   selection_.standard_errors = style_.standard_errors;
   for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
   for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
-  for (int i = 0; i < formats::kClassCount && plan_.dry_points; ++i) is_dry_[i] = !is_chosen_[i] && formats::MayBeDry(i, header.point_format);
+  for (int i = 0; i < formats::kClassCount && plan_.dry_points; ++i)
+    is_dry_[i] = !is_chosen_[i] && formats::MayBeDry(i, header.point_format);
 }
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
@@ -148,7 +149,8 @@ void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
 void LasChunkWork::FindSeas(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
     std::optional<NoPulse>& why = chunk.beams.why_not[i];
-    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(chunk.points.times[i] + utc_).has_value()) why = NoPulse::kNoSea;
+    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(chunk.points.times[i] + utc_).has_value())
+      why = NoPulse::kNoSea;
   }
 }
 
@@ -284,7 +286,8 @@ void LasChunkWork::Encode(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     char* values = appended_to(i) + appended - appended_.share_of() - formats::kGeometryCount * sizeof(float);
     for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
-                              beams.dry[i] != 0 ? formats::kNoNumber : length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
+                              beams.dry[i] != 0 ? formats::kNoNumber : length_or_none(beams.depth[i]),
+                              length_or_none(beams.slant_range[i])}) {
       Store(value, values);
       values += sizeof(float);
     }
@@ -312,8 +315,7 @@ void LasChunkWork::EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, cha
   const double factor = VerticalFactor(total_->options.coverage);
   for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
     put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
-  for (const Quantity bias : {Quantity::kBiasAlongBeam, Quantity::kBiasVertical})
-    put(dry ? 0 : chunk.answers[bias][i]);
+  for (const Quantity bias : {Quantity::kBiasAlongBeam, Quantity::kBiasVertical}) put(dry ? 0 : chunk.answers[bias][i]);
   for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[point])) put(entry);
 }
 

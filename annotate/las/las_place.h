@@ -20,9 +20,9 @@ struct LasPlace {
 };
 
 // The place of a file whose middle is at `middle`; absent: in the middle of the box that the header states, true or
-// not, or where the first point is if that lies outside of the box. The vertical unit is that of the plan, or that of the coordinate
-// system, or metres. Fails when the coordinate system is in feet without saying whether heights are, and when
-// trajectory files need one and there is none.
+// not, or where the first point is if that lies outside of the box. The vertical unit is that of the plan, or that of
+// the coordinate system, or metres. Fails when the coordinate system is in feet without saying whether heights are, and
+// when trajectory files need one and there is none.
 absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPlan& plan,
                                  std::optional<formats::MapPosition> middle = std::nullopt);
 

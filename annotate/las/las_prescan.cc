@@ -70,7 +70,8 @@ class PrescanWork {
     for (int i = 0; i < formats::kClassCount && options.dry_points; ++i)
       if (formats::MayBeDry(i, reader.header().point_format)) roles_[i] |= kNumbered;
     for (const int point_class : options.classes) roles_[point_class] |= kChosen | kNumbered | kOfPair;
-    for (const int point_class : options.water_classes) roles_[point_class] = (roles_[point_class] | kSurface) & ~kOfPair;
+    for (const int point_class : options.water_classes)
+      roles_[point_class] = (roles_[point_class] | kSurface) & ~kOfPair;
     if (options.water_level.has_value())
       for (const int point_class : options.level_classes) roles_[point_class] |= kAtLevel;
   }

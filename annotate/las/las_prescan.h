@@ -42,7 +42,7 @@ struct LasPrescan {
   struct Box {
     std::array<double, 3> least, greatest;
   };
-  Box all;                   // Of all points.
+  Box all;                     // Of all points.
   std::uint64_t numbered = 0;  // Points that may get a number: chosen and dry ones.
   Box of_numbered;
   // Of the same points, those that are times (IsTime).

@@ -45,8 +45,7 @@ BudgetOutputs OutputsIn(std::size_t size, TotalBatch& totals) {
   outputs.tvu_air = Column(size, totals.tvu_air);
   outputs.total = Covariances(size, true, totals.covariance);
   outputs.air = Covariances(size, totals.whole, totals.air);
-  for (std::size_t g = 0; g < kErrorGroups; ++g)
-    outputs.groups[g] = Covariances(size, totals.whole, totals.groups[g]);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) outputs.groups[g] = Covariances(size, totals.whole, totals.groups[g]);
   return outputs;
 }
 

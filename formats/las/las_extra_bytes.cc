@@ -222,8 +222,7 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     const auto entry = std::find_if(known.entries.begin(), known.entries.end(), is_ours);
     if (appended[i].is_byte ? entry->type != kByte : entry->type != kFloat && entry->type != kDouble) {
       return InvalidExtraBytes(name,
-                               absl::StrCat("has ", ours, " as type ", entry->type,
-                                            " of Extra Bytes; --replace takes ",
+                               absl::StrCat("has ", ours, " as type ", entry->type, " of Extra Bytes; --replace takes ",
                                             appended[i].is_byte ? "bytes (1)" : "floats (9) and doubles (10)",
                                             ": annotate the file from which it was made"));
     }

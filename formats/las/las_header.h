@@ -1,5 +1,5 @@
-// The public header block of LAS 1.0 to 1.5 (ASPRS, LAS Specification 1.4 R15, table 3, and 1.5 R00), the sizes of point
-// records, and variable length records. LAZ files have the same header.
+// The public header block of LAS 1.0 to 1.5 (ASPRS, LAS Specification 1.4 R15, table 3, and 1.5 R00), the sizes of
+// point records, and variable length records. LAZ files have the same header.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct LasHeader {
   bool adjusted_gps_time = false;  // Times are GPS seconds - 1e9, not seconds of the week; once `time_shift` is added.
   // s, of the time offset of LAS 1.5: what is added to a time of a record to make it GPS seconds - 1e9.
   double time_shift = 0;
-  bool crs_is_wkt = false;  // Well-known text states the coordinate system, not GeoTIFF keys.
+  bool crs_is_wkt = false;                          // Well-known text states the coordinate system, not GeoTIFF keys.
   std::array<double, 3> scale = {};                 // x, y, z; of a magnitude from kLeastScale to kGreatestScale.
   std::array<double, 3> offset = {};                // At most kGreatestOffset in magnitude.
   std::array<double, 3> least = {}, greatest = {};  // The bounds that the file states, true or not.

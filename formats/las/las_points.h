@@ -29,7 +29,8 @@ inline constexpr int kLowNoise = 7, kHighNoise = 18;  // ASPRS, LAS 1.4 R15, tab
 // whose classes end at 31.
 constexpr int DefaultClass(int point_format) { return point_format >= kFirstModernFormat ? 40 : 26; }
 
-// The classes of points seen through water: that one, and submerged objects (43), which older classes do not tell apart.
+// The classes of points seen through water: that one, and submerged objects (43), which older classes do not tell
+// apart.
 inline std::set<int> DefaultClasses(int point_format) {
   return point_format >= kFirstModernFormat ? std::set<int>{40, 43} : std::set<int>{26};
 }
@@ -40,9 +41,9 @@ inline std::set<int> UsualSurfaceClasses(int point_format) {
   return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
 }
 
-// Whether points of this class lie on land or on the water: neither noise nor under water. ASPRS, LAS Domain Profile for
-// Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 no bottom found, 46 overlapping bottom; in
-// older point formats what NOAA used before.
+// Whether points of this class lie on land or on the water: neither noise nor under water. ASPRS, LAS Domain Profile
+// for Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 no bottom found, 46 overlapping bottom;
+// in older point formats what NOAA used before.
 constexpr bool MayBeDry(int point_class, int point_format) {
   if (point_class == kLowNoise || point_class == kHighNoise) return false;
   if (point_format < kFirstModernFormat) return point_class != 25 && point_class != 26;

@@ -77,8 +77,9 @@ absl::Status LasReader::ReadHead() {
   return absl::OkStatus();
 }
 
-// LASzip's compatibility mode stores formats 6 to 10 as 1 to 5: classes above 31 as 0, scan angles as whole degrees, and
-// the rest in extra bytes of these names (LASzip 3.4.3, laszip_dll.cpp). The record of the mode may be lost on the way.
+// LASzip's compatibility mode stores formats 6 to 10 as 1 to 5: classes above 31 as 0, scan angles as whole degrees,
+// and the rest in extra bytes of these names (LASzip 3.4.3, laszip_dll.cpp). The record of the mode may be lost on the
+// way.
 absl::Status LasReader::CheckCompatibility() const {
   if (header_.point_format >= 6) return absl::OkStatus();
   for (const VlrEntry& vlr : vlrs_) {

@@ -26,17 +26,17 @@ struct LasHead {
   std::vector<ReplacedFloat> replaced;      // The floats that replace existing ones.
 };
 
-// The Extra Bytes record is extended in place, or added after the last VLR; of several, the first has all entries; then follows the LASzip record of LAZ. That
-// of the input is left out, and so are records that are not kept (IsKept). Bytes between the VLRs and the points are
-// kept. In the header only these fields change: offset to points, numbers of VLRs and EVLRs, record length, and the
-// mark of compressed points; where EVLRs and waveform packets begin is not known before the points are written
-// (MoveTailStarts). Fails when a field would overflow, or when DescribeAppended fails.
+// The Extra Bytes record is extended in place, or added after the last VLR; of several, the first has all entries; then
+// follows the LASzip record of LAZ. That of the input is left out, and so are records that are not kept (IsKept). Bytes
+// between the VLRs and the points are kept. In the header only these fields change: offset to points, numbers of VLRs
+// and EVLRs, record length, and the mark of compressed points; where EVLRs and waveform packets begin is not known
+// before the points are written (MoveTailStarts). Fails when a field would overflow, or when DescribeAppended fails.
 // With `replace`, floats that the records have already are not appended.
 absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended, LasKind kind,
                                       bool replace = false);
 
-// Whether a VLR or EVLR is valid for the copy. Of LAZ, the records of COPC, an index by the places of compressed points,
-// are not. An EVLR of Extra Bytes is not, because its entries are in the VLR of the copy.
+// Whether a VLR or EVLR is valid for the copy. Of LAZ, the records of COPC, an index by the places of compressed
+// points, are not. An EVLR of Extra Bytes is not, because its entries are in the VLR of the copy.
 bool IsKept(const LasReader& reader, const VlrEntry& entry);
 
 // Whether the file has records of COPC that are not kept.

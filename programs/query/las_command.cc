@@ -63,8 +63,7 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
                                   annotated.totals.Text(annotation.style.coverage, order));
-  if (annotated.dry.count() > 0)
-    absl::StrAppend(&text, "\n  ", annotated.dry.Text(annotation.style.coverage));
+  if (annotated.dry.count() > 0) absl::StrAppend(&text, "\n  ", annotated.dry.Text(annotation.style.coverage));
   for (const std::string& assumed : annotate::Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
   return text;
 }

@@ -60,8 +60,8 @@ struct CrossCheck {
 inline constexpr double kOutlier = 6;
 inline constexpr double kMinDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
 
-// Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs. The
-// lines of the result have their numbers as IDs.
+// Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs.
+// The lines of the result have their numbers as IDs.
 std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs);
 
 nlohmann::ordered_json CrossCheckJson(const CrossCheck& check);

@@ -39,9 +39,9 @@ std::string PointRecord(const LasSpec& spec, std::size_t index) {
   if (spec.point_format < 6) {
     Put<std::uint8_t>(bytes, 14, static_cast<std::uint8_t>(point.return_count << 3 | point.return_number));
     // The upper bits are flags (here: key point), not part of the class.
-    Put<std::uint8_t>(bytes, 15, static_cast<std::uint8_t>(0x40 | (point.withheld ? 0x80 : 0) |
-                                                            (point.synthetic ? 0x20 : 0) |
-                                                            (point.classification & 0x1F)));
+    Put<std::uint8_t>(bytes, 15,
+                      static_cast<std::uint8_t>(0x40 | (point.withheld ? 0x80 : 0) | (point.synthetic ? 0x20 : 0) |
+                                                (point.classification & 0x1F)));
     Put<std::int8_t>(bytes, 16, static_cast<std::int8_t>(std::lround(point.scan_angle)));
   } else {
     Put<std::uint8_t>(bytes, 14, static_cast<std::uint8_t>(point.return_count << 4 | point.return_number));

@@ -99,11 +99,11 @@ struct TwoRecords {
 TEST(LasCrs, TakesTheRecordThatTheHeaderNamesAndRemarksContradictions) {
   constexpr double kSurveyFoot = 1200.0 / 3937;
   const TwoRecords cases[] = {
-      {true, {{3072, 32617}}, 1, 0, false},                      // The same.
-      {true, {{3072, 32617}, {4099, 9003}}, 1, kSurveyFoot, false},  // The keys add a unit of heights.
+      {true, {{3072, 32617}}, 1, 0, false},                            // The same.
+      {true, {{3072, 32617}, {4099, 9003}}, 1, kSurveyFoot, false},    // The keys add a unit of heights.
       {true, {{3072, 2236}, {3076, 9003}, {4099, 9003}}, 1, 0, true},  // Left over from a map in feet.
-      {true, {{3072, 32618}, {4099, 9003}}, 1, 0, true},         // Another zone.
-      {true, {{2048, 4326}, {3072, 32767}}, 1, 0, false},        // A projection of the user's own.
+      {true, {{3072, 32618}, {4099, 9003}}, 1, 0, true},               // Another zone.
+      {true, {{2048, 4326}, {3072, 32767}}, 1, 0, false},              // A projection of the user's own.
       {false, {{3072, 32617}, {4099, 9001}}, 1, 1, false},
       {false, {{3072, 32618}, {4099, 9003}}, 1, kSurveyFoot, true},  // The keys count.
   };
