@@ -1,5 +1,5 @@
-// The whole budget of many pulses: the contribution of the sea surface from a table, added to those of the air side, the
-// water column and the datum.
+// The whole budget of many pulses: the contribution of the sea surface from a table, added to those of the air side,
+// the water column and the datum.
 #pragma once
 
 #include <array>

@@ -182,8 +182,8 @@ class SoundFlights(programs.Test):
             level = ("--water-level", survey.water_level)
             for surface in (level, ("--water-classes", 41), (*level, "--water-classes", 41))[i % 3::3]:
                 result = query("las", survey.las, folder / "out.las", "--table", PATHS["shipped_table"],
-                               "--classes", 40, "--trajectory", survey.sbet, "--lever-arm", "0.35,-0.12,0.42", "--wind-speed", 6,
-                               "--divergence", 1, *surface)
+                               "--classes", 40, "--trajectory", survey.sbet, "--lever-arm", "0.35,-0.12,0.42",
+                               "--wind-speed", 6, "--divergence", 1, *surface)
                 if result.returncode != 0:
                     refused.append((round(height, 2), surface, result.stderr.splitlines()[-1]))
         print(f"{FLIGHTS} sound flights: {len(refused)} refused")

@@ -51,7 +51,8 @@ class Mutations(FalseFiles):
         elif kind == "wkt":
             at = bytes(points.data).find(b"UTM zone")
             old, new = draw.choice([(b'"central_meridian",-81', b'"central_meridian",-75'),
-                                    (b'UNIT["metre",1', b'UNIT["metre",3'), (b"PROJCS", b"PROJXX"), (b"500000", b"400000")])
+                                    (b'UNIT["metre",1', b'UNIT["metre",3'), (b"PROJCS", b"PROJXX"),
+                                    (b"500000", b"400000")])
             points.data = bytearray(bytes(points.data).replace(old, new))
             self.assertGreater(at, 0)
         else:
