@@ -178,26 +178,6 @@ class BlockWork {
   AnswerSource source_;
 };
 
-// The flags of a total. A flag determines an axis only together with the other input of its way. The divergence of the
-// sensor is used where a file has neither footprints nor divergences.
-FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const formats::CsvRecord& header, bool& took_divergence) {
-  const auto is_known = [&](PulseInput input) {
-    if (fixed[input].has_value()) return true;
-    for (std::size_t i = 0; i < header.cell_count(); ++i) {
-      std::string name = header.Cell(i);
-      absl::StripAsciiWhitespace(&name);
-      if (name == Name(input)) return true;
-    }
-    return false;
-  };
-  took_divergence =
-      total.plan.divergence.has_value() && !is_known(PulseInput::kDivergence) && !is_known(PulseInput::kFootprint);
-  if (took_divergence) fixed[PulseInput::kDivergence] = static_cast<float>(*total.plan.divergence);
-  if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint)) fixed[PulseInput::kAltitude].reset();
-  if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();
-  return fixed;
-}
-
 std::string AnnotatedHeader(const formats::CsvRecord& header, const std::string& ending,
                             const std::vector<std::string>& names) {
   std::string text(header.text);
@@ -228,6 +208,23 @@ absl::Status AnnotateRecords(formats::CsvReader& reader, const BlockWork& work, 
 
 }  // namespace
 
+FixedInputs OfTotal(FixedInputs fixed, std::optional<double> divergence, const formats::CsvRecord& header) {
+  const auto is_known = [&](PulseInput input) {
+    if (fixed[input].has_value()) return true;
+    for (std::size_t i = 0; i < header.cell_count(); ++i) {
+      std::string name = header.Cell(i);
+      absl::StripAsciiWhitespace(&name);
+      if (name == Name(input)) return true;
+    }
+    return false;
+  };
+  if (divergence.has_value() && !is_known(PulseInput::kDivergence) && !is_known(PulseInput::kFootprint))
+    fixed[PulseInput::kDivergence] = static_cast<float>(*divergence);
+  if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint)) fixed[PulseInput::kAltitude].reset();
+  if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();
+  return fixed;
+}
+
 std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& style) {
   std::vector<std::string> names = {"total_thu", "total_tvu"};
   if (total.details) {
@@ -248,17 +245,12 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, con
   ASSIGN_OR_RETURN(formats::CsvReader reader, formats::CsvReader::Open(input));
   ASSIGN_OR_RETURN(const formats::CsvBlock header_block, reader.ReadHeader());
   formats::CsvRecord header;
-  ASSIGN_OR_RETURN(const bool has_header, formats::CsvRecords(reader.name(), header_block).Next(header));
-  if (!has_header || header.blank()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(input.string(), " line 1: is empty; begin the file with a header that names the columns"));
-  }
+  RETURN_IF_ERROR(formats::CsvRecords(reader.name(), header_block).Next(header).status());
   const std::vector<std::string> appended = total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
-  bool took_divergence = false;
-  ASSIGN_OR_RETURN(
-      const CsvPulses columns,
-      CsvPulses::Bind(input.string(), header,
-                      total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended));
+  const FixedInputs of_pulses = total != nullptr ? OfTotal(fixed, total->plan.divergence, header) : fixed;
+  const bool took_divergence =
+      of_pulses[PulseInput::kDivergence].has_value() && !fixed[PulseInput::kDivergence].has_value();
+  ASSIGN_OR_RETURN(const CsvPulses columns, CsvPulses::Bind(input.string(), header, of_pulses, appended));
   std::optional<CsvAircraft> aircraft;
   if (total != nullptr) {
     ASSIGN_OR_RETURN(aircraft, CsvAircraft::Bind(input.string(), header, fixed));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct CsvTotal {
   bool details = false;       // Append contributions and covariance, too.
   std::string wind_spectrum;  // Of the table of winds, for the height of the waves; empty over any sea.
 };
+
+// The flags of a total as they are bound with the columns of a file. A flag determines an axis only together with the
+// other input of its way. The divergence of the sensor [mrad], if it has one, is used where a file has neither
+// footprints nor divergences.
+FixedInputs OfTotal(FixedInputs fixed, std::optional<double> divergence, const formats::CsvRecord& header);
 
 // Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns
 // are ignored. Every record is copied byte for byte, including line ending, quotes and byte order mark, and followed by

@@ -116,6 +116,10 @@ std::vector<AxisId> MissingAxes(const formats::CsvRecord& header, const FixedInp
 
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats::CsvRecord& header,
                                           const FixedInputs& fixed, const std::vector<std::string>& appended) {
+  if (header.blank()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " line 1: is empty; begin the file with a header that names the columns"));
+  }
   const std::vector<std::string> names = ColumnNames(header);
   RETURN_IF_ERROR(CheckUnique(name, names, appended));
   CsvPulses pulses;

@@ -73,6 +73,20 @@ fs::path OutputName(const fs::path& name, const Extensions& extensions, const st
 
 }  // namespace
 
+bool IsOutputMissing(const FileOptions& options) {
+  return options.output_folder.empty() && (options.files.size() != 2 || IsFolder(options.files[0]));
+}
+
+std::string OutputAdvice(const std::string& extension) {
+  return absl::StrCat("give IN", extension, " OUT", extension, ", or --output-dir DIR and any number of inputs");
+}
+
+absl::StatusOr<std::string> FirstInput(const Extensions& extensions, const FileOptions& options) {
+  if (!IsFolder(options.files.front())) return options.files.front();
+  ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, FilesIn(options.files.front(), extensions, options));
+  return inputs.front().string();
+}
+
 bool HasExtension(const fs::path& path, const std::string& extension) {
   return absl::AsciiStrToLower(path.extension().string()) == extension;
 }
@@ -81,13 +95,9 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Exte
                                           const FileOptions& options) {
   const std::vector<std::string>& files = options.files;
   const std::string& extension = extensions.front();
-  if (options.output_folder.empty()) {
-    if (files.size() != 2 || options.recursive) {
-      return formats::UsageError(absl::StrCat(command, ": ", files.size(), " files; give IN", extension, " OUT",
-                                              extension, ", or --output-dir DIR and any number of inputs"));
-    }
-    return std::vector<Job>{{files[0], files[1]}};
-  }
+  if (IsOutputMissing(options))
+    return formats::UsageError(absl::StrCat(command, ": ", files.size(), " files; ", OutputAdvice(extension)));
+  if (options.output_folder.empty()) return std::vector<Job>{{files[0], files[1]}};
   if (!IsFolder(options.output_folder)) {
     return absl::NotFoundError(
         absl::StrCat("--output-dir: ", options.output_folder, " is not a folder; give one that exists"));

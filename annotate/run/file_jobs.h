@@ -30,6 +30,14 @@ struct Job {
   bool in_subfolder = false;  // Of the output folder; the subfolder may not exist yet.
 };
 
+// Whether neither OUT nor --output-dir says where outputs go; a folder has no OUT.
+bool IsOutputMissing(const FileOptions& options);
+// "give IN.las OUT.las, or ..."
+std::string OutputAdvice(const std::string& extension);
+
+// The first file; of a folder its first by name, as FindJobs takes them.
+absl::StatusOr<std::string> FirstInput(const std::vector<std::string>& extensions, const FileOptions& options);
+
 // Whether the name ends in this extension (".las"), in any case.
 bool HasExtension(const std::filesystem::path& path, const std::string& extension);
 

@@ -1,6 +1,7 @@
 #include "annotate/totals/plan_total.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -75,9 +76,7 @@ class ErrorPlan {
         Take(i);
     }
     plan_.hard_range = OneReturn();
-    if (missing_.empty()) return absl::OkStatus();
-    return formats::UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ", sensor_.title,
-                                            "; state it under [sigma] in the survey file"));
+    return absl::OkStatus();
   }
 
  private:
@@ -100,8 +99,8 @@ class ErrorPlan {
     }
     if (sensor_.errors.stated[i])
       return take(sensor_.errors.values, absl::StrCat(sensor_.name, ": ", sensor_.origins[i]), false);
-    if (!why.empty()) return take(assumed, absl::StrCat("assumed: ", why), true);
-    missing_.push_back(absl::StrCat(std::string(source.name), " (", std::string(source.unit), ")"));
+    assert(!why.empty());  // Otherwise UndecidedOf() has it.
+    take(assumed, absl::StrCat("assumed: ", why), true);
   }
 
   // m, of the range of a return from a surface.
@@ -132,9 +131,20 @@ class ErrorPlan {
   const config::Sensor& sensor_;
   bool index_of_state_;
   TotalPlan& plan_;
-  std::vector<std::string> missing_;
 };
 
+// "scan (degree)" of the sources that neither the user nor the sensor states, and for which nothing can be assumed.
+std::vector<std::string> MissingNumbers(const config::StatedErrors& given, const config::Sensor& sensor) {
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    const ErrorSource& source = kErrorSources[i];
+    if (source.assumption.empty() && !given.stated[i] && !sensor.errors.stated[i])
+      missing.push_back(absl::StrCat(std::string(source.name), " (", std::string(source.unit), ")"));
+  }
+  return missing;
+}
+
+// Requires that something says it: UndecidedOf() has it otherwise.
 absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface, const TotalContext& context) {
   if (surface.located.has_value()) {
     const auto found = std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
@@ -145,12 +155,7 @@ absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surfac
                      "\" needs returns from the surface, but only a level is given; give their classes, or "
                      "located = \"level\""));
   }
-  if (context.has_surface_returns) return SurfaceLocation::kLocal;
-  if (context.has_level) return SurfaceLocation::kLevel;
-  return formats::UsageError(
-      "nothing says how the surface was located when the points were made; give [surface] located = "
-      "\"pulse\" (by the "
-      "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
+  return context.has_surface_returns ? SurfaceLocation::kLocal : SurfaceLocation::kLevel;
 }
 
 }  // namespace
@@ -162,7 +167,7 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) 
           .has_level = surface.level.has_value()};
 }
 
-std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey) {
+std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey, const TotalContext& context) {
   std::vector<config::OpenDecision> open;
   if (!survey.datum.sigma.has_value()) {
     open.push_back({"datum",
@@ -176,13 +181,27 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
          "bias = \"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics "
          "of the water and the receiver, or column = \"none\" to leave it out"});
   }
+  if (!survey.surface.located.has_value() && !context.has_surface_returns && !context.has_level) {
+    open.push_back(
+        {"surface",
+         "nothing says how the surface was located when the points were made; give [surface] located = "
+         "\"pulse\" (by the return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a "
+         "water level)"});
+  }
+  if (!survey.wants_total()) return open;
+  const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*survey.sensor.name);
+  if (!sensor.ok()) return open;
+  if (const std::vector<std::string> missing = MissingNumbers(survey.sigma, *sensor); !missing.empty()) {
+    open.push_back({"sigma", absl::StrCat("no source gives ", absl::StrJoin(missing, " and "), " of ", sensor->title,
+                                          "; state it under [sigma] in the survey file")});
+  }
   return open;
 }
 
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
-  const std::vector<config::OpenDecision> open = UndecidedOf(survey);
-  if (!open.empty()) return formats::UsageError(open.front().message);
   ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*survey.sensor.name));
+  const std::vector<config::OpenDecision> open = UndecidedOf(survey, context);
+  if (!open.empty()) return formats::UsageError(open.front().message);
   ASSIGN_OR_RETURN(const SurfaceLocation located, LocationOf(survey.surface, context));
   TotalPlan plan;
   BudgetOptions& options = plan.options;

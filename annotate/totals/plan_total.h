@@ -56,12 +56,11 @@ struct TotalContext {
 // That of a command without a surface of its own: what the settings say.
 TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 
-// Whether a part of the total is not decided, so that its name would not be true: the datum, and the water column or
-// that it is left out.
-std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey);
+// What a total leaves open: the datum, and the water column or that it is left out, without which its name would not be
+// true; how the surface was located; the numbers that no source gives, if the sensor is named and known.
+std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey, const TotalContext& context);
 
-// UsageError where a number is missing that nothing gives, where the settings contradict each other, and where a part
-// of the total is not decided.
+// UsageError where something is not decided or the settings contradict each other.
 // `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 

@@ -1,6 +1,8 @@
 #include "programs/query/beam_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -16,11 +18,6 @@ namespace {
 
 using config::SurveySettings;
 
-constexpr double kFoot = 0.3048;                 // m, international; exact.
-constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, US survey; exact.
-
-double ParseUnit(const std::string& text) { return text == "ft" ? kFoot : text == "us-ft" ? kSurveyFoot : 1; }
-
 enum Way : unsigned { kTrajectory = 1, kReturns = 2, kScanner = 4, kIncidence = 8 };
 
 struct WayFlag {
@@ -34,6 +31,14 @@ std::array<WayFlag, 4> WayFlags(const BeamOptions& options, const config::Trajec
            {kReturns, "--trajectory-from-returns", trajectory.from_returns.value_or(false)},
            {kScanner, "--scanner", options.scanner.has_value()},
            {kIncidence, "--incidence", options.incidence.has_value()}}};
+}
+
+// All that are given.
+unsigned WaysGiven(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
+  unsigned given = 0;
+  for (const WayFlag& way : WayFlags(options, trajectory))
+    if (way.given) given |= way.way;
+  return given;
 }
 
 // Requires that one is given.
@@ -147,15 +152,10 @@ absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& s
         "las: the direction of the beam is given twice; give --azimuth (from downwind), or --wind-from and "
         "the true direction");
   }
-  if (plan.has_track()) return absl::OkStatus();
-  const bool scanner = std::holds_alternative<annotate::AcrossTrackScan>(plan.source);
-  const bool direction = scanner ? options.flight_direction.has_value() : options.beam_azimuth.has_value();
-  const std::string flag = scanner ? "--flight-direction" : "--beam-azimuth";
-  if (plan.wind_from.has_value() && !direction) {
-    return formats::UsageError(
-        absl::StrCat("las: --wind-from has no effect without ", flag, "; give both or none of them"));
-  }
-  if (!plan.wind_from.has_value() && direction && !details) {
+  if (plan.has_track() || plan.wind_from.has_value() || details) return absl::OkStatus();
+  for (const auto& [flag, direction] :
+       {std::pair("--flight-direction", options.flight_direction), std::pair("--beam-azimuth", options.beam_azimuth)}) {
+    if (!direction.has_value()) continue;
     return formats::UsageError(
         absl::StrCat("las: ", flag, " has no effect without --wind-from; give both or none of them"));
   }
@@ -212,22 +212,25 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags)
   AddNumber(command, "--aperture", Sign::kNotNegative,
             "Diameter of the beam where it leaves the sensor, with --divergence [m] (default: 0)", options.aperture)
       ->group(group::kPulse);
+  std::vector<std::string> words;
+  for (const HeightUnit& unit : kHeightUnits) words.emplace_back(unit.name);
   command
       .add_option_function<std::string>(
-          "--units", [&options](const std::string& text) { options.metres_per_unit = ParseUnit(text); },
+          "--units",
+          [&options](const std::string& text) {
+            options.metres_per_unit = std::ranges::find(kHeightUnits, text, &HeightUnit::name)->metres;
+          },
           "Unit of the file's heights and of --water-level: m, ft (international) or us-ft (US survey) "
           "(default: that "
           "of the file's coordinate system)")
-      ->type_name("m|ft|us-ft")
-      ->check(OneOf({"m", "ft", "us-ft"}))
+      ->type_name(absl::StrJoin(words, "|"))
+      ->check(OneOf(words))
       ->group(group::kPoints);
 }
 
 std::vector<config::OpenDecision> OpenDecisionsOf(const BeamOptions& options, const SurveySettings& settings) {
   std::vector<config::OpenDecision> open;
-  unsigned given = 0;
-  for (const WayFlag& way : WayFlags(options, settings.trajectory))
-    if (way.given) given |= way.way;
+  const unsigned given = WaysGiven(options, settings.trajectory);
   if (given == 0) {
     open.push_back({"trajectory",
                     "nothing says where each beam went; give --trajectory FILES, --trajectory-from-returns, --scanner "
@@ -244,9 +247,24 @@ std::vector<config::OpenDecision> OpenDecisionsOf(const BeamOptions& options, co
                     "heights, or a CSV file of heights by time) or --water-classes (the classes of returns from it: "
                     "41,42, or in point formats 0 to 5 mostly 9 or 27)"});
   }
+  // Where the direction of the wind counts, it takes that of the beams.
+  const char* const direction = given == kScanner && !options.flight_direction.has_value() ? "--flight-direction"
+                                : given == kIncidence && !options.beam_azimuth.has_value() ? "--beam-azimuth"
+                                                                                           : nullptr;
+  if (direction != nullptr && settings.sea.wind_from.has_value() && !settings.sea.has_waves() &&
+      !options.fixed[annotate::PulseInput::kAzimuth].has_value()) {
+    open.push_back(
+        {direction, absl::StrCat("--wind-from has no effect without ", direction, "; give both or none of them")});
+  }
   const bool track = given == 0 || (given & (kTrajectory | kReturns)) != 0;
   if (!IsSizeKnown(options, track)) open.push_back({"beam size", SizeMessage("missing", track)});
   return open;
+}
+
+bool GoesWith(std::string_view flag_of_way, const BeamOptions& options, const SurveySettings& flags) {
+  const auto ways = WayFlags(options, flags.trajectory);
+  const auto way = std::ranges::find(ways, flag_of_way, &WayFlag::flag);
+  return way != ways.end() && CheckFlagsOf(*way, options, flags).ok();
 }
 
 absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,

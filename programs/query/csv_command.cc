@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
+#include "config/sensors/sensor.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
@@ -78,57 +81,101 @@ absl::StatusOr<std::optional<annotate::CsvTotal>> TotalOf(const CsvOptions& opti
 }
 
 // One number for all pulses by which an example works.
-std::string ExampleOf(AxisId axis) {
-  switch (axis) {
-    case AxisId::kIncidence:
-      return "20";
-    case AxisId::kFootprint:
-      return "0.5";
+float ExampleOf(annotate::PulseInput input) {
+  switch (input) {
+    case annotate::PulseInput::kIncidence:
+      return 20;
+    case annotate::PulseInput::kFootprint:
+      return 0.5F;
+    case annotate::PulseInput::kAltitude:
+      return 400;
+    case annotate::PulseInput::kDivergence:
+      return 1;
     default:
-      return "5";  // m/s of wind, m of depth
+      return 5;  // m/s of wind, m of depth
   }
 }
 
-// What is open before any pulse is read; found and example by the header of the first file, if it is one on disk.
-FirstContact ContactOf(const CsvOptions& options, const config::SurveySettings& settings,
-                       const std::vector<std::string>& given) {
-  FirstContact contact{.command = "csv", .example = given};
-  const std::string& input = options.files.files.front();
-  if (IsOutputMissing(options.files)) {
-    contact.open.push_back(MissingOutput(".csv"));
-    contact.example.insert(contact.example.begin() + 2, ExampleOutput(input));
+// The flag of an example that closes what a total leaves open; empty: none does.
+std::vector<std::string> ExampleFlag(const std::string& section) {
+  if (section == "datum") return {"--datum-sigma", "0.1"};
+  if (section == "water") return {"--water-column", "none"};
+  if (section == "surface") return {"--surface-located", "pulse"};
+  return {};
+}
+
+constexpr char kColumns[] = "columns";  // The section of decisions that columns of a file close.
+
+// What the columns of a file leave open, in `contact`. Fails where no flag mends it.
+absl::Status AddColumns(const std::string& input, annotate::FixedInputs fixed, const config::Sensor* sensor,
+                        FirstContact& contact) {
+  ASSIGN_OR_RETURN(formats::CsvReader reader, formats::CsvReader::Open(input));
+  ASSIGN_OR_RETURN(const formats::CsvBlock block, reader.ReadHeader());
+  formats::CsvRecord header;
+  RETURN_IF_ERROR(formats::CsvRecords(input, block).Next(header).status());
+  contact.found = {absl::StrCat(PrintableText(input), ": columns ", PrintableText(header.text))};
+  const auto give = [&](annotate::PulseInput input_of_example) {
+    fixed[input_of_example] = ExampleOf(input_of_example);
+    contact.example.insert(contact.example.end(), {FlagName(input_of_example), absl::StrCat(*fixed[input_of_example])});
+  };
+  if (sensor != nullptr) {
+    if (const absl::Status bound = annotate::CsvAircraft::Bind(input, header, fixed).status(); !bound.ok()) {
+      contact.open.push_back({kColumns, std::string(bound.message())});
+      give(annotate::PulseInput::kAltitude);
+    }
+    fixed =
+        annotate::OfTotal(fixed, sensor->divergence ? std::optional(sensor->divergence->value) : std::nullopt, header);
   }
+  const std::vector<AxisId> missing = annotate::MissingAxes(header, fixed);
+  if (!missing.empty()) {
+    contact.open.push_back(
+        {kColumns, std::string(annotate::CsvPulses::Bind(input, header, fixed, {}).status().message())});
+  }
+  for (const AxisId axis : missing) {  // Half of another way takes the other half.
+    const bool footprint = axis == AxisId::kFootprint;
+    give(footprint && fixed[annotate::PulseInput::kAltitude].has_value()     ? annotate::PulseInput::kDivergence
+         : footprint && fixed[annotate::PulseInput::kDivergence].has_value() ? annotate::PulseInput::kAltitude
+                                                                             : annotate::InputOf(axis));
+  }
+  return annotate::CsvPulses::Bind(input, header, fixed, {}).status();
+}
+
+// What is open before any pulse is read; found and example by the header of the first file, if it is one on disk.
+// Fails where something is wrong that no flag mends.
+absl::Status LookAtPulses(const CsvOptions& options, const config::SurveySettings& settings, FirstContact& contact) {
+  AddMissingOutput(options.files, ".csv", contact);
+  std::optional<config::Sensor> sensor;
+  bool closed = true;
   if (settings.wants_total()) {
-    for (config::OpenDecision& decision : annotate::UndecidedOf(settings)) {
-      const bool datum = decision.section == "datum";
-      contact.example.insert(contact.example.end(),
-                             {datum ? "--datum-sigma" : "--water-column", datum ? "0.1" : "none"});
+    ASSIGN_OR_RETURN(sensor, config::FindSensor(*settings.sensor.name));
+    for (config::OpenDecision& decision :
+         annotate::UndecidedOf(settings, annotate::ContextOf(settings, options.style.coverage))) {
+      const std::vector<std::string> flag = ExampleFlag(decision.section);
+      closed = closed && !flag.empty();
+      contact.example.insert(contact.example.end(), flag.begin(), flag.end());
       contact.open.push_back(std::move(decision));
     }
   }
+  ASSIGN_OR_RETURN(const std::string input, annotate::FirstInput({".csv"}, options.files));
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(input, unknown)) return contact;
-  absl::StatusOr<formats::CsvReader> reader = formats::CsvReader::Open(input);
-  if (!reader.ok()) return contact;
-  const absl::StatusOr<formats::CsvBlock> block = reader->ReadHeader();
-  if (!block.ok()) return contact;
-  formats::CsvRecord header;
-  const absl::StatusOr<bool> any = formats::CsvRecords(input, *block).Next(header);
-  if (!any.ok() || !*any) return contact;
   annotate::FixedInputs fixed = options.fixed;
   TakeWind(settings.sea, fixed);
-  contact.found = {absl::StrCat(PrintableText(input), ": columns ", PrintableText(header.text))};
-  const absl::Status bound = annotate::CsvPulses::Bind(input, header, fixed, {}).status();
-  for (const AxisId axis : annotate::MissingAxes(header, fixed))
-    contact.example.insert(contact.example.end(), {annotate::FlagName(axis), ExampleOf(axis)});
-  if (!bound.ok()) contact.open.push_back({"columns", std::string(bound.message())});
-  return contact;
+  if (std::filesystem::is_regular_file(input, unknown) || !std::filesystem::exists(input, unknown))
+    RETURN_IF_ERROR(AddColumns(input, fixed, sensor.has_value() ? &*sensor : nullptr, contact));
+  if (!closed) contact.example.clear();
+  return absl::OkStatus();
 }
 
 absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(given.flags));
-  if (const FirstContact contact = ContactOf(given, settings, GivenArguments(command)); contact.open.size() > 1)
+  FirstContact contact{.command = "csv", .example = GivenArguments(command)};
+  const absl::Status look = LookAtPulses(given, settings, contact);
+  // Of several files, others may have the columns that the first one lacks.
+  const auto of_columns = std::ranges::count(contact.open, std::string_view(kColumns), &config::OpenDecision::section);
+  if (contact.open.size() > 1 && std::ssize(contact.open) > of_columns) {
+    RETURN_IF_ERROR(look);
     return Refuse(contact);
+  }
   const config::SeaSettings& sea = settings.sea;
   CsvOptions options = given;
   TakeStyle(settings.output, options.style);

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/strip.h"
 #include "annotate/totals/plan_total.h"
 #include "formats/text/text.h"
 #include "programs/query/las_look.h"
 #include "service/printable_text.h"
+#include "status/status_macros.h"
 
 namespace albtpu::programs {
 namespace {
@@ -32,89 +33,91 @@ std::string ForShell(const std::string& argument) {
   return absl::StrCat("'", absl::StrReplaceAll(argument, {{"'", "'\\''"}}), "'");
 }
 
-std::string CommandLine(const Arguments& arguments) {
-  return absl::StrCat("albtpu-query ", absl::StrJoin(arguments, " ", [](std::string* text, const std::string& each) {
-                        text->append(ForShell(each));
-                      }));
-}
-
 void AppendLines(const std::string& heading, const Arguments& lines, std::string& text) {
   if (lines.empty()) return;
   absl::StrAppend(&text, heading, "\n");
-  for (const std::string& line : lines) absl::StrAppend(&text, "  ", line, "\n");
+  for (const std::string& line : lines) absl::StrAppend(&text, "  ", PrintableText(line), "\n");
 }
 
 Arguments Numbered(const std::vector<OpenDecision>& open, std::size_t first) {
   Arguments lines;
-  for (const OpenDecision& decision : open)
-    lines.push_back(absl::StrCat(first + lines.size(), ". ", PrintableText(decision.message)));
+  for (const OpenDecision& decision : open) lines.push_back(absl::StrCat(first + lines.size(), ". ", decision.message));
   return lines;
 }
 
-// FLAG [VALUE] of an example.
-struct ExampleFlag {
-  Arguments words;
-  bool has_key = false;  // Of the survey file.
-};
-
-// Adds a flag unless it is there.
-void Add(const ExampleFlag& flag, std::vector<ExampleFlag>& flags) {
-  const auto name = [](const ExampleFlag& each) { return each.words.front(); };
-  if (std::ranges::count(flags, flag.words.front(), name) == 0) flags.push_back(flag);
+// The options that `arguments` of `las` give. False where it does not take them.
+bool ParseLas(const Arguments& arguments, LasOptions& options) {
+  CLI::App command;
+  AddLasOptions(command, options);
+  try {
+    command.parse(Arguments(arguments.rbegin(), arguments.rend() - 1));  // In reverse, without "las".
+  } catch (const CLI::ParseError&) {
+    return false;
+  }
+  return true;
 }
 
-bool IsOpen(const std::vector<OpenDecision>& open, std::string_view section) {
-  return std::ranges::count(open, section, &OpenDecision::section) > 0;
+// The flags that say where each beam went, by one of the ways that contradict none of the given flags.
+Arguments WayOf(const Suggestions& suggestions, const LasOptions& options) {
+  std::vector<Arguments> ways = {suggestions.by_angle, kExampleScanner, kExampleIncidence};
+  for (const DraftValue& value : suggestions.values)
+    if (value.section == "trajectory")
+      ways.insert(value.key == "from_returns" ? ways.begin() : ways.end(), config::FlagOf(value));
+  for (const Arguments& way : ways)
+    if (GoesWith(way.front(), options.beams, options.flags.settings)) return way;
+  return {};
 }
 
-// The flags that close what is open.
-std::vector<ExampleFlag> FlagsThatClose(const std::vector<OpenDecision>& open, const Suggestions& suggestions,
-                                        const LasOptions& options, const config::SurveySettings& settings) {
-  std::vector<ExampleFlag> flags;
-  const bool by_angle = IsOpen(open, "trajectory") && !suggestions.from_returns;
-  for (const OpenDecision& decision : open) {
-    if (decision.section == "trajectory" && by_angle) {
-      Add({suggestions.by_angle}, flags);
-      Add({kExampleAltitude}, flags);
-    } else if (decision.section == "altitude") {
-      Add({kExampleAltitude}, flags);
-    } else if (decision.section == "units") {
-      if (!suggestions.units.empty()) Add({suggestions.units}, flags);
-    } else if (const DraftValue* value = FirstOf(suggestions, decision.section)) {
-      Add({FlagOf(*value), true}, flags);
+// The flag that closes a decision, with its value; empty: none does.
+Arguments FlagThatCloses(const OpenDecision& decision, const Suggestions& suggestions, const LasOptions& options) {
+  if (decision.section == "trajectory") return WayOf(suggestions, options);
+  if (decision.section == "units") return suggestions.units;
+  if (decision.section == "beam size" && !options.beams.divergence.has_value()) return {"--divergence", "1"};
+  if (decision.section == "beam size" || decision.section == kExampleAltitude.front()) return kExampleAltitude;
+  if (decision.section.starts_with("--")) return {decision.section, "0"};
+  const DraftValue* const value = FirstOf(suggestions, decision.section);
+  return value != nullptr ? config::FlagOf(*value) : Arguments();
+}
+
+// What the options leave open once there is a sensor, the size of the beam last: the sensor may say it.
+absl::StatusOr<std::vector<OpenDecision>> OpenOfExample(const LasOptions& options,
+                                                        const config::SurveySettings& settings, const LasLook& look,
+                                                        const Suggestions& suggestions) {
+  ASSIGN_OR_RETURN(std::vector<OpenDecision> open, OpenDecisionsOf(options, settings));
+  if (!settings.wants_total() && FirstOf(suggestions, "sensor") != nullptr) open.push_back({"sensor", ""});
+  if (!look.units_message.empty() && !options.beams.metres_per_unit.has_value()) open.push_back({"units", ""});
+  if (settings.output.classes.empty() && FirstOf(suggestions, "output") != nullptr) open.push_back({"output", ""});
+  std::ranges::stable_partition(open, [](const OpenDecision& each) { return each.section != "beam size"; });
+  return open;
+}
+
+// Adds to the example of `contact` what closes all that is open, one flag after the other, and what it assumes. Where
+// flags alone cannot, or the given ones contradict each other, there is no example.
+absl::Status CompleteExample(const LasLook& look, const Suggestions& suggestions, FirstContact& contact) {
+  while (true) {
+    LasOptions options;
+    if (!ParseLas(contact.example, options)) break;
+    ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
+    ASSIGN_OR_RETURN(const std::vector<OpenDecision> open, OpenOfExample(options, settings, look, suggestions));
+    if (open.empty()) {
+      const absl::StatusOr<annotate::LasAnnotation> annotation = Annotation(options, settings);
+      absl::Status status = annotation.status();
+      if (status.ok()) status = OutputKind(options).status();
+      if (status.ok()) {
+        if (annotation->total.has_value()) contact.assumed = annotate::Assumptions(*annotation->total);
+        return absl::OkStatus();
+      }
+      contact.open.push_back({"", std::string(absl::StripPrefix(status.message(), contact.command + ": "))});
+      break;
     }
+    Arguments flag;
+    for (auto each = open.begin(); flag.empty() && each != open.end(); ++each)
+      flag = FlagThatCloses(*each, suggestions, options);
+    if (flag.empty() || std::ranges::count(contact.example, flag.front()) > 0) break;
+    contact.example.insert(contact.example.end(), flag.begin(), flag.end());
   }
-  // A sensor of the example has a divergence.
-  if (IsOpen(open, "beam size") && !IsOpen(open, "sensor")) {
-    if (!options.beams.divergence.has_value()) Add({{"--divergence", "1"}}, flags);
-    if (options.beams.scanner.has_value() || options.beams.incidence.has_value()) Add({kExampleAltitude}, flags);
-  }
-  const DraftValue* const classes = FirstOf(suggestions, "output");
-  if (settings.output.classes.empty() && classes != nullptr) Add({FlagOf(*classes), true}, flags);
-  return flags;
-}
-
-// What a total by these settings, with the flags of the example, would assume.
-Arguments AssumedWith(const std::vector<ExampleFlag>& flags, const LasOptions& options,
-                      config::SurveySettings settings) {
-  for (const auto& [words, has_key] : flags) {
-    if (!has_key) continue;
-    const config::FlagKey key = config::FindFlag(words.front());
-    const absl::StatusOr<config::Value> value = ParseValue(*key.declaration, words.size() > 1 ? words[1] : "");
-    if (value.ok()) key.put(*value, settings);
-  }
-  if (!settings.wants_total()) return {};
-  const absl::StatusOr<annotate::TotalPlan> plan = annotate::PlanTotal(
-      settings, {.has_surface_returns = !settings.surface.classes.empty(),
-                 .has_level = settings.surface.level.has_value(),
-                 .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"});
-  if (!plan.ok()) return {};
-  Arguments lines = annotate::Assumptions(*plan);
-  if (!options.beams.divergence.has_value() && plan->divergence.has_value()) {
-    const annotate::StatedNumber number = annotate::AssumedDivergence(*plan->divergence);
-    lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
-  }
-  return lines;
+  contact.example.clear();
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -126,7 +129,9 @@ absl::Status Refuse(const FirstContact& contact) {
   AppendLines("And for totals; without a sensor, only the contribution of the sea surface is given:",
               Numbered(contact.of_total, contact.open.size() + 1), text);
   AppendLines("Assumed where nothing else is given:", contact.assumed, text);
-  AppendLines("For example, with the numbers of your survey in place of these:", {CommandLine(contact.example)}, text);
+  if (!contact.example.empty())
+    AppendLines("For example, with the numbers of your survey in place of these:", {CommandLine(contact.example)},
+                text);
   if (!contact.remedy.empty())
     AppendLines("Or begin a file of all settings:", {CommandLine(contact.remedy) + " > survey.toml"}, text);
   std::fputs(text.c_str(), stderr);
@@ -134,6 +139,12 @@ absl::Status Refuse(const FirstContact& contact) {
       contact.command, ": ", contact.open.size() + contact.of_total.size(), " decisions are missing (listed above); ",
       contact.remedy.empty() ? "give them by flags or in the file"
                              : "give them by flags, or in a survey file (albtpu-query init)"));
+}
+
+std::string CommandLine(const Arguments& arguments) {
+  return absl::StrCat("albtpu-query ", absl::StrJoin(arguments, " ", [](std::string* text, const std::string& each) {
+                        text->append(ForShell(each));
+                      }));
 }
 
 std::vector<std::string> GivenArguments(const CLI::App& command) {
@@ -154,54 +165,45 @@ std::vector<std::string> GivenArguments(const CLI::App& command) {
   return words;
 }
 
-std::string ExampleOutput(const std::string& input) {
+std::string ExampleOutput(const std::string& input, const std::string& extension) {
   const fs::path path(input);
-  return absl::StrCat(path.stem().string(), "_tpu", path.extension().string());
+  return absl::StrCat(path.stem().string(), "_tpu", extension.empty() ? path.extension().string() : extension);
 }
 
-FirstContact ContactOf(const LasOptions& options, const config::SurveySettings& settings,
-                       std::vector<OpenDecision> open, const std::vector<std::string>& given) {
-  FirstContact contact{.command = "las", .open = std::move(open), .example = given};
-  const std::string& input = options.files.files.front();
-  if (!settings.wants_total()) {
-    contact.of_total.push_back({"sensor", "no sensor is named; give --sensor NAME (albtpu-query sensors lists them)"});
-    for (OpenDecision& decision : annotate::UndecidedOf(settings)) contact.of_total.push_back(std::move(decision));
-  }
-  if (IsOutputMissing(options.files)) {
-    contact.open.insert(contact.open.begin(), MissingOutput(".las"));
-    contact.example.insert(contact.example.begin() + 2, ExampleOutput(input));
-  }
+void AddMissingOutput(const annotate::FileOptions& files, const std::string& extension, FirstContact& contact) {
+  if (!annotate::IsOutputMissing(files)) return;
+  contact.open.insert(contact.open.begin(),
+                      {"output file", absl::StrCat("the output is missing; ", annotate::OutputAdvice(extension))});
+  const std::string& input = files.files.front();
   std::error_code unknown;
-  if (fs::is_directory(input, unknown)) return contact;
-  contact.remedy = {"init", input};
-  const absl::StatusOr<LasLook> look = LookAt(input, kPointsOfALook);
-  if (!look.ok()) {
-    contact.found = {PrintableText(std::string(look.status().message()))};
-    return contact;
+  Arguments& example = contact.example;  // COMMAND FILES..., then flags.
+  if (files.files.size() == 1 && !fs::is_directory(input, unknown))
+    example.insert(example.begin() + 2, ExampleOutput(input, files.output_extension));
+  else if (files.files.size() == 2)
+    example.insert(example.begin() + 2, "--output-dir");  // FOLDER OUT
+  else
+    example.insert(example.begin() + 1 + static_cast<std::ptrdiff_t>(files.files.size()), {"--output-dir", "FOLDER"});
+}
+
+absl::StatusOr<FirstContact> ContactOf(const LasOptions& options, const config::SurveySettings& settings,
+                                       std::vector<OpenDecision> open, const Arguments& given) {
+  ASSIGN_OR_RETURN(const std::string input, annotate::FirstInput(LasExtensions(), options.files));
+  ASSIGN_OR_RETURN(const LasLook look, LookAt(input, kPointsOfALook));
+  FirstContact contact{.command = "las", .found = FoundLines(look), .open = std::move(open), .example = given};
+  if (!settings.wants_total()) {
+    contact.of_total = annotate::UndecidedOf(settings, {.has_level = true});
+    contact.of_total.insert(contact.of_total.begin(),
+                            {"sensor", "no sensor is named; give --sensor NAME (albtpu-query sensors lists them)"});
   }
-  contact.found = FoundLines(*look);
-  if (!look->units_message.empty() && !options.beams.metres_per_unit.has_value())
-    contact.open.push_back({"units", look->units_message});
-  const absl::StatusOr<Suggestions> suggestions = SuggestionsFor(std::span(&*look, 1));
-  if (!suggestions.ok()) return contact;
-  std::vector<OpenDecision> all = contact.open;
-  if (FirstOf(*suggestions, "sensor") != nullptr)
-    all.insert(all.end(), contact.of_total.begin(), contact.of_total.end());
-  const std::vector<ExampleFlag> flags = FlagsThatClose(all, *suggestions, options, settings);
-  for (const ExampleFlag& flag : flags)
-    if (std::ranges::count(contact.example, flag.words.front()) == 0)
-      contact.example.insert(contact.example.end(), flag.words.begin(), flag.words.end());
-  contact.assumed = AssumedWith(flags, options, settings);
+  annotate::FileOptions files = options.files;
+  if (options.format.has_value()) files.output_extension = formats::Extension(*options.format);
+  AddMissingOutput(files, ".las", contact);
+  if (!options.flags.survey.has_value()) contact.remedy = {"init", input};
+  if (!look.units_message.empty() && !options.beams.metres_per_unit.has_value())
+    contact.open.push_back({"units", look.units_message});
+  ASSIGN_OR_RETURN(const Suggestions suggestions, SuggestionsFor(std::span(&look, 1)));
+  RETURN_IF_ERROR(CompleteExample(look, suggestions, contact));
   return contact;
-}
-
-bool IsOutputMissing(const annotate::FileOptions& files) {
-  return files.files.size() == 1 && files.output_folder.empty();
-}
-
-OpenDecision MissingOutput(const std::string& extension) {
-  return {"output file", absl::StrCat("the output is missing; give IN", extension, " OUT", extension,
-                                      ", or --output-dir DIR and any number of inputs")};
 }
 
 }  // namespace albtpu::programs

@@ -17,6 +17,7 @@
 #include "programs/query/commands.h"
 #include "programs/query/first_contact.h"
 #include "programs/query/las_look.h"
+#include "service/printable_text.h"
 #include "status/status_macros.h"
 
 namespace albtpu::programs {
@@ -33,22 +34,21 @@ std::string SensorNames() {
 
 // What nothing that was found answers.
 std::vector<OpenDecision> DecisionsOf(const Suggestions& suggestions) {
+  const std::string names = SensorNames();
   std::vector<OpenDecision> open = {
-      {"sensor",
-       absl::StrCat("the lidar, for totals; without it, only the contribution of the sea surface is given. Known: ",
-                    SensorNames(), "; others by a file of their own")}};
+      {"sensor", absl::StrCat("the lidar, for totals; without it, only the contribution of the sea surface is given",
+                              names.empty() ? "" : ". Known: " + names + "; others by a file of their own")}};
   for (const OpenDecision& decision : OpenDecisionsOf(BeamOptions(), config::SurveySettings()))
-    if (decision.section != "beam size") open.push_back(decision);
-  for (const OpenDecision& decision : annotate::UndecidedOf(config::SurveySettings())) open.push_back(decision);
+    if (decision.section != "beam size" && (decision.section != "trajectory" || suggestions.times))
+      open.push_back(decision);
+  for (const OpenDecision& decision : annotate::UndecidedOf(config::SurveySettings(), {.has_level = true}))
+    open.push_back(decision);
   open.push_back({"output", "no points are of a class that stands for the bottom; name those that do by classes"});
   std::erase_if(open, [&](const OpenDecision& decision) {
     const config::DraftValue* first = FirstOf(suggestions, decision.section);
     if (decision.section == "output") return first == nullptr || first->found;
     return first != nullptr && first->found;
   });
-  for (OpenDecision& decision : open)
-    if (decision.section == "trajectory" && !suggestions.times)
-      decision.message = "the points have no GPS times, so that no trajectory can be used; leave this section as it is";
   return open;
 }
 
@@ -58,8 +58,7 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
       "decided is marked DECIDE: remove the # from one of the lines below such a mark and put in what holds for the "
       "survey. All other keys stand with their unit, range and default; a # before a key leaves it at its default.",
       "Then:"};
-  const auto join = [](const std::vector<std::string>& flags) { return absl::StrJoin(flags, " "); };
-  std::vector<std::string> command = {"albtpu-query", "las"};
+  std::vector<std::string> command = {"las"};
   if (looks.size() == 1)
     command.insert(command.end(), {looks[0].path, ExampleOutput(looks[0].path)});
   else
@@ -69,10 +68,16 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
   std::vector<std::string> by_angle = suggestions.by_angle;
   by_angle.insert(by_angle.end(), kExampleAltitude.begin(), kExampleAltitude.end());
   if (!suggestions.times) command.insert(command.end(), by_angle.begin(), by_angle.end());
-  lines.push_back("  " + join(command));
-  if (suggestions.times)
-    lines.push_back(
-        absl::StrCat("Where there is no trajectory at all, `", join(by_angle), "` in that line takes its place."));
+  lines.push_back("  " + CommandLine(command));
+  lines.push_back(suggestions.times
+                      ? absl::StrCat("Where there is no trajectory at all, `", absl::StrJoin(by_angle, " "),
+                                     "` in that line takes its place.")
+                      : absl::StrCat("The points", suggestions.some_times ? " of some files" : "",
+                                     " have no GPS times, so that no trajectory can be used",
+                                     suggestions.some_times ? " for them" : "", "; leave [trajectory] as it is."));
+  lines.push_back(
+      "Without a sensor, or with one whose divergence is not known, add `--divergence MRAD` (or `--footprint M`) to "
+      "that line.");
   lines.push_back("");
   lines.push_back("Found:");
   for (const LasLook& look : looks)
@@ -81,6 +86,7 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
   for (const LasLook& look : looks)
     for (const std::string& message : {look.crs_message, look.units_message})
       if (!message.empty()) lines.push_back("DECIDE, on the command line: " + message);
+  for (std::string& line : lines) line = PrintableText(line);  // A line break would end the comment.
   return lines;
 }
 

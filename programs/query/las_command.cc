@@ -148,16 +148,15 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
   const config::SeaSettings& sea = settings.sea;
   ASSIGN_OR_RETURN(const std::vector<config::OpenDecision> open, OpenDecisionsOf(options, settings));
-  if (!open.empty() && open.size() + (IsOutputMissing(options.files) ? 1 : 0) > 1)
-    return Refuse(ContactOf(options, settings, open, GivenArguments(command)));
+  if (!open.empty() && open.size() + (annotate::IsOutputMissing(options.files) ? 1 : 0) > 1) {
+    ASSIGN_OR_RETURN(const FirstContact contact, ContactOf(options, settings, open, GivenArguments(command)));
+    return Refuse(contact);
+  }
   ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   annotate::FileOptions file_options = options.files;
   if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
-  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs,
-                   annotate::FindJobs(
-                       "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)},
-                       file_options));
+  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), file_options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
   ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
   annotation.seas = answerer.timeline();

@@ -15,6 +15,7 @@
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
 #include "formats/trajectories/trajectory_time.h"
+#include "programs/query/beam_options.h"
 #include "service/printable_text.h"
 #include "status/status_macros.h"
 
@@ -28,8 +29,9 @@ using formats::LasClassContents;
 constexpr std::uint64_t kEnoughPairs = 100;
 
 std::string UnitName(double metres) {
-  const auto is = [&](double other) { return std::abs(metres - other) < 1e-7; };
-  return is(1) ? "m" : is(0.3048) ? "ft" : is(1200.0 / 3937) ? "us-ft" : absl::StrFormat("units of %.9g m", metres);
+  for (const HeightUnit& unit : kHeightUnits)
+    if (std::abs(metres - unit.metres) < 1e-7) return std::string(unit.name);
+  return absl::StrFormat("units of %.9g m", metres);
 }
 
 void LookAtPlace(const formats::LasReader& reader, LasLook& look) {
@@ -70,21 +72,23 @@ std::string TimesText(const LasLook& look) {
   const formats::TimeSpan span{contents.first_time, contents.last_time};
   if (!formats::HasGpsTime(look.header.point_format))
     return absl::StrCat("none (point format ", look.header.point_format, "): no trajectory can be used");
-  if (!contents.has_times()) return "none: all of them are equal or no numbers, so that no trajectory can be used";
+  if (!contents.has_times()) return "none: all are equal or not finite, so that no trajectory can be used";
   const bool week_seconds = span.first >= 0 && span.last <= formats::kSecondsPerWeek;
   if (!look.header.adjusted_gps_time) {
-    return absl::StrFormat("%.1f to %.1f s, by the header seconds of the GPS week%s", span.first, span.last,
+    return absl::StrFormat("%.1f to %.1f s, which are seconds of the GPS week according to the header%s", span.first,
+                           span.last,
                            week_seconds ? ", whose date is not known"
                                         : "; but these are more than a week has, mostly adjusted standard GPS time "
                                           "(set bit 0 of the global encoding)");
   }
   const double first = span.first + formats::kAdjustedGpsOffset, last = span.last + formats::kAdjustedGpsOffset;
   if (!(first >= 0 && last < 1e11))
-    return absl::StrFormat("%.1f to %.1f s, by the header adjusted standard GPS time, but before 1980 or after 5000",
-                           span.first, span.last);
+    return absl::StrFormat(
+        "%.1f to %.1f s, which are adjusted standard GPS time according to the header, but before 1980 or after 5000",
+        span.first, span.last);
   const double now = static_cast<double>(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
   constexpr double kGpsEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact
-  return absl::StrFormat("%s to %s, by the header adjusted standard GPS time%s", formats::UtcText(first),
+  return absl::StrFormat("%s to %s, by adjusted standard GPS time according to the header%s", formats::UtcText(first),
                          formats::UtcText(last),
                          last > now - kGpsEpoch + 86400 ? "; but this is in the future: they are of another kind"
                          : week_seconds                 ? "; but they may be seconds of a week (clear bit 0 of the "
@@ -103,7 +107,7 @@ std::string PlaceText(const LasLook& look) {
 }
 
 std::string ScanText(const formats::LasContents& contents) {
-  constexpr const char* kNames[] = {"unknown", "palmer or the like (ellipses, by how often each angle occurs)",
+  constexpr const char* kNames[] = {"unknown", "elliptical, such as Palmer (judged by how often each angle occurs)",
                                     "raster (lines across the track)"};
   return absl::StrFormat("%s; scan angles %.1f to %.1f degree", kNames[static_cast<int>(contents.scan_pattern())],
                          contents.least_angle, contents.greatest_angle);
@@ -130,23 +134,33 @@ std::optional<int> MostFrequent(const LasLook& look) {
   return best;
 }
 
-// The sensor that the software in a header names, or one of which everything needed is known.
+// Whether a text names a sensor: "RIEGL VQ-840-GE" is not "RIEGL VQ-840-G".
+bool DoesName(const std::string& text, const config::Sensor& sensor) {
+  const std::string lower = absl::AsciiStrToLower(text), title = absl::AsciiStrToLower(sensor.title);
+  for (std::size_t at = lower.find(title); at != std::string::npos; at = lower.find(title, at + 1)) {
+    const std::size_t end = at + title.size();
+    if (end == lower.size() || !absl::ascii_isalnum(static_cast<unsigned char>(lower[end]))) return true;
+  }
+  return false;
+}
+
+// The sensor that the software in a header names, by its longest title, or one of which everything needed is known.
 absl::StatusOr<std::optional<config::Sensor>> ExampleSensor(std::span<const LasLook> looks) {
   ASSIGN_OR_RETURN(const std::vector<config::Sensor> sensors, config::ListSensors());
-  std::optional<config::Sensor> example;
+  std::optional<config::Sensor> named, example;
   for (const config::Sensor& sensor : sensors) {
-    for (const LasLook& look : looks)
-      if (absl::AsciiStrToLower(look.software).find(absl::AsciiStrToLower(sensor.title)) != std::string::npos)
-        return sensor;
+    const bool is_named =
+        std::ranges::any_of(looks, [&](const LasLook& look) { return DoesName(look.software, sensor); });
+    if (is_named && (!named.has_value() || sensor.title.size() > named->title.size())) named = sensor;
     const bool known = sensor.errors.Has(&AirErrors::scan) && sensor.errors.Has(&AirErrors::bottom_range) &&
                        sensor.divergence.has_value();
     if (known && !example.has_value()) example = sensor;
   }
-  return example;
+  return named.has_value() ? named : example;
 }
 
 void SuggestWater(std::span<const LasLook> looks, const std::set<int>& water, const std::set<int>& bottom,
-                  Suggestions& suggestions) {
+                  bool is_bottom_known, Suggestions& suggestions) {
   if (!water.empty()) {
     suggestions.values.push_back(
         {"surface", "classes", List({water.begin(), water.end()}), "found in the points", true});
@@ -157,8 +171,11 @@ void SuggestWater(std::span<const LasLook> looks, const std::set<int>& water, co
     for (const int each : bottom)
       highest = std::max(highest, look.contents.classes[static_cast<std::size_t>(each)].highest);
   if (std::isfinite(highest))
-    suggestions.values.push_back({"surface", "level", absl::StrFormat("%.2f", highest),
-                                  "an example: the highest bottom point; the water surface is not below it"});
+    suggestions.values.push_back(
+        {"surface", "level", absl::StrFormat("%.2f", highest),
+         is_bottom_known
+             ? "an example: the highest bottom point; the water surface is not below it"
+             : "an example: the highest point of the class with most points, which need not be the bottom"});
 }
 
 }  // namespace
@@ -245,11 +262,15 @@ absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks) {
     values.push_back({"water", "column", "\"none\"", "a choice: leave it out"});
     values.push_back({"datum", "sigma", "0.1", "an example"});
   }
-  const auto all = [&](const auto& has) {
-    return std::ranges::all_of(looks, [&](const LasLook& look) { return look.contents.points == 0 || has(look); });
+  const auto count = [&](const auto& has) {
+    return std::ranges::count_if(looks, [&](const LasLook& look) { return look.contents.points > 0 && has(look); });
   };
-  suggestions.times = all([](const LasLook& look) { return look.contents.has_times(); });
-  suggestions.from_returns = suggestions.times && all([](const LasLook& look) { return look.has_pairs(); });
+  const auto with_points = count([](const LasLook&) { return true; });
+  const auto with_times = count([](const LasLook& look) { return look.contents.has_times(); });
+  suggestions.times = with_times == with_points;
+  suggestions.some_times = with_times > 0;
+  suggestions.from_returns = suggestions.some_times && suggestions.times &&
+                             count([](const LasLook& look) { return look.has_pairs(); }) == with_points;
   if (suggestions.from_returns)
     values.push_back({"trajectory", "from_returns", "true", "a choice, without files: pulses have several returns"});
   if (suggestions.times) values.push_back({"trajectory", "files", "[\"sbet.out\"]", "a choice: those of the flight"});
@@ -264,7 +285,7 @@ absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks) {
   if (!is_bottom_known)
     for (const LasLook& look : looks)
       if (const std::optional<int> most = MostFrequent(look)) bottom.insert(*most);
-  SuggestWater(looks, water, bottom, suggestions);
+  SuggestWater(looks, water, bottom, is_bottom_known, suggestions);
   values.push_back({"sea", "wind_speed", "5", "an example"});
   if (!bottom.empty() && !(is_bottom_known && by_default)) {
     values.push_back({"output", "classes", List({bottom.begin(), bottom.end()}),
@@ -273,12 +294,10 @@ absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks) {
   }
   double angle = 0;
   for (const LasLook& look : looks) angle = std::max({angle, -look.contents.least_angle, look.contents.greatest_angle});
-  if (angle > 0)
-    suggestions.by_angle = {"--scanner", "across-track"};
-  else
-    suggestions.by_angle = {"--incidence", "20"};
+  suggestions.by_angle = angle > 0 ? kExampleScanner : kExampleIncidence;
   const auto open = std::ranges::find_if(looks, [](const LasLook& look) { return !look.units_message.empty(); });
-  if (open != looks.end()) suggestions.units = {"--units", open->unit == "us-ft" ? "us-ft" : "ft"};
+  if (open != looks.end())
+    suggestions.units = {"--units", std::string((open->unit == kSurveyFoot.name ? kSurveyFoot : kFoot).name)};
   return suggestions;
 }
 

@@ -44,16 +44,19 @@ std::vector<std::string> FoundLines(const LasLook& look);
 // What differs between the files so that one survey file may not fit them all, a line each.
 std::vector<std::string> Differences(std::span<const LasLook> looks);
 
-// What the files answer themselves, and examples for the rest. Of a section the first value is the one that the others
+// What the files with points answer themselves, and examples for the rest. Of a section the first value is the one that the others
 // go with.
 struct Suggestions {
   std::vector<config::DraftValue> values;
-  bool from_returns = false, times = false;  // The way of the beams follows from the returns; trajectories can be used.
+  bool from_returns = false;               // The way of the beams follows from the returns of all files.
+  bool times = false, some_times = false;  // All, and some, of the files with points have times, as trajectories need.
   // Flags of `las` that have no key, with their values: for the beams where no trajectory is given, with
   // kExampleAltitude, and for the unit of heights, which may be empty.
   std::vector<std::string> by_angle, units;
 };
 inline const std::vector<std::string> kExampleAltitude = {"--altitude", "400"};  // m
+inline const std::vector<std::string> kExampleScanner = {"--scanner", "across-track"};
+inline const std::vector<std::string> kExampleIncidence = {"--incidence", "20"};  // degree
 absl::StatusOr<Suggestions> SuggestionsFor(std::span<const LasLook> looks);
 
 // The first value of a section; null if there is none.

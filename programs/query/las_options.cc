@@ -47,7 +47,7 @@ std::vector<config::OpenDecision> OpenOfBeams(const BeamOptions& beams, const co
   std::vector<config::OpenDecision> open = OpenDecisionsOf(beams, settings);
   const bool by_angle = beams.scanner.has_value() || beams.incidence.has_value();
   if (settings.wants_total() && by_angle && !beams.altitude.has_value())
-    open.push_back({"altitude", "--altitude is missing; a total needs the height of the sensor above the water"});
+    open.push_back({"--altitude", "--altitude is missing; a total needs the height of the sensor above the water"});
   return open;
 }
 
@@ -92,6 +92,10 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
           "--wind-speed 5 --wind-from 250 --details");
 }
 
+std::vector<std::string> LasExtensions() {
+  return {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)};
+}
+
 absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
   absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
   if (settings.ok() && (options.beams.scanner.has_value() || options.beams.incidence.has_value()))
@@ -104,7 +108,9 @@ absl::StatusOr<std::vector<config::OpenDecision>> OpenDecisionsOf(const LasOptio
   ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(options.beams, settings));
   std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
   if (!settings.wants_total()) return open;
-  for (config::OpenDecision& decision : annotate::UndecidedOf(settings)) open.push_back(std::move(decision));
+  // The surface is among those of the beams.
+  for (config::OpenDecision& decision : annotate::UndecidedOf(settings, {.has_level = true}))
+    open.push_back(std::move(decision));
   return open;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -30,6 +31,9 @@ struct LasOptions {
 
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
+
+// ".las", ".laz"
+std::vector<std::string> LasExtensions();
 
 // What flags and survey file give together; a scanner or one incidence overrides the trajectory of the file.
 absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options);

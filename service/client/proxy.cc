@@ -49,7 +49,7 @@ bool IsLoopback(const std::string& host) {
 
 // The hosts of an address, without brackets. None for a socket of this machine.
 std::vector<std::string> HostsOf(absl::string_view address) {
-  if (absl::StartsWith(address, "unix")) return {};
+  if (absl::StartsWith(address, "unix:") || absl::StartsWith(address, "unix-abstract:")) return {};
   if (absl::ConsumePrefix(&address, "dns:") && absl::ConsumePrefix(&address, "//"))
     address.remove_prefix(std::min(address.find('/') + 1, address.size()));  // The name server.
   absl::ConsumePrefix(&address, "ipv4:") || absl::ConsumePrefix(&address, "ipv6:");

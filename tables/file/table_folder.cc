@@ -148,7 +148,7 @@ std::string DigestsText(const fs::path& folder) {
     absl::StrAppend(&text, text.empty() ? "" : "\n", "table ", file.FullName(), " ",
                     table.ok() ? table->digest() : std::string(table.status().message()));
   }
-  return text.empty() ? absl::StrCat("no tables: ", folder.string(), " is empty") : text;
+  return text.empty() ? absl::StrCat("no tables: no .h5 file in ", folder.string()) : text;
 }
 
 bool IsOlder(std::string_view version, std::string_view other) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "annotate/run/file_progress.h"
+#include "config/survey_draft.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -130,6 +131,10 @@ TEST(PlanTotal, NeverAssumesWhatOnlyTheSensorKnows) {
   const std::string problem = ProblemOf(Decided("usgs-eaarl-b"));
   EXPECT_THAT(problem, HasSubstr("scan (degree)"));
   EXPECT_THAT(problem, HasSubstr("[sigma]"));
+  const std::vector<config::OpenDecision> open = UndecidedOf(Survey(Decided("usgs-eaarl-b")), {.has_level = true});
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_EQ(open[0].section, "sigma");
+  EXPECT_EQ(open[0].message, problem);
   EXPECT_THAT(ProblemOf("[sensor]\nname = \"nothing.toml\"\n[datum]\nsigma = 0\n[water]\ncolumn = \"none\"\n"),
               HasSubstr("nothing.toml"));
 }

@@ -11,10 +11,12 @@ class Proxies(unittest.TestCase):
     def test_are_never_used_for_this_machine(self):
         proxies = dict.fromkeys(("grpc_proxy", "https_proxy", "http_proxy"), "http://p:1")
         for target in ("127.0.0.1:5", "127.8.9.1:5", "LocalHost:5", "[::1]:5", "ipv6:[::1]:5", "dns:///localhost:5",
-                       "dns://8.8.8.8/localhost:5", "dns:127.0.0.1:5", "ipv4:127.0.0.1:5,127.0.0.2:5", "unix:/run/x"):
+                       "dns://8.8.8.8/localhost:5", "dns:127.0.0.1:5", "ipv4:127.0.0.1:5,127.0.0.2:5",
+                       "[::ffff:127.0.0.1]:5", "unix:/run/x", "unix-abstract:x"):
             self.assertIsNone(proxy_for(target, proxies), target)
         for target in ("128.0.0.1:5", "lidar.example:5", "localhost.example:5", "[2001:db8::1]:5",
-                       "dns:///lidar.example:5", "ipv4:127.0.0.1:5,10.0.0.1:5"):
+                       "dns:///lidar.example:5", "ipv4:127.0.0.1:5,10.0.0.1:5", "[::ffff:10.0.0.1]:5",
+                       "unix7.example:5", "unix-host:5"):
             self.assertEqual(proxy_for(target, proxies), ("http://p:1", "grpc_proxy"), target)
 
     def test_are_those_of_the_first_variable_that_is_set(self):

@@ -13,6 +13,7 @@ import tomllib
 import programs
 from commands import run
 from programs import PATHS, laz_copy, make_flight, query
+from simulated_survey import SimulatedSurvey
 
 CASES = pathlib.Path(PATHS["cases"])
 SAMPLE = pathlib.Path(PATHS["sample"])
@@ -95,7 +96,7 @@ class Draft(InitTest):
         text, survey = self.init(las)
         self.assertEqual(survey["surface"], {"classes": [41]})
         self.assertIn("NAD83 / UTM zone 17N", text)
-        self.assertIn("scan pattern: palmer", text)
+        self.assertIn("scan pattern: elliptical, such as Palmer", text)
         result = self.las(las, "out.las", "--survey", self.decide(text), check=0)
         self.assertRegex(result.stderr, r"\n +all +\d+ .*total|total TVU")
 
@@ -105,7 +106,7 @@ class Draft(InitTest):
         text, survey = self.init(SAMPLE)
         self.assertEqual(survey["output"], {"classes": [26]})  # Not the class that its point format would have.
         self.assertIn("2016-05-17T13:43:16Z to ", text)
-        self.assertIn("scan pattern: palmer", text)
+        self.assertIn("scan pattern: elliptical, such as Palmer", text)
         self.assertIn("level = -23.09 ", text)
         result = self.las(SAMPLE, "out.las", "--survey", self.decide(text, (*DECIDED, "level")), check=0)
         self.assertIn("total TVU", result.stderr)
@@ -117,12 +118,32 @@ class Draft(InitTest):
         self.assertEqual(survey["surface"], {"classes": [9]})
         self.assertIn("GPS times: none (point format 0)", text)
         self.assertIn("no trajectory can be used", text)
+        self.assertNotIn("[trajectory]\n# DECIDE", text)  # The heading says it.
         command = re.search(r"(?m)^#  (albtpu-query las .*)$", text)[1]
         self.assertIn("--scanner across-track --altitude 400", command)
         self.decide(text, ("name", "wind_speed", "column", "sigma"))
         result = self.run_line(command)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("total TVU", result.stderr)
+
+    def test_quotes_paths_and_keeps_them_on_one_line(self):
+        las = make_flight(self.folder / "line.las")
+        text, _ = self.init(las.rename(self.folder / "my line.las"))
+        self.assertIn(f"#  albtpu-query las '{self.folder}/my line.las' 'my line_tpu.las' --survey", text)
+        text, survey = self.init((self.folder / "my line.las").rename(self.folder / "a\nb = 1.las"))
+        self.assertEqual(survey["surface"], {"classes": [41]})
+        self.assertIn("a b = 1.las: LAS 1.4", text)
+
+    def test_names_the_sensor_in_the_header(self):
+        las = make_flight(self.folder / "line.las")
+        for software, name in (("RIEGL VQ-840-GE", "riegl-vq-840-ge"), ("riegl vq-840-g 2.1", "riegl-vq-840-g"),
+                               ("Teledyne Optech CZMIL SuperNova", "teledyne-czmil-supernova"),
+                               ("Teledyne Optech CZMIL", "teledyne-czmil"), ("RIEGL VQ-840-GX", None)):
+            data = bytearray(las.read_bytes())
+            data[26:58] = software.encode().ljust(32, b"\0")
+            las.write_bytes(data)
+            named = re.search(r'(?m)^#name = "(.*)"', self.init(las)[0])[1]
+            self.assertEqual(named, name or "leica-chiroptera-4x", software)
 
     def test_doubts_times_that_cannot_be(self):
         self.assertIn("but this is in the future", self.init(self.case("unix_times.las"))[0])
@@ -152,10 +173,13 @@ class Draft(InitTest):
         for what in ("clocks differ", "classes differ", "--output-dir FOLDER"):
             self.assertIn(what, text)
         self.assertNotIn("The files differ", self.init(modern, modern)[0])
+        words = " ".join(self.init(modern, make_flight(self.folder / "c.las", 2, 0))[0].replace("#", "").split())
+        self.assertIn("The points of some files have no GPS times, so that no trajectory can be used for them", words)
 
     def test_of_a_file_without_points(self):
         text, _ = self.init(make_flight(self.folder / "a.las"), self.empty())
         self.assertIn("empty.las: LAS 1.4, point format 6, 0 points", text)
+        self.assertNotRegex(self.init(self.empty())[0], "from_returns = true +# a choice")
 
     def empty(self):
         path = self.folder / "empty.las"
@@ -182,7 +206,8 @@ class FirstContact(InitTest):
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertEqual(result.stdout, "")
         self.assertRegex(result.stderr, r"\nalbtpu-query: \w+: \d+ decisions are missing \(listed above\); .*\n\Z")
-        return result.stderr, re.search(r"\nFor example.*\n  (albtpu-query .*)\n", result.stderr)[1]
+        example = re.search(r"\nFor example.*\n  (albtpu-query .*)\n", result.stderr)
+        return result.stderr, example and example[1]
 
     def assert_totals(self, line):
         result = self.run_line(line)
@@ -222,10 +247,61 @@ class FirstContact(InitTest):
         if SAMPLE.exists():
             self.assert_totals(self.answer("las", SAMPLE)[1])
 
-    def test_names_a_file_that_cannot_be_read(self):
-        result = query("las", self.folder / "absent.las")
-        self.assert_fails(result, 2, "decisions are missing")
-        self.assertIn("absent.las: No such file", result.stderr)
+    def test_gives_an_example_that_fits_what_is_given(self):
+        survey = SimulatedSurvey(self.folder / "flight", "--seconds", 4)  # Its returns give the trajectory.
+        lines = self.folder / "lines"
+        lines.mkdir()
+        (self.folder / "FOLDER").mkdir()
+        files = [lines / name for name in ("my line.las", "b.las", "c.las")]
+        for file in files:
+            shutil.copy(survey.las, file)
+        by_scanner = ("--scanner", "across-track")
+        for inputs, flags, said in (
+                ([files[0]], (), " 'my line_tpu.las' --trajectory-from-returns "),
+                ([files[1]], by_scanner, "--altitude 400"),
+                ([files[1]], ("--incidence", 20, "--footprint", 0.5), "--altitude 400"),
+                ([files[1]], ("--wind-from", 250), "--trajectory-from-returns"),
+                ([files[1]], (*by_scanner, "--wind-from", 250), "--flight-direction 0"),
+                ([files[1]], ("--incidence", 20, "--wind-from", 250), "--beam-azimuth 0"),
+                ([files[1]], ("--altitude", 400, "--divergence", 1), " --scanner across-track"),
+                ([files[1]], ("--flight-direction", 30), " --scanner across-track"),
+                ([files[1]], ("--beam-azimuth", 30), "--incidence 20"),
+                ([files[1]], ("--crs", "EPSG:26917"), "--trajectory-from-returns"),
+                ([files[1]], ("--sensor", "arete-pills"), "--divergence 1"),
+                ([files[1]], ("--format", "laz"), " b_tpu.laz "),
+                ([lines], (), f"{lines} --output-dir FOLDER"),
+                ([lines], ("--output-dir", "FOLDER"), "--trajectory-from-returns"),
+                ([lines, "FOLDER"], (), f"{lines} --output-dir FOLDER"),
+                (files, (), f"'{files[0]}' {files[1]} {files[2]} --output-dir FOLDER"),
+                (files, ("--output-dir", "FOLDER"), "--trajectory-from-returns")):
+            with self.subTest(inputs=inputs, flags=flags):
+                _, line = self.answer("las", *inputs, *flags)
+                self.assertIn(said, line)
+                self.assert_totals(line + " --overwrite")
+
+    def test_gives_no_example_where_flags_cannot_close_it(self):
+        las = make_flight(self.folder / "line.las")
+        for flags, said in ((("--sensor", "usgs-eaarl-b"), "no source gives scan (degree) of USGS EAARL-B"),
+                            (("--footprint", 1, "--divergence", 1), "the size of the beam is given twice")):
+            text, line = self.answer("las", las, *flags)
+            self.assertIn(said, text)
+            self.assertIsNone(line)
+
+    def test_leaves_a_survey_file_alone(self):
+        las, survey = make_flight(self.folder / "line.las"), self.toml("[sea]\nwind_speed = 5\n")
+        text, line = self.answer("las", las, "--survey", survey)
+        self.assertNotIn("> survey.toml", text)
+        self.assert_totals(line)
+
+    def test_of_a_file_that_cannot_be_read_is_the_error_alone(self):
+        (self.folder / "empty").mkdir()
+        self.toml("", "empty.csv")
+        for command, said in (("las absent.las", "No such file"), ("las empty", "no .las or .laz file"),
+                              ("csv absent.csv --sensor riegl-vq-880-g", "No such file"),
+                              ("csv empty.csv", "is empty; begin the file with a header")):
+            result = query(*command.split(), cwd=self.folder)
+            self.assert_fails(result, 1, said)
+            self.assertEqual(result.stderr.count("\n"), 1)
 
     def test_lists_all_that_csv_lacks(self):
         pulses = self.toml("depth,incidence\n3,10\n5,12\n", "pulses.csv")
@@ -235,6 +311,25 @@ class FirstContact(InitTest):
         result = self.run_line(line)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual((self.folder / "pulses_tpu.csv").read_text().count("INTERPOLATED"), 2)
+
+    def test_binds_the_columns_of_csv_as_a_total_does(self):
+        for columns, flags, said in (
+                ("altitude,incidence,depth", (), "no column 'wind_speed'"),  # The sensor has a divergence.
+                ("footprint,incidence,depth,wind_speed", ("--altitude", 400), None),
+                ("footprint,incidence,depth,wind_speed", (), "no column 'altitude'"),
+                ("incidence,depth,wind_speed", ("--sensor", "arete-pills"), "no column 'footprint'")):
+            pulses = self.toml(f"{columns}\n" + ",".join({"altitude": "400", "footprint": "0.5"}.get(name, "5")
+                                                         for name in columns.split(",")) + "\n", "pulses.csv")
+            sensor = () if "--sensor" in flags else ("--sensor", "riegl-vq-880-g")
+            text, line = self.answer("csv", pulses, *sensor, *flags)
+            self.assertIn("how the surface was located", text)
+            if said is None:
+                self.assertNotIn("line 1", text)
+            else:
+                self.assertIn(said, text)
+            self.assertEqual("'footprint'" in text, said == "no column 'footprint'", text)
+            result = self.run_line(line + " --overwrite")
+            self.assertEqual(result.returncode, 0, f"{line}\n{result.stderr}")
 
 
 if __name__ == "__main__":

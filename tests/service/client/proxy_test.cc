@@ -24,12 +24,14 @@ std::string UrlFor(const std::string& address, const Variables& variables) {
 TEST(Proxy, IsNeverUsedForThisMachine) {
   const Variables all = {
       {"grpc_proxy", "http://p:1"}, {"https_proxy", "http://p:1"}, {"http_proxy", "http://p:1"}, {"HTTP_PROXY", "x"}};
-  for (const char* address : {"127.0.0.1:5", "127.8.9.1:5", "localhost:5", "LocalHost:5", "[::1]:5", "ipv6:[::1]:5",
-                              "dns:///localhost:5", "dns://8.8.8.8/localhost:5", "dns:127.0.0.1:5",
-                              "ipv4:127.0.0.1:5,127.0.0.2:5", "unix:/run/albtpu", "unix:///run/albtpu"})
+  for (const char* address :
+       {"127.0.0.1:5", "127.8.9.1:5", "localhost:5", "LocalHost:5", "[::1]:5", "ipv6:[::1]:5", "dns:///localhost:5",
+        "dns://8.8.8.8/localhost:5", "dns:127.0.0.1:5", "ipv4:127.0.0.1:5,127.0.0.2:5", "[::ffff:127.0.0.1]:5",
+        "unix:/run/albtpu", "unix:///run/albtpu", "unix-abstract:albtpu"})
     EXPECT_EQ(UrlFor(address, all), "") << address;
-  for (const char* address : {"128.0.0.1:5", "lidar.example:5", "localhost.example:5", "[2001:db8::1]:5",
-                              "dns:///lidar.example:5", "ipv4:127.0.0.1:5,10.0.0.1:5"})
+  for (const char* address :
+       {"128.0.0.1:5", "lidar.example:5", "localhost.example:5", "[2001:db8::1]:5", "dns:///lidar.example:5",
+        "ipv4:127.0.0.1:5,10.0.0.1:5", "[::ffff:10.0.0.1]:5", "unix7.example:5", "unix-host:5"})
     EXPECT_EQ(UrlFor(address, all), "grpc_proxy http://p:1") << address;
 }
 

@@ -47,7 +47,7 @@ def proxy_for(target: str, environment: Mapping[str, str] = os.environ) -> Proxy
 
 def _hosts(target: str) -> list[str]:
     """The hosts of a target, without brackets. None for a socket of this machine."""
-    if target.startswith("unix"):
+    if target.startswith(("unix:", "unix-abstract:")):
         return []
     addresses = _SCHEME.sub("", target, count=1).split(",")
     return [address.rpartition(":")[0].removeprefix("[").removesuffix("]") for address in addresses]
@@ -55,6 +55,8 @@ def _hosts(target: str) -> list[str]:
 
 def _is_in(host: str, network: str) -> bool:
     try:
-        return "/" in network and ipaddress.ip_address(host) in ipaddress.ip_network(network, strict=False)
+        address = ipaddress.ip_address(host)
+        address = getattr(address, "ipv4_mapped", None) or address  # ::ffff:127.0.0.1
+        return "/" in network and address in ipaddress.ip_network(network, strict=False)
     except ValueError:  # A name, or no network.
         return False
