@@ -24,9 +24,11 @@ struct SensorSettings {             // [sensor]
   std::optional<Triple> lever_arm;  // Forward, right, down, m.
 };
 
-struct TrajectorySettings {                // [trajectory]
-  std::vector<std::string> files, errors;  // Files and folders.
-  std::optional<std::string> time;         // kTrajectoryTimes
+struct TrajectorySettings {                  // [trajectory]
+  std::vector<std::string> files, errors;    // Files and folders.
+  std::optional<std::string> time;           // kTrajectoryTimes
+  std::optional<std::string> time_format;    // kTimeFormats, of the points.
+  std::optional<std::string> velocity_axes;  // kVelocityAxes
   std::optional<bool> from_returns;
 
   bool is_given() const { return !files.empty() || from_returns.value_or(false); }
@@ -87,6 +89,9 @@ struct SurveySettings {
 };
 
 inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
+inline constexpr std::array<std::string_view, 7> kTimeFormats = {"auto", "week",         "adjusted", "gps",
+                                                                 "unix", "milliseconds", "day"};
+inline constexpr std::array<std::string_view, 4> kVelocityAxes = {"auto", "wander", "body", "north"};
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
@@ -113,13 +118,20 @@ inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
       "From the trajectory's reference point to the laser, in body axes: forward, right, down"},
      &SensorSettings::lever_arm},
 }};
-inline constexpr std::array<Key<TrajectorySettings>, 4> kTrajectoryKeys = {{
+inline constexpr std::array<Key<TrajectorySettings>, 6> kTrajectoryKeys = {{
     {{"files", "--trajectory", Paths{}, "", "Trajectory of the sensor, SBET or ASCII: files and folders of files"},
      &TrajectorySettings::files},
     {{"errors", "--trajectory-errors", Paths{}, "", "Its errors, SMRMSG: files and folders of files"},
      &TrajectorySettings::errors},
     {{"time", "--trajectory-time", Word{kTrajectoryTimes}, "gps", "Time scale of the trajectory"},
      &TrajectorySettings::time},
+    {{"time_format", "--time-format", Word{kTimeFormats}, "auto",
+      "GPS times of the points: auto takes what the file states, or else the only one by which the trajectory lies at "
+      "the points; adjusted is GPS seconds less 1e9, gps is GPS seconds since 1980"},
+     &TrajectorySettings::time_format},
+    {{"velocity_axes", "--velocity-axes", Word{kVelocityAxes}, "auto",
+      "Axes of an SBET's velocities: auto takes those of the body where these alone agree with its positions"},
+     &TrajectorySettings::velocity_axes},
     {{"from_returns", "--trajectory-from-returns", YesOrNo{}, "",
       "Find the trajectory from pulses with two returns under water"},
      &TrajectorySettings::from_returns},

@@ -10,8 +10,11 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "formats/files/file_access.h"
 #include "formats/text/text.h"
+#include "formats/trajectories/ascii_trajectory.h"
+#include "formats/trajectories/trajectory_files.h"
 #include "sea/angle.h"
 #include "sea/samples.h"
 #include "status/status_macros.h"
@@ -23,38 +26,94 @@ namespace fs = std::filesystem;
 
 constexpr int kSamples = 200;  // Of each run of the timeline.
 
-bool MayStateErrors(const fs::path& path) {
+constexpr std::size_t kBeginning = 4096;  // Bytes, by which a file is recognized.
+
+// Files that a summary names one by one. It is written for each file of points, so that their number squared counts.
+constexpr std::size_t kNamedFiles = 100;
+
+bool IsVisible(const fs::path& path) { return !path.filename().string().starts_with('.'); }
+
+bool IsNamedAsErrors(const fs::path& path) {
   const std::string name = absl::AsciiStrToLower(path.filename().string());
   return absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
+}
+
+bool IsSmrmsg(const fs::path& path) {
+  const absl::StatusOr<formats::MappedFile> file = formats::MappedFile::Open(path, "an SMRMSG");
+  if (!file.ok()) return false;
+  const std::string_view beginning = file->bytes().substr(0, kBeginning);
+  return !formats::AsciiTrajectory::Recognizes(beginning) && formats::SmrmsgFile::Recognizes(beginning);
+}
+
+absl::Status AddFolder(const std::string& path, TrajectoryErrors::Files& errors, std::vector<std::string>& skipped) {
+  ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path, IsVisible));
+  std::vector<std::string> others;
+  const std::size_t before = errors.size();
+  for (const fs::path& file : files) {
+    const bool is_named = IsNamedAsErrors(file);
+    if (!IsSmrmsg(file) && (!is_named || formats::OpenTrajectory(file).ok())) {
+      if (is_named) others.push_back(file.filename().string());
+      continue;
+    }
+    ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(file));
+    errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
+  }
+  if (!others.empty()) {
+    skipped.push_back(
+        absl::StrCat(path, ": skipped ", absl::StrJoin(others, ", "), " (trajectories by their contents)"));
+  }
+  if (errors.size() > before) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat(
+      path, ": no error file in this folder (no file is an SMRMSG by its contents", others.empty() ? "" : "; ",
+      absl::StrJoin(others, ", "), others.empty() ? "" : ": trajectories by their contents", "); name the files"));
 }
 
 }  // namespace
 
 absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths) {
-  TrajectoryErrors errors;
+  TrajectoryErrors::Files errors;
+  std::vector<std::string> skipped;
   for (const std::string& path : paths) {
-    ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path, MayStateErrors));
-    if (files.empty()) {
-      return absl::NotFoundError(
-          absl::StrCat(path, ": no error file in this folder (no name contains smrmsg or rms); name the files"));
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+      RETURN_IF_ERROR(AddFolder(path, errors, skipped));
+      continue;
     }
-    for (const fs::path& file : files) {
-      ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(file));
-      errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
-    }
+    ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(path));
+    errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
   }
-  return errors;
+  return TrajectoryErrors(std::move(errors), std::move(skipped));
+}
+
+TrajectoryErrors::TrajectoryErrors(Files files, std::vector<std::string> skipped)
+    : files_(std::move(files)), skipped_(std::move(skipped)) {
+  std::vector<formats::TimeSpan> spans;
+  spans.reserve(files_.size());
+  for (const auto& file : files_) spans.push_back({file->TimeAt(0), file->TimeAt(file->size() - 1)});
+  spans_ = formats::SpanIndex(spans);
+}
+
+TrajectoryErrors TrajectoryErrors::During(const formats::TrajectoryTimeline& timeline) const {
+  std::vector<std::size_t> found;
+  for (const formats::TimelineRun& run : timeline.runs())
+    spans_.Find({run.span().first - run.offset, run.span().last - run.offset}, found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  Files files;
+  for (const std::size_t i : found) files.push_back(files_[i]);
+  return TrajectoryErrors(std::move(files));
 }
 
 std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
                                                const formats::TrajectoryTimeline& timeline) {
+  const TrajectoryErrors near = errors.During(timeline);
   std::vector<double> horizontal, vertical;
   for (const formats::TimelineRun& run : timeline.runs()) {
     const double first = std::max(run.span().first, timeline.points().span.first);
     const double last = std::min(run.span().last, timeline.points().span.last);
     for (int i = 0; first <= last && i < kSamples; ++i) {
       const double time = first + (last - first) * i / (kSamples - 1) - run.offset;
-      for (const std::shared_ptr<const formats::SmrmsgFile>& file : errors) {
+      for (const std::shared_ptr<const formats::SmrmsgFile>& file : near) {
         const std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time);
         if (!sigma.has_value()) continue;
         horizontal.push_back(std::hypot(sigma->north, sigma->east));
@@ -76,9 +135,18 @@ ordered_json NameAndSize(const std::filesystem::path& path) {
   return {{"name", path.filename().string()}, {"bytes", std::filesystem::file_size(path, unknown)}};
 }
 
+// Of many files, one object for all of them.
 template <typename Files>
 ordered_json NamesAndSizes(const Files& files) {
   ordered_json json = ordered_json::array();
+  if (files.size() > kNamedFiles) {
+    std::uintmax_t bytes = 0;
+    for (const auto& file : files) bytes += NameAndSize(file->name())["bytes"].template get<std::uintmax_t>();
+    const auto name_of = [&](std::size_t i) { return fs::path(files[i]->name()).filename().string(); };
+    json.push_back({{"name", absl::StrCat(files.size(), " files, ", name_of(0), " to ", name_of(files.size() - 1))},
+                    {"bytes", bytes}});
+    return json;
+  }
   for (const auto& file : files) json.push_back(NameAndSize(file->name()));
   return json;
 }
@@ -114,6 +182,9 @@ ordered_json Parameters(const BeamPlan& plan) {
     json["trajectory"] = plan.trajectories != nullptr ? NamesAndSizes(*plan.trajectories) : ordered_json();
     json["trajectory_errors"] = NamesAndSizes(plan.trajectory_errors);
     json["trajectory_time"] = files->utc ? "utc" : "gps";
+    if (files->time_format != formats::TimeFormat::kAuto) json["time_format"] = formats::NameOf(files->time_format);
+    if (files->velocity_axes != formats::VelocityAxes::kAuto)
+      json["velocity_axes"] = std::string(formats::kVelocityAxesNames[static_cast<std::size_t>(files->velocity_axes)]);
     json["geoid_separation"] = or_null(files->geoid_separation);
     json["lever_arm"] = files->lever_arm;
     json["crs"] = or_null(files->crs);

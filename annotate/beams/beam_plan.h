@@ -17,17 +17,43 @@
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/track_spline.h"
+#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/sbet_file.h"
+#include "formats/trajectories/sbet_record.h"
+#include "formats/trajectories/span_index.h"
 #include "formats/trajectories/trajectory_timeline.h"
 
 namespace albtpu::annotate {
 
 // The error files (SMRMSG) of a trajectory: the uncertainty of a trajectory at the points of a file.
 
-using TrajectoryErrors = std::vector<std::shared_ptr<const formats::SmrmsgFile>>;
+class TrajectoryErrors {
+ public:
+  using Files = std::vector<std::shared_ptr<const formats::SmrmsgFile>>;
 
-// Opens files and folders. A folder stands for all files in it whose names contain "smrmsg" or "rms", in any case,
-// ordered by name. Fails on the first file that is not an SMRMSG, and on a folder without any.
+  TrajectoryErrors() = default;
+  // `skipped` are files that were left out, a line for the user each, with the reason.
+  explicit TrajectoryErrors(Files files, std::vector<std::string> skipped = {});
+
+  bool empty() const { return files_.empty(); }
+  std::size_t size() const { return files_.size(); }
+  const std::shared_ptr<const formats::SmrmsgFile>& operator[](std::size_t file) const { return files_[file]; }
+  Files::const_iterator begin() const { return files_.begin(); }
+  Files::const_iterator end() const { return files_.end(); }
+  const std::vector<std::string>& skipped() const { return skipped_; }
+
+  // Those that have records at the times of a timeline, in their order.
+  TrajectoryErrors During(const formats::TrajectoryTimeline& timeline) const;
+
+ private:
+  Files files_;
+  std::vector<std::string> skipped_;
+  formats::SpanIndex spans_;
+};
+
+// Opens files and folders. Of a folder, the files that are an SMRMSG by their contents are opened, in the order of
+// their names. skipped() lists those that are trajectories although their names say otherwise (smrmsg, rms). Fails on
+// the first of the others that is not a sound SMRMSG although its name says so, and on a folder without any.
 absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths);
 
 // Medians over the part of the trajectory that has points, one standard deviation.
@@ -54,12 +80,14 @@ struct AcrossTrackScan {
 
 // The position of the sensor, from the files of its trajectory.
 struct TrajectoryFromFiles {
-  std::vector<std::string> paths;          // Files and folders.
-  std::vector<std::string> errors;         // Error files of these, and folders of them.
-  bool utc = false;                        // Times are UTC, not GPS.
-  std::optional<double> geoid_separation;  // m
-  std::array<double, 3> lever_arm = {};    // m; forward, right, down
-  std::optional<std::string> crs;          // Of points whose file does not state it.
+  std::vector<std::string> paths;                                      // Files and folders.
+  std::vector<std::string> errors;                                     // Error files of these, and folders of them.
+  bool utc = false;                                                    // Times are UTC, not GPS.
+  formats::TimeFormat time_format = formats::TimeFormat::kAuto;        // Of the points.
+  formats::VelocityAxes velocity_axes = formats::VelocityAxes::kAuto;  // Of SBETs.
+  std::optional<double> geoid_separation;                              // m
+  std::array<double, 3> lever_arm = {};                                // m; forward, right, down
+  std::optional<std::string> crs;                                      // Of points whose file does not state it.
 };
 
 // The position of the sensor, from returns under water.
@@ -124,8 +152,8 @@ nlohmann::ordered_json Parameters(const BeamPlan& plan);
 // of its positions. Standard deviations are those of the error files, or those of the trajectory file itself.
 class TrajectoryMotions final : public SensorMotions {
  public:
-  TrajectoryMotions(formats::TrajectoryTimeline timeline, TrajectoryErrors errors)
-      : timeline_(std::move(timeline)), errors_(std::move(errors)) {}
+  TrajectoryMotions(formats::TrajectoryTimeline timeline, const TrajectoryErrors& errors)
+      : timeline_(std::move(timeline)), errors_(errors.During(timeline_)) {}
 
   std::optional<SensorMotion> At(double time) const override;
 

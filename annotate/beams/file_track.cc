@@ -5,12 +5,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "annotate/beams/clocked_track.h"
 #include "annotate/beams/projected_track.h"
 #include "budget/beams/track_check.h"
+#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "sea/angle.h"
 #include "sea/samples.h"
@@ -132,17 +136,55 @@ absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, 
   return absl::OkStatus();
 }
 
-}  // namespace
+// The part of the points' time that records must cover where the clock of the points is not that of their file: by
+// chance, a flight of another day touches it.
+constexpr double kLeastCovered = 0.5;
 
-absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan) {
+double CoveredPart(const formats::TrajectoryTimeline& timeline) {
+  const formats::TimeSpan& points = timeline.points().span;
+  double covered = 0;
+  for (const formats::TimelineRun& run : timeline.runs()) covered += std::max(0.0, Overlap(run.span(), points));
+  return points.last > points.first ? covered / (points.last - points.first) : 1;
+}
+
+// The file without rays that have no time.
+TrackedFile WithTimes(TrackedFile file) {
+  std::erase_if(file.rays, [](const AirRay& ray) { return formats::IsNoTime(ray.time); });
+  return file;
+}
+
+// The same with the times that a clock gives.
+TrackedFile ByClock(const TrackedFile& stated, const formats::PointClock& clock) {
+  TrackedFile file = WithTimes(stated);
+  file.times = clock(file.times.span);
+  for (AirRay& ray : file.rays) ray.time = clock(ray.time);
+  return file;
+}
+
+void NoteRemarks(const formats::TrajectoryTimeline& timeline, FileTrack& found) {
+  for (const formats::TimelineRun& run : timeline.runs()) {
+    const std::string& remark = run.trajectory->remark();
+    if (!remark.empty() && std::find(found.notes.begin(), found.notes.end(), remark) == found.notes.end())
+      found.notes.push_back(remark);
+  }
+}
+
+// `least_covered`: the part of the points' time at which there must be records.
+absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan& plan,
+                                       const formats::PointClock& clock, double least_covered = 0) {
   const TrajectoryFromFiles& source = std::get<TrajectoryFromFiles>(plan.source);
   absl::StatusOr<formats::TrajectoryTimeline> timeline = formats::TrajectoryTimeline::Create(
-      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps, file.times);
+      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps,
+      clock(stated.times.span));
   if (!timeline.ok()) {
     return absl::Status(timeline.status().code(),
-                        absl::StrCat(file.name, ": ", std::string(timeline.status().message())));
+                        absl::StrCat(stated.name, ": ", std::string(timeline.status().message())));
   }
+  if (CoveredPart(*timeline) < least_covered)
+    return absl::FailedPreconditionError(absl::StrCat(stated.name, ": few of its points have a trajectory"));
+  const TrackedFile file = ByClock(stated, clock);
   FileTrack found;
+  NoteRemarks(*timeline, found);
   if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, plan, *timeline, found));
   RETURN_IF_ERROR(CheckNearPoints(file.name, *timeline, *file.map, file.extent));
   found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
@@ -151,10 +193,60 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
                                           {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},
                                            .geoid_separation = source.geoid_separation.value_or(0)}));
   RETURN_IF_ERROR(CheckAgainstReturns(file, plan, source.utc, found));
+  if (!clock.changes_times()) return found;
+  found.track = std::make_unique<ClockedTrack>(std::move(found.track), clock);
+  found.motions = std::make_unique<ClockedMotions>(std::move(found.motions), clock);
   return found;
 }
 
-absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index) {
+// What to do where several clocks fit.
+std::string OneFlagOf(std::span<const formats::PointClock> clocks) {
+  std::set<std::string> flags;
+  for (const formats::PointClock& clock : clocks)
+    if (clock.format != formats::TimeFormat::kAuto) flags.insert(formats::TimeFormatFlag(clock));
+  if (flags.size() < 2) return "give the trajectory of this flight alone";
+  return absl::StrCat("give ", absl::StrJoin(flags, " or "));
+}
+
+}  // namespace
+
+absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan) {
+  const formats::TimeFormat format = std::get<TrajectoryFromFiles>(plan.source).time_format;
+  const bool is_chosen = format != formats::TimeFormat::kAuto;
+  const std::vector<formats::PointClock> clocks = formats::ClocksOf(file.times, format);
+  if (clocks.empty()) {
+    return absl::FailedPreconditionError(
+        absl::StrFormat("%s: the GPS times of its points, %.15g to %.15g, cannot be what --time-format %s says; leave "
+                        "the flag out, and what they are is found by what fits",
+                        file.name, file.times.span.first, file.times.span.last, formats::NameOf(format)));
+  }
+  absl::StatusOr<FileTrack> first = TrackByClock(file, plan, clocks.front());
+  if (clocks.size() == 1 || (first.ok() && !is_chosen)) return first;
+  std::vector<formats::PointClock> fitting;
+  std::optional<FileTrack> found;
+  if (first.ok()) {
+    fitting.push_back(clocks.front());
+    found = *std::move(first);
+  }
+  for (std::size_t i = 1; i < clocks.size(); ++i) {
+    absl::StatusOr<FileTrack> track = TrackByClock(file, plan, clocks[i], kLeastCovered);
+    if (!track.ok()) continue;
+    fitting.push_back(clocks[i]);
+    found = *std::move(track);
+  }
+  if (fitting.empty()) return first.status();
+  if (fitting.size() > 1) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        file.name, ": its GPS times may be of several kinds, because the trajectories lie at the points as ",
+        formats::ClocksText(fitting), "; ", OneFlagOf(fitting)));
+  }
+  if (!is_chosen) found->notes.push_back(formats::ClockNote(fitting.front(), file.times, "the trajectory"));
+  (*found->json)["time_format"] = formats::NameOf(fitting.front().format);
+  return *std::move(found);
+}
+
+absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& given, double index) {
+  const TrackedFile file = WithTimes(given);
   const auto too_few = [&](const std::string& why) {
     return absl::FailedPreconditionError(
         absl::StrCat(file.name, ": the position of the sensor cannot be derived from its returns (", why,
@@ -184,7 +276,12 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index
       absl::StrFormat("trajectory from %d pulses with two returns under water: in the middle of its longest "
                       "part %.1f m above the water at %.1f m/s; incidence known to %.2g degrees (1 sigma)",
                       file.rays.size(), height, speed, sigma));
-  if (file.map == nullptr) found.notes.push_back("coordinate system not known: directions are from grid north");
+  if (file.map == nullptr) {
+    const absl::Status database = formats::CheckProjDatabase();
+    found.notes.push_back(absl::StrCat("coordinate system not known",
+                                       database.ok() ? "" : absl::StrCat(" (", database.message(), ")"),
+                                       ": directions are from grid north"));
+  }
   found.track = std::make_unique<FittedTrack>(std::move(track), file.frame, file.map.get());
   found.motions = std::make_unique<CourseMotions>(*found.track);
   return found;
@@ -216,6 +313,7 @@ void FittedTrack::PositionsAt(std::span<const double> times, std::span<SensorPos
                               std::span<TrackOutcome> outcomes) const {
   track_.PositionsAt(times, positions, outcomes);
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (formats::IsNoTime(times[i])) outcomes[i] = TrackOutcome::kOutside;
     if (outcomes[i] != TrackOutcome::kKnown) continue;
     SensorPosition& position = positions[i];
     position.convergence = convergence_ + convergence_slope_.dot(Eigen::Vector2d(position.x, position.y));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::annotate {
@@ -225,6 +226,10 @@ void ProjectedTrack::PositionsAt(std::span<const double> times, std::span<Sensor
   assert(times.size() == positions.size() && times.size() == outcomes.size());
   Cursor cursor(*this), cursor_of_next_week(*this);
   for (std::size_t i = 0; i < times.size(); ++i) {
+    if (formats::IsNoTime(times[i])) {
+      outcomes[i] = TrackOutcome::kOutside;
+      continue;
+    }
     outcomes[i] = cursor(times[i], positions[i]);
     if (starts_again_ && outcomes[i] == TrackOutcome::kOutside && times[i] < formats::kSecondsPerWeek)
       outcomes[i] = cursor_of_next_week(times[i] + formats::kSecondsPerWeek, positions[i]);

@@ -142,6 +142,14 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
                                                                  const CrsDescription& description) {
   ProjContext context;
   RETURN_IF_ERROR(context.CheckDatabase());
+  absl::StatusOr<std::shared_ptr<const MapFrame>> frame = CreateIn(context, name, description);
+  // What PROJ says of a system is no help where it cannot read its database.
+  if (!frame.ok() && !description.empty()) RETURN_IF_ERROR(context.CheckLayout());
+  return frame;
+}
+
+absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::CreateIn(ProjContext& context, const std::string& name,
+                                                                   const CrsDescription& description) {
   if (description.empty()) return Unusable(name, "it states none");
   absl::StatusOr<Found> found;
   if (!description.user.empty()) {
@@ -184,6 +192,12 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
     return Unusable(name, absl::StrCat("PROJ cannot project into ", crs.name, ": ", context.last_message()));
   frame->pipeline_ = pipeline;
   return frame;
+}
+
+absl::Status CheckProjDatabase() {
+  const ProjContext context;
+  RETURN_IF_ERROR(context.CheckDatabase());
+  return context.CheckLayout();
 }
 
 void MapFrame::Project(std::span<const GeographicPosition> from, std::span<MapPosition> to) const {

@@ -49,7 +49,7 @@ class MapFrame {
  public:
   // Tries the user's text, the well-known text, the EPSG code that the text ends with, and the GeoTIFF codes, in this
   // order. A text of a user that PROJ does not read is an error; so is a file of which nothing can be used. `name` is
-  // the LAS file.
+  // the LAS file. FailedPrecondition where PROJ's database is the reason (CheckProjDatabase).
   static absl::StatusOr<std::shared_ptr<const MapFrame>> Create(const std::string& name,
                                                                 const CrsDescription& description);
   ~MapFrame();
@@ -82,6 +82,8 @@ class MapFrame {
   class Transformer;
   class Transformers;
   MapFrame();
+  static absl::StatusOr<std::shared_ptr<const MapFrame>> CreateIn(ProjContext& context, const std::string& name,
+                                                                  const CrsDescription& description);
 
   std::string crs_name_;
   std::string wkt_;
@@ -96,5 +98,9 @@ class MapFrame {
   Ellipsoid ellipsoid_;
   std::unique_ptr<Transformers> transformers_;
 };
+
+// FailedPrecondition when PROJ does not find its database of coordinate systems, or finds that of another program,
+// which it cannot read: the message names it.
+absl::Status CheckProjDatabase();
 
 }  // namespace albtpu::formats

@@ -1,5 +1,6 @@
 #include "formats/crs/proj_crs.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -95,11 +96,48 @@ ProjContext::ProjContext() : context_(proj_context_create()) {
 
 ProjContext::~ProjContext() { proj_context_destroy(context_); }
 
+namespace {
+
+// The database to which the environment leads, and how: "PROJ_LIB is /opt/other/share/proj". Empty where there is none.
+struct NamedDatabase {
+  std::string path, how;
+};
+NamedDatabase DatabaseOfEnvironment() {
+  for (const char* const variable : {"PROJ_DATA", "PROJ_LIB"}) {  // The first one counts.
+    const char* const value = std::getenv(variable);
+    if (value == nullptr) continue;
+    const std::vector<std::string> folders = absl::StrSplit(value, ':', absl::SkipEmpty());
+    for (const std::string& folder : folders) {
+      const std::filesystem::path path = std::filesystem::path(folder) / "proj.db";
+      std::error_code ignored;
+      if (std::filesystem::exists(path, ignored)) return {path.string(), absl::StrCat(variable, " is ", value)};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 absl::Status ProjContext::CheckDatabase() const {
   if (proj_context_get_database_path(context_) != nullptr) return absl::OkStatus();
+  if (!DatabaseOfEnvironment().path.empty()) return CheckLayout();
   return absl::FailedPreconditionError(
       "PROJ does not find proj.db, its database of coordinate systems; install the package proj-data, or set "
       "PROJ_LIB to the folder of proj.db");
+}
+
+absl::Status ProjContext::CheckLayout() const {
+  constexpr char kAnyCode[] = "4326";  // WGS 84, which every database has.
+  const ProjObject any(proj_create_from_database(context_, "EPSG", kAnyCode, PJ_CATEGORY_CRS, 0, nullptr));
+  if (any != nullptr) return absl::OkStatus();
+  const char* const opened = proj_context_get_database_path(context_);
+  const NamedDatabase named = DatabaseOfEnvironment();
+  const std::string path = opened != nullptr ? opened : named.path;
+  return absl::FailedPreconditionError(
+      absl::StrCat("PROJ ", proj_info().version, " cannot read its database ", path.empty() ? "proj.db" : path,
+                   " (that of another program's PROJ", named.how.empty() ? "" : ": ", named.how, "); ",
+                   named.how.empty() ? "install the package proj-data" : "unset the variable",
+                   ", or set PROJ_LIB to the folder of a proj.db of this version"));
 }
 
 absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text) {

@@ -47,6 +47,9 @@ class ProjContext {
   PJ_CONTEXT* get() const { return context_; }
   // FailedPrecondition when PROJ does not find its database of coordinate systems.
   absl::Status CheckDatabase() const;
+  // FailedPrecondition when the database is one that this PROJ cannot read, such as that of another program's PROJ. The
+  // message names it, and the variable of the environment that leads to it.
+  absl::Status CheckLayout() const;
   // The last message of PROJ, for a message to the user.
   const std::string& last_message() const { return last_message_; }
 

@@ -160,7 +160,7 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
   return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", Describe(motion)));
 }
 
-std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory) {
+std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory, double longest_step) {
   std::vector<RecordPair> pairs;
   const std::size_t last = trajectory.size() - 1;
   const std::size_t count = std::min(kMaxPairs, last);
@@ -171,7 +171,7 @@ std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory) {
     // A margin of half a nanosecond: 20 steps of 0.005 s may add up to a little less than 0.1 s.
     while (whole && second < last && second - first < kMaxSteps &&
            trajectory.TimeAt(second) - trajectory.TimeAt(first) < kStretch - 5e-10) {
-      whole = trajectory.TimeAt(second + 1) - trajectory.TimeAt(second) <= kLongestStep;
+      whole = trajectory.TimeAt(second + 1) - trajectory.TimeAt(second) <= longest_step;
       ++second;
     }
     if (whole && second > first) pairs.push_back({first, second});
@@ -213,7 +213,7 @@ double VelocityDifference(std::span<const VelocityPair> pairs) {
 }
 
 std::optional<double> VelocityDifference(const Trajectory& trajectory) {
-  if (!std::isfinite(trajectory.Record(0).velocity_north)) return std::nullopt;
+  if (!trajectory.states_velocities() || !std::isfinite(trajectory.Record(0).velocity_north)) return std::nullopt;
   std::vector<VelocityPair> pairs;
   for (const RecordPair& pair : SpreadPairs(trajectory))
     pairs.push_back(CompareVelocities(trajectory.Record(pair.first), trajectory.Record(pair.second)));

@@ -56,7 +56,8 @@ struct RecordPair {
 
 // At most 4096 stretches that are spread evenly over the file, each at least 0.1 s long where the rate allows it: noise
 // of 1 mm of the positions is 0.014 m/s then, and the velocity changes little between the ends.
-std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory);
+// Stretches with a step above `longest_step` [s] are left out.
+std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory, double longest_step = kLongestStep);
 
 // Velocity in m/s, from the differences of position and as the mean of the velocities that the two records state.
 struct VelocityPair {
@@ -69,7 +70,7 @@ VelocityPair CompareVelocities(const TrajectoryRecord& first, const TrajectoryRe
 // a jump where two solutions were joined does not make a file wrong.
 double VelocityDifference(std::span<const VelocityPair> pairs);
 
-// The same for a trajectory; nullopt if it states no velocities, or has no stretch without a gap.
+// The same for a trajectory; nullopt if it states no velocities of its own, or has no stretch without a gap.
 std::optional<double> VelocityDifference(const Trajectory& trajectory);
 
 }  // namespace albtpu::formats

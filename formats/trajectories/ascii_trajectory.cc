@@ -105,6 +105,11 @@ class AsciiReader {
     return trajectory;
   }
 
+  bool FindsColumns() {
+    ReadHeader().IgnoreError();
+    return !columns_.empty();
+  }
+
  private:
   absl::Status Error(std::string_view text) const {
     return absl::InvalidArgumentError(absl::StrCat(name_, ": ", std::string(text)));
@@ -268,6 +273,8 @@ absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::str
 }
 
 bool AsciiTrajectory::Recognizes(std::string_view bytes) { return !bytes.empty() && IsText(bytes.substr(0, 4096)); }
+
+bool AsciiTrajectory::HasRecords(std::string_view text) { return AsciiReader("", text).FindsColumns(); }
 
 TrajectoryRecord AsciiTrajectory::Record(std::size_t record) const {
   const Line& line = lines_[record];

@@ -30,6 +30,9 @@ class AsciiTrajectory : public Trajectory {
   // Whether a file may be such a text rather than a binary format.
   static bool Recognizes(std::string_view bytes);
 
+  // Whether the first line of numbers of a text has as many columns as a trajectory.
+  static bool HasRecords(std::string_view text);
+
   std::size_t columns() const { return columns_; }  // 15 or 20.
 
   std::size_t size() const override { return lines_.size(); }

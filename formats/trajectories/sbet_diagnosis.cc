@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "sea/angle.h"
@@ -86,7 +87,8 @@ constexpr std::array kSbetMistakes = {
 };
 
 // None where the change makes a position that is not on the globe.
-std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pairs, SbetRecord (*undo)(SbetRecord)) {
+std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pairs, SbetRecord (*undo)(SbetRecord),
+                                                    VelocityFrame frame = VelocityFrame::kWander) {
   std::vector<VelocityPair> velocities;
   velocities.reserve(pairs.size());
   for (const SbetPair& pair : pairs) {
@@ -94,7 +96,7 @@ std::optional<std::vector<VelocityPair>> Velocities(std::span<const SbetPair> pa
     for (const SbetRecord& record : {first, second})
       if (!(std::abs(record.latitude) <= std::numbers::pi / 2 && std::abs(record.longitude) <= 2 * std::numbers::pi))
         return std::nullopt;
-    velocities.push_back(CompareVelocities(TrajectoryRecordOf(first), TrajectoryRecordOf(second)));
+    velocities.push_back(CompareVelocities(TrajectoryRecordOf(first, frame), TrajectoryRecordOf(second, frame)));
   }
   return velocities;
 }
@@ -226,9 +228,10 @@ std::optional<std::string> VelocityCause(std::span<const SbetPair> pairs) {
                          DegreesOfRadians(turn.angle));
 }
 
-absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> pairs) {
-  const std::optional<std::vector<VelocityPair>> velocities = Velocities(pairs, AsItIs);
+absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> pairs, VelocityFrame frame) {
+  const std::optional<std::vector<VelocityPair>> velocities = Velocities(pairs, AsItIs, frame);
   if (!velocities.has_value() || velocities->empty()) return absl::OkStatus();
+  if (frame == VelocityFrame::kNone) return CheckHeadings(name, pairs, *velocities);
   if (HeightsAreInFeet(*velocities)) {
     return absl::InvalidArgumentError(
         absl::StrFormat("%s: its heights change 3.28 times as fast as its vertical velocities state (its "
@@ -238,7 +241,9 @@ absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> 
   }
   const double difference = VelocityDifference(*velocities);
   if (difference > kLargestVelocityDifference) {
-    const std::optional<std::string> cause = VelocityCause(pairs);
+    const std::optional<std::string> cause =
+        frame == VelocityFrame::kWander ? VelocityCause(pairs)
+                                        : std::optional(absl::StrCat("they were taken as along ", FrameText(frame)));
     return absl::InvalidArgumentError(absl::StrFormat(
         "%s: its velocities differ from the differences of its positions by %.2f m/s rms, more than %.0f m/s "
         "(%s); give an SBET of 17 doubles a record, in radians, metres and seconds",

@@ -11,7 +11,7 @@
 
 #include "absl/status/statusor.h"
 #include "formats/files/file_access.h"
-#include "formats/trajectories/sbet_diagnosis.h"
+#include "formats/trajectories/sbet_record.h"
 #include "formats/trajectories/trajectory.h"
 #include "formats/trajectories/trajectory_time.h"
 
@@ -26,28 +26,35 @@ class SbetFile : public Trajectory {
   // end of the GPS week they may continue beyond 604 800 s or start again from 0. Then compares velocities with
   // differences of position (ascii_motion.h) and headings with courses. An error names the cause where exchanging
   // fields, units or the wander angle explains it. Reading every record takes about as long as reading the file from
-  // the disk, and 0.1 s for 490 MB that are in memory.
-  static absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::filesystem::path& path);
+  // the disk, and 0.1 s for 490 MB that are in memory. Velocities along other axes than the format says are turned, and
+  // velocities that are left out are derived from the positions (FindVelocityFrame); remark() says so.
+  static absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::filesystem::path& path,
+                                                        VelocityAxes axes = VelocityAxes::kAuto);
 
   // The same for an open file, or for memory that is aligned for doubles. `name` is for messages.
-  static absl::StatusOr<std::unique_ptr<SbetFile>> Parse(const std::string& name, MappedFile file);
+  static absl::StatusOr<std::unique_ptr<SbetFile>> Parse(const std::string& name, MappedFile file,
+                                                         VelocityAxes axes = VelocityAxes::kAuto);
 
   std::size_t size() const override { return records_.size(); }
   double TimeAt(std::size_t record) const override {
     return records_[record].time + (record >= next_week_ ? kSecondsPerWeek : 0);
   }
   TrajectoryRecord Record(std::size_t record) const override;
+  bool states_velocities() const override { return frame_ != VelocityFrame::kNone; }
+  VelocityFrame velocity_frame() const { return frame_; }
 
   // The records as they are in the file, with accelerations and rates.
   std::span<const SbetRecord> records() const { return records_; }
 
  private:
   SbetFile(std::string name, MappedFile file);
-  absl::Status CheckRecords();
+  absl::Status CheckRecords(VelocityAxes axes);
+  void DeriveVelocity(std::size_t record, TrajectoryRecord& result) const;
 
   MappedFile file_;
   std::span<const SbetRecord> records_;
   std::size_t next_week_;  // The first record after the time started again from 0; size() if it did not.
+  VelocityFrame frame_ = VelocityFrame::kWander;
 };
 
 // An error file of Applanix's post-processing (SMRMSG): the standard deviations of an SBET, mostly once a second.

@@ -75,17 +75,24 @@ class Trajectory {
 
   virtual TrajectoryRecord Record(std::size_t record) const = 0;
 
+  // Whether velocities are stated, or derived from positions where they should be.
+  virtual bool states_velocities() const { return true; }
+
+  // What was repaired in reading the file, a line for the user; empty where nothing was.
+  const std::string& remark() const { return remark_; }
+
   // nullopt: the file states none.
   virtual std::optional<TrajectorySigma> SigmaAt(std::size_t) const { return std::nullopt; }
 
  protected:
   Trajectory(std::string name, std::string format) : name_(std::move(name)), format_(std::move(format)) {}
+  void set_remark(std::string remark) { remark_ = std::move(remark); }
 
  private:
-  std::string name_, format_;
+  std::string name_, format_, remark_;
 };
 
-// The formats, detected by the content of the file (OpenTrajectory, trajectory_timeline.h): SbetFile::Open(path) in
+// The formats, detected by the content of the file (OpenTrajectory, trajectory_files.h): SbetFile::Open(path) in
 // sbet_file.h, AsciiTrajectory::Open(path) in ascii_trajectory.h. Both check what they open. Both give
 // absl::StatusOr<std::unique_ptr<...>>. ascii_motion.h compares velocities with differences of position.
 

@@ -222,13 +222,13 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
     return {"the GPS times of the points are all 0", "export the LAS again with GPS times"};
   if (points.form == PointTimeForm::kWeekSeconds && (span.first < 0 || span.last > kLastWeekTime)) {
     return {"the header of the LAS states seconds of the GPS week, but these are adjusted standard GPS times",
-            "set bit 0 of its global encoding"};
+            "set bit 0 of its global encoding, or give --time-format adjusted"};
   }
   const PointTimes other_form = {span, PointTimeForm::kWeekSeconds};
   if (points.form == PointTimeForm::kAdjustedStandard && span.first >= 0 && span.last <= kLastWeekTime &&
       BestOffset(trajectory, clock, other_form).overlap >= 0) {
     return {"the header of the LAS states adjusted standard GPS times, but these are seconds of the GPS week",
-            "clear bit 0 of its global encoding"};
+            "clear bit 0 of its global encoding, or give --time-format week"};
   }
   // A trajectory that is not much longer than the recording may miss it by the seconds between the two clocks.
   const bool utc = clock == TrajectoryClock::kUtc;

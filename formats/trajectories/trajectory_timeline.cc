@@ -1,71 +1,16 @@
 #include "formats/trajectories/trajectory_timeline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/crs/proj_crs.h"
-#include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_motion.h"
-#include "formats/trajectories/ascii_trajectory.h"
-#include "formats/trajectories/sbet_file.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
-namespace {
-
-constexpr std::size_t kBeginning = 4096;  // Bytes. An SBET has bytes there that no text has, such as zeros.
-
-namespace fs = std::filesystem;
-
-constexpr std::array kExtensions = {".sbet", ".sbt", ".out", ".trj", ".txt", ".csv"};
-constexpr std::array kOtherContents = {"smrmsg", "rms", "report"};
-
-bool MayBeTrajectory(const fs::path& path) {
-  const std::string extension = absl::AsciiStrToLower(path.extension().string());
-  const std::string stem = absl::AsciiStrToLower(path.stem().string());
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() &&
-         std::none_of(kOtherContents.begin(), kOtherContents.end(),
-                      [&](const char* word) { return absl::StrContains(stem, word); });
-}
-
-}  // namespace
-
-absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path) {
-  bool is_text = false;
-  {
-    ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "a trajectory"));
-    is_text = AsciiTrajectory::Recognizes(file.bytes().substr(0, kBeginning));
-  }
-  if (is_text) return AsciiTrajectory::Open(path);
-  return SbetFile::Open(path);
-}
-
-absl::StatusOr<TrajectoryFiles> LoadTrajectories(std::span<const std::string> paths) {
-  TrajectoryFiles trajectories;
-  for (const std::string& path : paths) {
-    ASSIGN_OR_RETURN(const std::vector<fs::path> files, FilesAt(path, MayBeTrajectory));
-    if (files.empty()) {
-      return absl::NotFoundError(
-          absl::StrCat(path,
-                       ": no trajectory in this folder (no file with the extension .sbet, .sbt, .out, .trj, .txt or "
-                       ".csv other than error files and reports; subfolders were not searched); give a folder that has "
-                       "some, or name the files"));
-    }
-    for (const fs::path& file : files) {
-      ASSIGN_OR_RETURN(std::unique_ptr<Trajectory> trajectory, OpenTrajectory(file));
-      trajectories.push_back(std::move(trajectory));
-    }
-  }
-  return trajectories;
-}
-
 namespace {
 
 // Times in an overlap at which two files are compared.
@@ -202,9 +147,12 @@ absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFi
   std::vector<TimelineRun> parts;
   std::optional<TimelineRun> kept;
   absl::Status no_overlap;
-  for (const std::shared_ptr<const Trajectory>& file : files) {
-    const TimeSpan span = {file->TimeAt(0), file->TimeAt(file->size() - 1)};
-    const absl::StatusOr<double> offset = TimeOffset(file->name(), span, clock, points);
+  const auto offset_of = [&](const Trajectory& file) {
+    return TimeOffset(file.name(), {file.TimeAt(0), file.TimeAt(file.size() - 1)}, clock, points);
+  };
+  for (const std::size_t i : files.NearTimesOf(points)) {
+    const std::shared_ptr<const Trajectory>& file = files[i];
+    const absl::StatusOr<double> offset = offset_of(*file);
     if (!offset.ok()) {
       if (no_overlap.ok()) no_overlap = offset.status();
       continue;
@@ -212,6 +160,7 @@ absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFi
     kept = AtTimesOf(points, {file, *offset, 0, file->size()});
     AppendWithoutGaps(*kept, parts);
   }
+  if (!kept.has_value() && no_overlap.ok()) no_overlap = offset_of(*files.front()).status();
   if (!kept.has_value() && files.size() == 1) return no_overlap;
   if (!kept.has_value()) {
     return absl::InvalidArgumentError(absl::StrFormat(

@@ -1,35 +1,17 @@
-// The trajectories of a survey: opened by their content, collected from files and folders, and put in the order of
-// their times, as the points of one LAS file count them.
+// The trajectories of a survey in the order of their times, as the points of one LAS file count them.
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "formats/trajectories/trajectory.h"
+#include "formats/trajectories/trajectory_files.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
-
-// Opens a trajectory of any format.
-
-// The format is detected by the content: text is an ASCII trajectory, everything else an SBET.
-absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path);
-
-// The trajectories of a survey: one file or many.
-
-using TrajectoryFiles = std::vector<std::shared_ptr<const Trajectory>>;
-
-// Opens files and folders. A folder stands for all files in it whose extension is .sbet, .sbt, .out, .trj, .txt or
-// .csv, in any case, ordered by name; subfolders are not searched. Error files (SMRMSG) and reports lie beside SBETs
-// under the same extensions: in a folder, a file whose name contains "smrmsg", "rms" or "report" is left out. Fails on
-// the first file that is not a trajectory, and on a folder without any.
-absl::StatusOr<TrajectoryFiles> LoadTrajectories(std::span<const std::string> paths);
 
 // Two or more records of one file without a gap between them, in the times of the points.
 struct TimelineRun {

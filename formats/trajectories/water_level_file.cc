@@ -11,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
+#include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -47,6 +48,7 @@ class WaterLevelReader {
           "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
           "number in place of the file");
     if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
+    series_.has_dates_ = utc_;
     return std::move(series_);
   }
 
@@ -162,7 +164,8 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::
   return WaterLevelReader(std::move(name), std::move(text), form).Read();
 }
 
-double WaterLevelSeries::Continued(double time) const {
+double WaterLevelSeries::Continued(double stated) const {
+  const double time = scale_ * stated + shift_;
   return crosses_week_ && time < start() ? time + kSecondsPerWeek : time;
 }
 
@@ -212,6 +215,37 @@ absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& pa
     }
   }
   return WaterLevelSeries::Parse(path.string(), std::move(text), form);
+}
+
+absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
+                                                 std::string& note) {
+  note.clear();
+  ASSIGN_OR_RETURN(WaterLevelSeries stated, ReadWaterLevels(path, points.form));
+  const auto covered = [&](const WaterLevelSeries& series, const PointClock& clock) {
+    const PointTimes times = clock(points.span);
+    return Overlap({series.start(), series.end()}, times.span) / std::max(times.span.last - times.span.first, 1e-9);
+  };
+  const std::vector<PointClock> clocks = ClocksOf(points, TimeFormat::kAuto);
+  if (!stated.has_dates() || stated.crosses_week_ || covered(stated, clocks.front()) >= 0) return stated;
+  std::vector<PointClock> fitting;
+  std::optional<WaterLevelSeries> found;
+  for (const PointClock& clock : clocks) {
+    // Dates of more than a week cannot be seconds of a week: an error of that form alone.
+    absl::StatusOr<WaterLevelSeries> series = ReadWaterLevels(path, clock.form);
+    if (!series.ok() || !(covered(*series, clock) >= 0.5)) continue;
+    series->scale_ = clock.scale;
+    series->shift_ = clock.shift;
+    fitting.push_back(clock);
+    found = *std::move(series);
+  }
+  if (fitting.empty()) return stated;
+  if (fitting.size() > 1) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": covers the GPS times of the points as ", ClocksText(fitting),
+                     ", but not as their header states; give the levels of the day of the survey alone"));
+  }
+  note = ClockNote(fitting.front(), points, path.string());
+  return *std::move(found);
 }
 
 }  // namespace albtpu::formats

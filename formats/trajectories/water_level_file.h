@@ -35,6 +35,9 @@ class WaterLevelSeries {
   double start() const { return times_.front(); }
   double end() const { return times_.back(); }
 
+  // Whether the file has dates, and not times in the form of the points.
+  bool has_dates() const { return has_dates_; }
+
   // The level at a time of the points, linear between the two levels around it. nullopt before the first, after the
   // last, and in a gap.
   std::optional<double> At(double time) const;
@@ -49,18 +52,28 @@ class WaterLevelSeries {
   bool IsBetween(double time, std::size_t after) const {
     return after > 0 && after < times_.size() && times_[after - 1] <= time && time <= times_[after];
   }
-  double Continued(double time) const;                  // In the series' weeks.
+  double Continued(double stated) const;                // In the series' clock and weeks.
   std::optional<std::size_t> After(double time) const;  // IsBetween; nullopt outside of the series.
   std::optional<double> Between(double time, std::size_t after) const;
 
   std::vector<double> times_, levels_;
   bool crosses_week_ = false;  // Seconds of the week that continue beyond 604 800 s.
+  bool has_dates_ = false;
+  double scale_ = 1, shift_ = 0;  // Time of the series = scale (time of a point) + shift.
 
   friend class WaterLevelReader;
+  friend absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
+                                                          std::string& note);
 };
 
 // Reads a CSV file of water levels.
 absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path,
                                                  PointTimeForm form = PointTimeForm::kAdjustedStandard);
+
+// The same for the points of a file, by the clock that their header states. Where a file of dates has no level at their
+// times by it, by the only other clock by which it covers half of them or more; `note` says so then, and is empty
+// otherwise. The error names the clocks that fit where they are several.
+absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
+                                                 std::string& note);
 
 }  // namespace albtpu::formats

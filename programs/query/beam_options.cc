@@ -64,6 +64,8 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
   } checked[] = {
       {"--trajectory-errors", !flags.trajectory.errors.empty(), kTrajectory},
       {"--trajectory-time", flags.trajectory.time.has_value(), kTrajectory},
+      {"--time-format", flags.trajectory.time_format.has_value(), kTrajectory},
+      {"--velocity-axes", flags.trajectory.velocity_axes.has_value(), kTrajectory},
       {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
       {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
       {"--crs", options.crs.has_value(), kTrajectory | kReturns},
@@ -84,17 +86,31 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
   return absl::OkStatus();
 }
 
+static_assert(formats::kTimeFormatNames == config::kTimeFormats);
+static_assert(formats::kVelocityAxesNames == config::kVelocityAxes);
+
+// Of the names, the one that is given, or the first.
+template <typename Names>
+std::size_t IndexOf(const Names& names, const std::optional<std::string>& given) {
+  const auto found = std::find(names.begin(), names.end(), given.value_or(std::string(names.front())));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOptions& options,
                                             const SurveySettings& settings) {
   const config::TrajectorySettings& trajectory = settings.trajectory;
   switch (way.way) {
     case kTrajectory:
-      return annotate::TrajectoryFromFiles{.paths = trajectory.files,
-                                           .errors = trajectory.errors,
-                                           .utc = trajectory.time == "utc",
-                                           .geoid_separation = settings.datum.geoid_separation,
-                                           .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
-                                           .crs = options.crs};
+      return annotate::TrajectoryFromFiles{
+          .paths = trajectory.files,
+          .errors = trajectory.errors,
+          .utc = trajectory.time == "utc",
+          .time_format = static_cast<formats::TimeFormat>(IndexOf(formats::kTimeFormatNames, trajectory.time_format)),
+          .velocity_axes =
+              static_cast<formats::VelocityAxes>(IndexOf(formats::kVelocityAxesNames, trajectory.velocity_axes)),
+          .geoid_separation = settings.datum.geoid_separation,
+          .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
+          .crs = options.crs};
     case kReturns:
       return annotate::TrajectoryFromReturns{.crs = options.crs};
     case kScanner:
@@ -172,7 +188,9 @@ void SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) 
 }
 
 void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
-  AddFlags(command, {"--trajectory", "--trajectory-errors", "--trajectory-time", "--geoid-separation", "--lever-arm"},
+  AddFlags(command,
+           {"--trajectory", "--trajectory-errors", "--trajectory-time", "--time-format", "--velocity-axes",
+            "--geoid-separation", "--lever-arm"},
            group::kBeam, flags);
   command
       .add_option("--crs", options.crs,

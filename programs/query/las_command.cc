@@ -124,9 +124,12 @@ class LasFiles {
 // Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
 absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
   if (const auto* files = std::get_if<annotate::TrajectoryFromFiles>(&plan.source)) {
-    ASSIGN_OR_RETURN(formats::TrajectoryFiles trajectories, formats::LoadTrajectories(files->paths));
+    ASSIGN_OR_RETURN(formats::TrajectoryFiles trajectories,
+                     formats::LoadTrajectories(files->paths, files->velocity_axes));
+    for (const std::string& line : trajectories.skipped()) annotate::Note(line);
     plan.trajectories = std::make_shared<const formats::TrajectoryFiles>(std::move(trajectories));
     ASSIGN_OR_RETURN(plan.trajectory_errors, annotate::LoadTrajectoryErrors(files->errors));
+    for (const std::string& line : plan.trajectory_errors.skipped()) annotate::Note(line);
   }
   if (!plan.water_level_file.has_value()) return absl::OkStatus();
   return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard).status();

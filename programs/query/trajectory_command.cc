@@ -22,8 +22,8 @@
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
 #include "formats/trajectories/trajectory.h"
+#include "formats/trajectories/trajectory_files.h"
 #include "formats/trajectories/trajectory_time.h"
-#include "formats/trajectories/trajectory_timeline.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
@@ -54,6 +54,7 @@ struct TrajectorySummary {
   // Rms difference of stated velocities from those of the positions, m/s. A file whose difference is too large is not
   // summarized but refused.
   std::optional<double> velocity_difference;
+  std::string remark;  // What was repaired; without the path.
 
   double duration() const { return end - start; }
   // Records per second, gaps left out.
@@ -126,6 +127,9 @@ TrajectorySummary Summarize(const formats::Trajectory& trajectory) {
   if (!speeds.empty()) summary.speed = MedianOfFinite(std::move(speeds));
   summary.sigma = MedianSigma(trajectory.size(), [&](std::size_t i) { return trajectory.SigmaAt(i); });
   summary.velocity_difference = formats::VelocityDifference(trajectory);
+  summary.remark = trajectory.remark();
+  const std::string path = trajectory.name() + ": ";
+  if (summary.remark.starts_with(path)) summary.remark.erase(0, path.size());
   return summary;
 }
 
@@ -227,10 +231,11 @@ std::string TrajectoryText(const std::string& path, const TrajectorySummary& sum
     line("", absl::StrFormat("roll %.4f, pitch %.4f, heading %.4f degrees", DegreesOfRadians(sigma.roll),
                              DegreesOfRadians(sigma.pitch), DegreesOfRadians(sigma.heading)));
   }
+  if (!summary.remark.empty()) line("velocities", summary.remark);
   if (summary.velocity_difference.has_value()) {
     line("velocity check", absl::StrFormat("passed: %.3f m/s rms from differences of position, at most %g m/s",
                                            *summary.velocity_difference, formats::kLargestVelocityDifference));
-  } else if (summary.speed.has_value()) {
+  } else if (summary.speed.has_value() && summary.remark.empty()) {
     line("velocity check", "none: the file states no velocities; speed and heading are those of an aircraft");
   }
   return text;
@@ -272,6 +277,7 @@ Json TrajectoryJson(const std::string& path, const absl::StatusOr<TrajectorySumm
   json["sigma_pitch"] = Degrees(sigma.pitch);
   json["sigma_heading"] = Degrees(sigma.heading);
   json["velocity_difference"] = Number(summary->velocity_difference);
+  json["remark"] = summary->remark.empty() ? Json(nullptr) : Json(PrintableText(summary->remark));
   return json;
 }
 

@@ -134,6 +134,20 @@ TEST_F(TrajectoryErrorsTest, TakesTheErrorFilesOfAFolderByName) {
   EXPECT_THAT(starts, ElementsAre(100, 200));
 }
 
+TEST_F(TrajectoryErrorsTest, DecidesByContentsAndNotByNames) {
+  folder_.Write("day2_Storms.sbet", SbetBytes(Fly(flight_)));
+  folder_.Write("errors_of_day1.out", SmrmsgBytes(300, 2));
+  folder_.Write("farms.dat", SmrmsgBytes(100, 2));
+  folder_.Write("sigma.bin", SmrmsgBytes(200, 2));
+  folder_.Write("notes.txt", "none");
+  const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.path()});
+  ASSERT_TRUE(errors.ok()) << errors.status();
+  std::vector<double> starts;
+  for (const auto& file : *errors) starts.push_back(file->TimeAt(0));
+  EXPECT_THAT(starts, ElementsAre(300, 100, 200));
+  EXPECT_THAT(errors->skipped(), ElementsAre(HasSubstr("skipped day2_Storms.sbet (trajectories by their contents)")));
+}
+
 TEST_F(TrajectoryErrorsTest, TakesAFileOfAnyName) {
   const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.Write("errors", SmrmsgBytes(100, 2))});
   EXPECT_EQ(errors->size(), 1u);

@@ -113,6 +113,102 @@ TEST_F(TrackFromFilesTest, NamesTheClockThatTheTrajectoryHas) {
   EXPECT_THAT(Refusal(), HasSubstr("its times are GPS, 18 s after UTC); give --trajectory-time gps"));
 }
 
+// The same points with the times of other clocks than their header states. 300020 s of the week are Wednesday, 40820 s
+// of its day; the week is 1896.
+struct WrittenClock {
+  const char* name;
+  formats::PointTimeForm header;
+  double shift, unit;  // Time as written = (second of the week + shift) unit.
+};
+constexpr double kBeginOfWeek = 1896 * 604800.0;  // s since 1980
+constexpr double kOfDay = -3 * 86400.0;
+constexpr auto kWeekHeader = formats::PointTimeForm::kWeekSeconds,
+               kStandardHeader = formats::PointTimeForm::kAdjustedStandard;
+constexpr WrittenClock kWrittenClocks[] = {
+    {"week", kStandardHeader, 0, 1},
+    {"adjusted", kWeekHeader, kBeginOfWeek - 1e9, 1},
+    {"gps", kStandardHeader, kBeginOfWeek, 1},
+    {"unix", kWeekHeader, kBeginOfWeek + 315964800 - 17, 1},
+    {"unix", kStandardHeader, kBeginOfWeek + 315964800 - 17, 1},
+    {"milliseconds", kWeekHeader, 0, 1000},
+    {"milliseconds", kStandardHeader, kBeginOfWeek + 315964800 - 17, 1000},
+    {"day", kWeekHeader, kOfDay, 1},
+    {"day", kStandardHeader, kOfDay, 1},
+};
+
+TEST_F(TrackFromFilesTest, ReadsTheTimesOfEveryClockByWhatFits) {
+  const auto [expected, known] = Ask(*TrackFromFiles(file_, plan_)->track, {flight_.start + 50});
+  const TrackedFile right = file_;
+  for (const WrittenClock& clock : kWrittenClocks) {
+    const auto written = [&](double second) { return (second + clock.shift) * clock.unit; };
+    file_ = right;
+    file_.times = {{written(right.times.span.first), written(right.times.span.last)}, clock.header};
+    for (AirRay& ray : file_.rays) ray.time = written(ray.time);
+    for (std::size_t format = 0; format < formats::kTimeFormatNames.size(); ++format) {
+      source().time_format = static_cast<formats::TimeFormat>(format);
+      const bool is_auto = format == 0, is_right = formats::kTimeFormatNames[format] == clock.name;
+      const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+      ASSERT_EQ(found.ok(), is_auto || is_right)
+          << clock.name << " as " << formats::kTimeFormatNames[format] << ": " << found.status();
+      if (!found.ok()) continue;
+      EXPECT_EQ((*found->json)["time_format"], clock.name);
+      EXPECT_EQ((*found->json)["check"]["verdict"], "agrees");
+      if (is_auto) {
+        EXPECT_THAT(found->notes.back(), HasSubstr(std::string("--time-format ") + clock.name + " says so"));
+      }
+      const auto [positions, outcomes] = Ask(*found->track, {written(flight_.start + 50), 0, NAN, INFINITY});
+      EXPECT_THAT(outcomes, ElementsAre(TrackOutcome::kKnown, TrackOutcome::kOutside, TrackOutcome::kOutside,
+                                        TrackOutcome::kOutside));
+      // Unix milliseconds are rounded to 2e-4 ms, adjusted times of 60 m/s to 3e-8 s.
+      EXPECT_NEAR(positions[0].x, expected[0].x, 2e-5) << clock.name;
+      EXPECT_NEAR(positions[0].z, expected[0].z, 2e-5) << clock.name;
+      const std::optional<SensorMotion> motion = found->motions->At(written(flight_.start + 50));
+      EXPECT_NEAR(motion->velocity[0], 60 * std::cos(30 * kDegree), 10) << clock.name;
+      EXPECT_FALSE(found->motions->At(0).has_value());
+    }
+  }
+}
+
+TEST_F(TrackFromFilesTest, NamesTheClocksWhereSeveralFit) {
+  // The same flight on Tuesday: seconds of the day fit both days.
+  Flight before = flight_;
+  before.start -= 86400;
+  const std::vector<std::string> paths = {folder_.Write("wednesday.sbet", SbetBytes(Fly(flight_))),
+                                          folder_.Write("tuesday.sbet", SbetBytes(Fly(before)))};
+  plan_.trajectories = std::make_shared<const formats::TrajectoryFiles>(*formats::LoadTrajectories(paths));
+  for (double* time : {&file_.times.span.first, &file_.times.span.last}) *time += kOfDay;
+  for (AirRay& ray : file_.rays) ray.time += kOfDay;
+  EXPECT_THAT(Refusal(), HasSubstr("seconds of the day, a Tuesday or as seconds of the day, a Wednesday"));
+  EXPECT_THAT(Refusal(), HasSubstr("give the trajectory of this flight alone"));
+}
+
+TEST_F(TrackFromFilesTest, RaysWithoutATimeDisturbNothing) {
+  const auto [expected, known] = Ask(*TrackFromFiles(file_, plan_)->track, {flight_.start + 50});
+  for (const double time : {0.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    file_.rays.insert(file_.rays.begin(), 5, file_.rays[7]);
+    for (std::size_t i = 0; i < 5; ++i) file_.rays[i].time = time;
+  }
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  ASSERT_TRUE(found.ok()) << found.status();
+  EXPECT_EQ((*found->json)["check"]["rays"], 3000);
+  const auto [positions, outcomes] = Ask(*found->track, {flight_.start + 50, 0, NAN, -INFINITY});
+  EXPECT_THAT(outcomes, ElementsAre(TrackOutcome::kKnown, TrackOutcome::kOutside, TrackOutcome::kOutside,
+                                    TrackOutcome::kOutside));
+  EXPECT_EQ(positions[0].x, expected[0].x);
+}
+
+TEST_F(TrackFromFilesTest, SaysWhatWasRepairedInATrajectory) {
+  const auto rows = Changed(Fly(flight_), [](SbetRow& row) {
+    for (const SbetField field : {kVelocityX, kVelocityY, kVelocityZ}) row[field] = 0;
+  });
+  const auto files = formats::LoadTrajectories(std::vector<std::string>{folder_.Write("zero.sbet", SbetBytes(rows))});
+  plan_.trajectories = std::make_shared<const formats::TrajectoryFiles>(*files);
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  ASSERT_TRUE(found.ok()) << found.status();
+  EXPECT_THAT(found->notes, ::testing::Contains(HasSubstr("zero.sbet: its velocities are all 0")));
+  EXPECT_NEAR(found->motions->At(flight_.start + 50)->velocity[0], 60 * std::cos(30 * kDegree), 10);
+}
+
 TEST_F(TrackFromFilesTest, RefusesATrajectoryFarFromThePoints) {
   file_.extent.x_min += 50e3;
   file_.extent.x_max += 50e3;

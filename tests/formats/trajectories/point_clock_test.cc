@@ -1,4 +1,8 @@
+#include "formats/trajectories/point_clock.h"
+
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 #include "formats/trajectories/trajectory_time.h"
 #include "sea/sea_time.h"
@@ -58,6 +62,98 @@ TEST(UtcOfPoints, LieOutsideOfWhatIsKnown) {
   EXPECT_THAT(ErrorOf(OfWeek(400000, 410000), known), HasSubstr("measured outside of sea.csv"));
   EXPECT_THAT(ErrorOf(Adjusted("2020-06-10T00:00:00Z", "2020-06-10T02:00:00Z"), known),
               HasSubstr("the file 2020-06-07T12:00:00Z to 2020-06-09T12:00:00Z"));
+}
+
+// The same half hour, Wednesday 2016-05-11 from 14:00:00 UTC, by every clock. GPS is 17 s ahead of UTC.
+constexpr double kUnix = 1462975200;  // s since 1970, of the calendar
+constexpr double kGpsTime = kUnix - 315964800 + 17;
+constexpr double kOfWeek = kGpsTime - 1896 * kSecondsPerWeek;
+constexpr double kOfDay = 14 * 3600 + 17;
+
+struct Written {
+  TimeFormat format;
+  PointTimeForm header;  // What the file states wrongly.
+  double first, unit;
+  const char* description;
+};
+const Written kWritten[] = {
+    {TimeFormat::kWeek, PointTimeForm::kAdjustedStandard, kOfWeek, 1, "seconds of the GPS week"},
+    {TimeFormat::kAdjusted, PointTimeForm::kWeekSeconds, kGpsTime - 1e9, 1, "adjusted standard GPS times"},
+    {TimeFormat::kGps, PointTimeForm::kAdjustedStandard, kGpsTime, 1, "GPS seconds since 1980"},
+    {TimeFormat::kGps, PointTimeForm::kWeekSeconds, kGpsTime, 1, "GPS seconds since 1980"},
+    {TimeFormat::kUnix, PointTimeForm::kAdjustedStandard, kUnix, 1, "Unix seconds"},
+    {TimeFormat::kUnix, PointTimeForm::kWeekSeconds, kUnix, 1, "Unix seconds"},
+    {TimeFormat::kDay, PointTimeForm::kWeekSeconds, kOfDay, 1, "seconds of the day, a Wednesday"},
+    {TimeFormat::kMilliseconds, PointTimeForm::kWeekSeconds, 1e3 * kOfWeek, 1e3, "milliseconds of the GPS week"},
+    {TimeFormat::kMilliseconds, PointTimeForm::kAdjustedStandard, 1e3 * kOfDay, 1e3,
+     "milliseconds of the day, a Wednesday"},
+    {TimeFormat::kMilliseconds, PointTimeForm::kAdjustedStandard, 1e3 * kUnix, 1e3, "Unix milliseconds"},
+};
+
+PointTimes TimesOf(const Written& written) {
+  return {{written.first, written.first + 1800 * written.unit}, written.header};
+}
+
+// Whether a clock reads the half hour.
+bool IsRight(const PointClock& clock, const PointTimes& stated) {
+  const PointTimes times = clock(stated.span);
+  const double first = times.form == PointTimeForm::kWeekSeconds ? kOfWeek : kGpsTime - kAdjustedGpsOffset;
+  return std::abs(times.span.first - first) < 1e-6 && std::abs(times.span.last - first - 1800) < 1e-6;
+}
+
+TEST(PointClock, OfEveryKindIsAmongThePossibleOnes) {
+  for (const Written& written : kWritten) {
+    const PointTimes stated = TimesOf(written);
+    const std::vector<PointClock> clocks = ClocksOf(stated, TimeFormat::kAuto);
+    EXPECT_EQ(clocks.front().form, written.header);
+    EXPECT_FALSE(clocks.front().changes_times());
+    EXPECT_FALSE(IsRight(clocks.front(), stated)) << written.description;
+    int right = 0;
+    for (const PointClock& clock : clocks) {
+      if (!IsRight(clock, stated)) continue;
+      ++right;
+      EXPECT_EQ(clock.format, written.format) << written.description;
+      EXPECT_EQ(clock.description, written.description);
+    }
+    EXPECT_EQ(right, 1) << written.description;
+  }
+}
+
+TEST(PointClock, IsTheOneThatTheUserNames) {
+  for (const Written& written : kWritten) {
+    const PointTimes stated = TimesOf(written);
+    int right = 0;
+    for (const PointClock& clock : ClocksOf(stated, written.format)) {
+      EXPECT_EQ(clock.format, written.format);
+      right += IsRight(clock, stated);
+    }
+    EXPECT_EQ(right, 1) << written.description;
+  }
+  EXPECT_TRUE(ClocksOf({{kUnix, kUnix + 9}, PointTimeForm::kWeekSeconds}, TimeFormat::kWeek).empty());
+  EXPECT_TRUE(ClocksOf({{kOfWeek, kOfWeek + 9}, PointTimeForm::kWeekSeconds}, TimeFormat::kUnix).empty());
+}
+
+TEST(PointClock, IsFoundByTheTimesOfASea) {
+  const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
+  for (const Written& written : kWritten) {
+    if (written.unit != 1) continue;
+    const PointTimes stated = TimesOf(written);
+    std::string note;
+    const absl::StatusOr<double> offset = FindUtcOffset("in.las", stated, known, "sea.csv", note);
+    ASSERT_TRUE(offset.ok()) << written.description << ": " << offset.status();
+    EXPECT_NEAR(stated.span.first + *offset, Utc("2016-05-11T14:00Z"), 1e-6) << written.description;
+    EXPECT_THAT(note, ::testing::AllOf(HasSubstr(std::string("are ") + written.description), HasSubstr("sea.csv"),
+                                       HasSubstr(TimeFormatFlag({.format = written.format, .description = ""}))));
+  }
+  // What the header says is right.
+  std::string note = "none";
+  EXPECT_TRUE(FindUtcOffset("in.las", OfWeek(kOfWeek, kOfWeek + 60), known, "sea.csv", note).ok());
+  EXPECT_EQ(note, "");
+  // Of a sea of a week, every day fits.
+  const TimeSpan week = Span("2016-05-09T00:00Z", "2016-05-14T00:00Z");
+  EXPECT_THAT(
+      std::string(FindUtcOffset("in.las", OfWeek(kOfDay, kOfDay + 60), week, "sea.csv", note).status().message()),
+      HasSubstr("seconds of the day, a Tuesday or as seconds of the day, a Wednesday"));
 }
 
 }  // namespace

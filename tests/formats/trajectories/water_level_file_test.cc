@@ -152,5 +152,42 @@ TEST(WaterLevels, AreReadFromAFile) {
   EXPECT_THAT(std::string(ReadWaterLevels(folder.path()).status().message()), HasSubstr("is a folder"));
 }
 
+// 2016-05-11T14:10:00Z, 600 s after the first level, by every clock; GPS is 17 s ahead of UTC. The levels are 1 to 2 m in
+// 20 minutes.
+TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
+  constexpr double kUnix = 1462975800, kGps = kUnix - 315964800 + 17, kOfWeek = kGps - 1896 * kSecondsPerWeek;
+  const albtpu::testing::TemporaryFolder folder;
+  const std::filesystem::path path =
+      folder.Write("tide.csv", "time,water_level\n2016-05-11T14:00:00Z,1\n2016-05-11T14:20:00Z,2\n");
+  const struct {
+    double time, unit;
+    PointTimeForm header;
+    const char* format;  // Empty: as the header states.
+  } kPoints[] = {{kGps - 1e9, 1, kAdjustedStandard, ""},
+                 {kOfWeek, 1, kWeekSeconds, ""},
+                 {kGps - 1e9, 1, kWeekSeconds, "adjusted"},
+                 {kOfWeek, 1, kAdjustedStandard, "week"},
+                 {kGps, 1, kAdjustedStandard, "gps"},
+                 {kUnix, 1, kWeekSeconds, "unix"},
+                 {kOfWeek * 1e3, 1e3, kWeekSeconds, "milliseconds"},
+                 {kOfWeek - 3 * 86400, 1, kWeekSeconds, "day"}};
+  for (const auto& points : kPoints) {
+    std::string note = "none";
+    const auto levels = FindWaterLevels(path, {{points.time, points.time + 60 * points.unit}, points.header}, note);
+    ASSERT_TRUE(levels.ok()) << points.format << levels.status();
+    EXPECT_NEAR(levels->At(points.time).value_or(-1), 1.5, 1e-9) << points.format;
+    EXPECT_NEAR(levels->At(points.time + 60 * points.unit).value_or(-1), 1.55, 1e-9) << points.format;
+    if (*points.format == '\0')
+      EXPECT_EQ(note, "");
+    else
+      EXPECT_THAT(note, ::testing::HasSubstr(std::string("--time-format ") + points.format + " says so"));
+  }
+  // Of another day: there is no level, and nothing is claimed.
+  std::string note;
+  const auto none = FindWaterLevels(path, {{kUnix + 2e5, kUnix + 2e5 + 60}, kWeekSeconds}, note);
+  EXPECT_FALSE(none->At(kUnix + 2e5).has_value());
+  EXPECT_EQ(note, "");
+}
+
 }  // namespace
 }  // namespace albtpu::formats

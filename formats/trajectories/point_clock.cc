@@ -1,0 +1,132 @@
+#include "formats/trajectories/point_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+
+namespace albtpu::formats {
+namespace {
+
+constexpr double kSecondsPerDay = 86400;  // exact
+constexpr double kMillisecond = 1e-3;     // s, exact.
+constexpr double kUnixEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact.
+// GPS times of 1990 and 2060. Airborne lasers have been placed by GPS since about 1990.
+constexpr double kEarliest = 315e6, kLatest = 2525e6;
+// A flight that began before the end of a week or a day goes on for less than a day.
+constexpr double kLastOfWeek = kSecondsPerWeek + kSecondsPerDay, kLastOfDay = 2 * kSecondsPerDay;
+
+constexpr std::array<std::string_view, 7> kDays = {"Sunday",   "Monday", "Tuesday", "Wednesday",
+                                                   "Thursday", "Friday", "Saturday"};
+
+bool IsWithin(const TimeSpan& span, double least, double greatest) {
+  return span.first >= least && span.last <= greatest;
+}
+
+std::string Describe(PointTimeForm form) {
+  return form == PointTimeForm::kWeekSeconds ? "seconds of the GPS week" : "adjusted standard GPS times";
+}
+
+PointClock Adjusted(TimeFormat format, double scale, double shift, std::string description) {
+  return {format, scale, shift, PointTimeForm::kAdjustedStandard, std::move(description)};
+}
+
+// Those of times of which one is `scale` seconds; `span` is in seconds. Clocks whose dates no survey has are left out.
+void AddClocks(const TimeSpan& span, double scale, std::vector<PointClock>& clocks) {
+  const bool seconds = scale == 1;
+  const std::string unit = seconds ? "seconds" : "milliseconds";
+  const auto format = [&](TimeFormat in_seconds) { return seconds ? in_seconds : TimeFormat::kMilliseconds; };
+  if (IsWithin(span, 0, kLastOfWeek)) {
+    clocks.push_back(
+        {format(TimeFormat::kWeek), scale, 0, PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the GPS week")});
+  }
+  if (IsWithin(span, kEarliest - kAdjustedGpsOffset, kLatest - kAdjustedGpsOffset)) {
+    clocks.push_back(Adjusted(format(TimeFormat::kAdjusted), scale, 0,
+                              seconds ? "adjusted standard GPS times" : "adjusted standard GPS times in milliseconds"));
+  }
+  if (IsWithin(span, kEarliest, kLatest)) {
+    clocks.push_back(
+        Adjusted(format(TimeFormat::kGps), scale, -kAdjustedGpsOffset, absl::StrCat("GPS ", unit, " since 1980")));
+  }
+  if (IsWithin(span, kEarliest + kUnixEpoch, kLatest + kUnixEpoch)) {
+    const double leap = LeapSecondsAtUtc(span.first - kUnixEpoch);
+    clocks.push_back(Adjusted(format(TimeFormat::kUnix), scale, leap - kUnixEpoch - kAdjustedGpsOffset,
+                              absl::StrCat("Unix ", unit)));
+  }
+  if (!IsWithin(span, 0, kLastOfDay)) return;
+  for (std::size_t day = 0; day < kDays.size(); ++day) {
+    clocks.push_back({format(TimeFormat::kDay), scale, kSecondsPerDay * static_cast<double>(day),
+                      PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the day, a ", std::string(kDays[day]))});
+  }
+}
+
+bool ReadsAlike(const PointClock& a, const PointClock& b) {
+  return a.scale == b.scale && a.shift == b.shift && a.form == b.form;
+}
+
+bool IsTime(const TimeSpan& span) { return !(IsNoTime(span.first) && IsNoTime(span.last)); }
+
+}  // namespace
+
+bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
+
+std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format) {
+  std::vector<PointClock> possible;
+  AddClocks(stated.span, 1, possible);
+  const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
+  AddClocks(milliseconds, kMillisecond, possible);
+  std::vector<PointClock> clocks;
+  if (format == TimeFormat::kAuto) clocks.push_back({TimeFormat::kAuto, 1, 0, stated.form, Describe(stated.form)});
+  for (PointClock& clock : possible) {
+    if (format != TimeFormat::kAuto && clock.format != format) continue;
+    // Seconds of the first day of the week are those of the week.
+    const bool is_known =
+        std::any_of(clocks.begin(), clocks.end(), [&](const PointClock& other) { return ReadsAlike(clock, other); });
+    if (!is_known) clocks.push_back(std::move(clock));
+  }
+  return clocks;
+}
+
+std::string NameOf(TimeFormat format) { return std::string(kTimeFormatNames[static_cast<std::size_t>(format)]); }
+
+std::string TimeFormatFlag(const PointClock& clock) { return absl::StrCat("--time-format ", NameOf(clock.format)); }
+
+std::string ClocksText(std::span<const PointClock> clocks) {
+  return absl::StrJoin(clocks, " or as ",
+                       [](std::string* text, const PointClock& clock) { absl::StrAppend(text, clock.description); });
+}
+
+std::string ClockNote(const PointClock& clock, const PointTimes& stated, const std::string& fitting) {
+  return absl::StrCat("the GPS times of the points are ", clock.description, ", not ", Describe(stated.form),
+                      " as their file states: only so does ", fitting, " lie at the points; ", TimeFormatFlag(clock),
+                      " says so");
+}
+
+absl::StatusOr<double> FindUtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
+                                     const std::string& of, std::string& note) {
+  note.clear();
+  absl::StatusOr<double> stated = UtcOffset(name, points, known, of);
+  if (stated.ok() || !IsTime(points.span)) return stated;
+  std::vector<PointClock> fitting;
+  double offset = 0;
+  for (const PointClock& clock : ClocksOf(points, TimeFormat::kAuto)) {
+    const PointTimes times = clock(points.span);
+    const absl::StatusOr<double> utc = UtcOffset(name, times, known, of);
+    if (clock.scale != 1 || !utc.ok()) continue;
+    const TimeSpan span = {times.span.first + *utc, times.span.last + *utc};
+    if (Overlap(span, known) < (span.last - span.first) / 2) continue;
+    offset = *utc + clock.shift;
+    fitting.push_back(clock);
+  }
+  if (fitting.empty()) return stated;
+  if (fitting.size() > 1) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(stated.status().message(), " (as ", ClocksText(fitting), " they would lie within it)"));
+  }
+  note = ClockNote(fitting.front(), points, of);
+  return offset;
+}
+
+}  // namespace albtpu::formats

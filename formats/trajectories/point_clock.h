@@ -1,0 +1,60 @@
+// The clock by which the times of points are read: that of the header of their file, that which the user names, or
+// those that may be meant where neither fits.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "formats/trajectories/trajectory_time.h"
+
+namespace albtpu::formats {
+
+// What the user says of the times of the points: --time-format.
+enum class TimeFormat { kAuto, kWeek, kAdjusted, kGps, kUnix, kMilliseconds, kDay };
+inline constexpr std::array<std::string_view, 7> kTimeFormatNames = {"auto", "week",         "adjusted", "gps",
+                                                                     "unix", "milliseconds", "day"};
+
+// A way to read the times of points: time = scale * (time as the file states it) + shift, in seconds.
+struct PointClock {
+  TimeFormat format = TimeFormat::kAuto;  // What accepts it; kAuto for none but the header.
+  double scale = 1, shift = 0;
+  PointTimeForm form = PointTimeForm::kAdjustedStandard;  // Of the time that results.
+  std::string description;                                // For messages: "Unix seconds".
+
+  double operator()(double stated) const { return scale * stated + shift; }
+  PointTimes operator()(const TimeSpan& stated) const { return {{(*this)(stated.first), (*this)(stated.last)}, form}; }
+  bool changes_times() const { return scale != 1 || shift != 0; }
+};
+
+// A time that no clock gives: 0, which files have where the clock was not known, or not finite.
+bool IsNoTime(double stated);
+
+// The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
+// other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
+// formats: that one alone, which is several for seconds of a day and for milliseconds.
+std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format);
+
+// "unix"
+std::string NameOf(TimeFormat format);
+
+// "--time-format unix"
+std::string TimeFormatFlag(const PointClock& clock);
+
+// "Unix seconds or as seconds of the day, a Monday"
+std::string ClocksText(std::span<const PointClock> clocks);
+
+// For the user, where a clock was found by what fits: "the GPS times of the points are Unix seconds, not adjusted
+// standard GPS times as their file states: only so does `fitting` lie at the points; --time-format unix says so".
+std::string ClockNote(const PointClock& clock, const PointTimes& stated, const std::string& fitting);
+
+// UtcOffset by the clock that the header states; where the points lie outside `known` by it, by the only other one
+// whose unit is a second and by which half of their time or more lies within. `note` says so then, and is empty
+// otherwise. The error names the clocks that fit where they are several.
+absl::StatusOr<double> FindUtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
+                                     const std::string& of, std::string& note);
+
+}  // namespace albtpu::formats
