@@ -226,7 +226,8 @@ void ProjectedTrack::PositionsAt(std::span<const double> times, std::span<Sensor
   assert(times.size() == positions.size() && times.size() == outcomes.size());
   Cursor cursor(*this), cursor_of_next_week(*this);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (formats::IsNoTime(times[i])) {
+    // Where seconds of the week begin again, 0 is a time as any other.
+    if (formats::IsNoTime(times[i]) && !(starts_again_ && times[i] == 0)) {
       outcomes[i] = TrackOutcome::kOutside;
       continue;
     }

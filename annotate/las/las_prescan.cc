@@ -10,6 +10,7 @@
 #include "annotate/beams/water_heights.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_points.h"
+#include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {
@@ -110,7 +111,7 @@ class PrescanWork {
       if ((roles & kSurface) != 0) AddSurface(part, i);
       if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
       if ((roles & kNumbered) != 0) AddNumbered(at, part, i);
-      if (pairs_ && IsTime(part.times[i])) AddPairs(part, i);
+      if (pairs_ && !formats::IsNoTime(part.times[i])) AddPairs(part, i);
     }
     return absl::OkStatus();
   }
@@ -151,7 +152,7 @@ class PrescanWork {
   static void AddNumbered(const std::array<double, 3>& at, Part& part, std::size_t i) {
     Extend(at, at, part.of_numbered);
     ++part.numbered;
-    if (!IsTime(part.times[i])) return;
+    if (formats::IsNoTime(part.times[i])) return;
     part.first_time = std::min(part.first_time, part.times[i]);
     part.last_time = std::max(part.last_time, part.times[i]);
   }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -34,9 +33,6 @@ inline constexpr std::size_t kPulseReach = 16;
 // m; in waves of Hs 6 m, three returns in four are nearer to the level than this.
 inline constexpr double kLevelTolerance = 2;
 
-// Whether this GPS time is one: software that does not know the time of a point writes 0.
-inline bool IsTime(double time) { return std::isfinite(time) && time != 0; }
-
 struct LasPrescan {
   // Bounds of points in the coordinates of the file; meaningless if there are none.
   struct Box {
@@ -45,7 +41,7 @@ struct LasPrescan {
   Box all;                     // Of all points.
   std::uint64_t numbered = 0;  // Points that may get a number: chosen and dry ones.
   Box of_numbered;
-  // Of the same points, those that are times (IsTime).
+  // Of the same points, those that are times (formats::IsNoTime).
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
   std::uint64_t surface_returns = 0, synthetic_surface = 0;  // The latter are part of the former.
   // Returns of `level_classes`, those of them that lie farther than kLevelTolerance from the water level, and the mean
