@@ -221,7 +221,7 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
                         file.name, file.times.span.first, file.times.span.last, formats::NameOf(format)));
   }
   absl::StatusOr<FileTrack> first = TrackByClock(file, plan, clocks.front());
-  if (clocks.size() == 1 || (first.ok() && !is_chosen)) return first;
+  if (first.ok() ? !is_chosen : clocks.size() == 1) return first;
   std::vector<formats::PointClock> fitting;
   std::optional<FileTrack> found;
   if (first.ok()) {

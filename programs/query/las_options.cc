@@ -170,7 +170,7 @@ nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, con
   json["classes"] = nullptr;  // The default of the point format.
   if (annotation.classes.has_value()) json["classes"] = *annotation.classes;
   json["details"] = annotation.details;
-  json["points"] = annotation.plan.dry_points ? "all" : "bathymetric";
+  if (annotation.plan.dry_points) json["points"] = "all";
   if (annotation.use_withheld) json["use_withheld"] = true;
   if (annotation.replace) json["replace"] = true;
   json["format"] = nullptr;  // By the name of the output, or that of the input.

@@ -24,7 +24,7 @@ PATHS = dict(argument.split("=", 1) for argument in sys.argv[2:] if "=" in argum
 PROGRAMS = {f"albtpu-{name}": PATHS[f"albtpu_{name}"] for name in ("generate", "query", "serve")}
 QUERY = PROGRAMS["albtpu-query"]
 PROMISED = pathlib.Path(__file__).resolve().with_name("promised.txt")
-TYPES = {9: "float32"}
+TYPES = {1: "uint8", 9: "float32"}
 LEVELS = 2  # Of members of JSON objects; the tests of recorded files compare all.
 WATER = """kd = 0.15
 kd_kind = "diffuse532"
@@ -85,7 +85,7 @@ def names_in_files():
         run(PATHS["laz_copy"], folder / "sea.laz", folder / "sea.las").check_returncode()
         for path in ("annotated/flight_1.las", "sea.las"):
             for name, (_, kind, no_data, _) in LasFile(folder / path).extra_dimensions().items():
-                yield f"dimension of las: {name} {TYPES[kind]}, no data {no_data:g}"
+                yield f"dimension of las: {name} {TYPES[kind]}, no data {no_data or 0:g}"
         for path, what in (("annotated/flight_1.las.json", "summary of las with a total"),
                            ("sea.laz.json", "summary of las"), ("answers.csv.json", "summary of csv"),
                            ("wet.csv.json", "summary of csv with a total"),
