@@ -13,8 +13,8 @@
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_writer.h"
-#include "formats/laz/items/point_encoders.h"
 #include "formats/text/text.h"
+#include "laz/items/point_encoders.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "annotate/las/las_prescan.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

@@ -9,8 +9,8 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "formats/las/las_header.h"
-#include "formats/laz/coding/little_endian.h"
 #include "formats/text/text.h"
+#include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

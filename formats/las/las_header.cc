@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/little_endian.h"
-#include "formats/laz/items/laszip_record.h"
+#include "laz/coding/little_endian.h"
+#include "laz/items/laszip_record.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

@@ -14,8 +14,8 @@
 #include "absl/status/statusor.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_reader.h"
-#include "formats/laz/coding/little_endian.h"
-#include "formats/laz/laz_points.h"
+#include "laz/coding/little_endian.h"
+#include "laz/laz_points.h"
 
 namespace albtpu::formats {
 

@@ -14,8 +14,8 @@
 #include "absl/status/statusor.h"
 #include "formats/files/file_access.h"
 #include "formats/las/las_header.h"
-#include "formats/laz/coding/arithmetic_decoder.h"
-#include "formats/laz/laz_points.h"
+#include "laz/coding/arithmetic_decoder.h"
+#include "laz/laz_points.h"
 
 namespace albtpu::formats {
 

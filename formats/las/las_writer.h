@@ -13,8 +13,8 @@
 #include "formats/files/file_access.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_reader.h"
-#include "formats/laz/chunk_table.h"
-#include "formats/laz/items/laszip_record.h"
+#include "laz/chunk_table.h"
+#include "laz/items/laszip_record.h"
 
 namespace albtpu::formats {
 

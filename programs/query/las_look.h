@@ -44,8 +44,8 @@ std::vector<std::string> FoundLines(const LasLook& look);
 // What differs between the files so that one survey file may not fit them all, a line each.
 std::vector<std::string> Differences(std::span<const LasLook> looks);
 
-// What the files with points answer themselves, and examples for the rest. Of a section the first value is the one that the others
-// go with.
+// What the files with points answer themselves, and examples for the rest. Of a section the first value is the one that
+// the others go with.
 struct Suggestions {
   std::vector<config::DraftValue> values;
   bool from_returns = false;               // The way of the beams follows from the returns of all files.

@@ -22,7 +22,7 @@
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {

@@ -14,7 +14,7 @@ import numpy as np
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HERE = SOURCE / "tests/bench"
 TABLES = SOURCE / "tables/shipped"
-sys.path[:0] = [str(SOURCE / folder) for folder in ("clients/python/src", "tests/e2e", "tests/formats/laz")]
+sys.path[:0] = [str(SOURCE / folder) for folder in ("clients/python/src", "tests/e2e", "tests/laz")]
 
 
 def parser(description, **numbers):
@@ -94,7 +94,7 @@ def simulated_survey(build, folder):
 
 def laz_copy(build, source, target):
     """The LAS or LAZ file `source` as the other kind."""
-    subprocess.run([build / "tests/formats/albtpu_laz_copy", source, target], check=True)
+    subprocess.run([build / "tests/laz/albtpu_laz_copy", source, target], check=True)
     return target
 
 

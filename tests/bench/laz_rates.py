@@ -68,7 +68,7 @@ def main():
     parser.add_argument("--samples", type=pathlib.Path, default=bench.SOURCE.parent / "shared/data/laz")
     parser.add_argument("--decoders", type=pathlib.Path, help="folder that keeps the peers")
     options = parser.parse_args()
-    options.decoders = options.decoders or options.build / "tests/formats/laz_decoders"
+    options.decoders = options.decoders or options.build / "tests/laz/laz_decoders"
     peers = list(independent_decoders.PACKAGES)
     try:
         independent_decoders.fetch(options.decoders)

@@ -14,7 +14,7 @@
 #include "formats/las/las_header.h"
 #include "formats/las/las_reader.h"
 #include "formats/las/las_writer.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "service/client/local_source.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/memory_file.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "service/client/local_source.h"
 #include "tests/annotate/answers/test_sources.h"
 #include "tests/formats/las/las_builder.h"

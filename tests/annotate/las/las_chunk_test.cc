@@ -10,7 +10,7 @@
 #include "annotate/las/las_beams.h"
 #include "annotate/las/las_prescan.h"
 #include "formats/las/las_reader.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "service/client/local_source.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/tables/synthetic_table.h"

@@ -18,9 +18,9 @@
 #include <thread>
 #include <vector>
 
-#include "formats/laz/items/point_encoders.h"
-#include "formats/laz/laz_points.h"
-#include "tests/formats/laz/laz_bytes.h"
+#include "laz/items/point_encoders.h"
+#include "laz/laz_points.h"
+#include "tests/laz/laz_bytes.h"
 
 namespace albtpu::bench {
 namespace {

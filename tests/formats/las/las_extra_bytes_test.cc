@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <iterator>
 
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
 
 namespace albtpu::formats {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
 
 namespace albtpu::formats {

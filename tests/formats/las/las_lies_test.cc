@@ -9,7 +9,7 @@
 
 #include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
-#include "formats/laz/coding/little_endian.h"
+#include "laz/coding/little_endian.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 

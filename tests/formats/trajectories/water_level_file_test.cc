@@ -152,8 +152,8 @@ TEST(WaterLevels, AreReadFromAFile) {
   EXPECT_THAT(std::string(ReadWaterLevels(folder.path()).status().message()), HasSubstr("is a folder"));
 }
 
-// 2016-05-11T14:10:00Z, 600 s after the first level, by every clock; GPS is 17 s ahead of UTC. The levels are 1 to 2 m in
-// 20 minutes.
+// 2016-05-11T14:10:00Z, 600 s after the first level, by every clock; GPS is 17 s ahead of UTC. The levels are 1 to 2 m
+// in 20 minutes.
 TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
   constexpr double kUnix = 1462975800, kGps = kUnix - 315964800 + 17, kOfWeek = kGps - 1896 * kSecondsPerWeek;
   const albtpu::testing::TemporaryFolder folder;

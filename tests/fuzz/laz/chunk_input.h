@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "absl/status/status.h"
-#include "formats/laz/coding/arithmetic_decoder.h"
-#include "formats/laz/items/chunk_decoder.h"
-#include "formats/laz/items/laszip_record.h"
-#include "formats/laz/items/point_encoders.h"
+#include "laz/coding/arithmetic_decoder.h"
+#include "laz/items/chunk_decoder.h"
+#include "laz/items/laszip_record.h"
+#include "laz/items/point_encoders.h"
 
 namespace albtpu::fuzz {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/laz/coding/little_endian.h"
-#include "formats/laz/items/point14_fields.h"
+#include "laz/coding/little_endian.h"
+#include "laz/items/point14_fields.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/laz/chunk_input.h"
 

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "formats/las/las_reader.h"
-#include "formats/laz/chunk_table.h"
-#include "formats/laz/coding/arithmetic_decoder.h"
-#include "formats/laz/items/chunk_decoder.h"
-#include "formats/laz/items/laszip_record.h"
-#include "formats/laz/laz_points.h"
+#include "laz/chunk_table.h"
+#include "laz/coding/arithmetic_decoder.h"
+#include "laz/items/chunk_decoder.h"
+#include "laz/items/laszip_record.h"
+#include "laz/laz_points.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/memory_file.h"
 

@@ -1,6 +1,6 @@
 """albtpu-query las with LAZ files that are cut short or lie: one message, nothing written, little memory and time.
 
-tests/formats/laz has all lies, of the chunk table, of chunks and of each field, and cuts at each byte; here is one of
+tests/laz has all lies, of the chunk table, of chunks and of each field, and cuts at each byte; here is one of
 each kind.
 """
 

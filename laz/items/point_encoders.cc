@@ -1,0 +1,73 @@
+// Chooses decoder and encoder by the LASzip record.
+#include "laz/items/point_encoders.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <utility>
+
+#include "laz/coding/little_endian.h"
+#include "laz/items/chunk_decoder.h"
+#include "laz/items/point_contexts.h"
+
+namespace albtpu::laz {
+void PointwiseEncoder::Encode(std::string_view records, std::string& chunk) {
+  assert(!records.empty() && records.size() % record_length_ == 0);
+  chunk.assign(records.substr(0, record_length_));
+  items_.Begin(records.data());
+  encoder_.Begin();
+  ArithmeticEncoder encoder = std::move(encoder_);  // Its state stays in registers here.
+  for (std::size_t i = record_length_; i < records.size(); i += record_length_)
+    items_.Code(encoder, records.data() + i);
+  chunk += encoder.Finish();
+  encoder_ = std::move(encoder);
+}
+
+namespace {
+
+// Of points, or of bytes of a layer.
+void StoreCount(std::size_t count, char* destination) {
+  const auto stored = static_cast<std::uint32_t>(count);
+  assert(stored == count);
+  Store(stored, destination);
+}
+
+}  // namespace
+
+LayeredEncoder::LayeredEncoder(const LaszipRecord& record) : point_(record), record_length_(record.record_length()) {}
+
+void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
+  assert(!records.empty() && records.size() % record_length_ == 0);
+  const std::size_t points = records.size() / record_length_;
+  const RecordRun<ArithmeticEncoder> further(records.data() + record_length_, record_length_, points - 1);
+  point_.Begin(records.data());
+  point_.FindChanges(further);
+  for (auto& stream : point_.streams()) stream.coder.Begin();
+  for (std::size_t i = 0; i < further.count(); i += kBatchPoints)
+    point_.Code({further[i], record_length_, std::min(kBatchPoints, further.count() - i)});
+
+  chunk.assign(records.substr(0, record_length_));
+  chunk.resize(record_length_ + (1 + point_.streams().size()) * sizeof(std::uint32_t));
+  StoreCount(points, &chunk[record_length_]);
+  std::size_t size_offset = record_length_ + sizeof(std::uint32_t);
+  for (auto& stream : point_.streams()) {
+    if (stream.present) {
+      const std::string& layer = stream.coder.Finish();
+      StoreCount(layer.size(), &chunk[size_offset]);
+      chunk += layer;
+    }
+    size_offset += sizeof(std::uint32_t);
+  }
+}
+
+std::unique_ptr<ChunkDecoder> ChunkDecoder::For(const LaszipRecord& record, WantedFields wanted) {
+  if (record.compressor == Compressor::kLayeredChunked) return std::make_unique<LayeredDecoder>(record, wanted);
+  return std::make_unique<PointwiseDecoder>(record);
+}
+
+std::unique_ptr<ChunkEncoder> ChunkEncoder::For(const LaszipRecord& record) {
+  if (record.compressor == Compressor::kLayeredChunked) return std::make_unique<LayeredEncoder>(record);
+  return std::make_unique<PointwiseEncoder>(record);
+}
+
+}  // namespace albtpu::laz
