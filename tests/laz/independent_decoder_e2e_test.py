@@ -10,7 +10,7 @@ import sys
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "programs/query"))
+sys.path.insert(0, str(HERE.parent / "programs/query"))
 
 import independent_decoders
 import programs
