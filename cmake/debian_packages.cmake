@@ -74,8 +74,9 @@ set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "uncertainty of airborne lidar bathymet
  albtpu-query computes the total horizontal and vertical uncertainty of
  every point of an airborne lidar bathymetry survey, and compares it with the
  orders of IHO S-44. albtpu-serve answers such queries over gRPC.")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "proj-data, python3-matplotlib, python3-netcdf4")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "albtpu-generate, bash-completion")
+# What draws the page of a report is suggested only: recommended, it would bring a compiler by what it recommends.
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "proj-data")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "albtpu-generate, bash-completion, python3-matplotlib, python3-netcdf4")
 file(CONFIGURE OUTPUT ${made}/conffiles CONTENT "/etc/default/albtpu-serve\n")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA
   "${made}/conffiles;${packaging}/albtpu/postinst;${packaging}/albtpu/prerm;${packaging}/albtpu/postrm")

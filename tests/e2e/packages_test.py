@@ -108,6 +108,7 @@ class Packages(unittest.TestCase):
     def test_2_annotate_and_report_a_line(self):
         printed = self.in_root("albtpu-query las --survey survey.toml line.las annotated.las 2>&1")
         self.assertIn("interpolated", printed)
+        self.in_root(f"{APT} install --no-install-recommends python3-matplotlib python3-netcdf4")
         self.assertIn("IHO S-44 1b", self.in_root("albtpu-query report annotated.las --output report --s44-order 1b"))
         self.assertIn("<svg", (self.job / "report/report.html").read_text())
         self.assertEqual([str(path) for path in self.root.glob("usr/share/albtpu/**/__pycache__")], [])
