@@ -14,6 +14,7 @@ namespace {
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kFewCrests = 0.01;  // Of all returns near the surface: so few say nothing.
+constexpr std::size_t kLeastCrests = 10;
 constexpr double kMedianOfHalfNormal = 0.6745;
 constexpr double kDeviations = 3.5;  // One trough in 4000 is deeper.
 
@@ -28,7 +29,8 @@ double DeepestTrough(std::span<const ReturnPair> pairs, const std::vector<double
     if (above > 0 && above <= kHighestCrest) crests.push_back(above);
     below += above <= 0;
   }
-  if (crests.empty() || static_cast<double>(crests.size()) < kFewCrests * static_cast<double>(below)) return 0;
+  if (crests.size() < kLeastCrests || static_cast<double>(crests.size()) < kFewCrests * static_cast<double>(below))
+    return 0;
   return kDeviations / kMedianOfHalfNormal * Median(std::move(crests));
 }
 
