@@ -9,6 +9,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "formats/las/las_header.h"
+#include "formats/las/las_points.h"
 #include "formats/text/text.h"
 #include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
@@ -223,6 +224,16 @@ absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, c
   }
   ASSIGN_OR_RETURN(crs.feet, FindFeet(reader, named));
   return crs;
+}
+
+absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user) {
+  MapPosition first;
+  if (reader.header().point_count > 0) {
+    ASSIGN_OR_RETURN(const std::string record, FirstRecord(reader));
+    const LasPointFields fields(reader.header());
+    first = {fields.X(record), fields.Y(record)};
+  }
+  return CrsOf(reader, user, first);
 }
 
 }  // namespace albtpu::formats

@@ -46,4 +46,7 @@ struct LasCrs {
 // comes before both; may be empty. Fails as MapFrame::Create.
 absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, const MapPosition& middle);
 
+// The same at the first point. Fails when it cannot be read, too.
+absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user);
+
 }  // namespace albtpu::formats

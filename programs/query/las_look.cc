@@ -38,12 +38,12 @@ void LookAtPlace(const formats::LasReader& reader, LasLook& look) {
   const absl::StatusOr<formats::CrsDescription> description = formats::DescribeCrs(reader);
   if (description.ok()) look.vertical = VerticalNameOf(*description);
   if (description.ok() && !description->empty()) {
-    const auto map = formats::MapFrame::Create(reader.name(), *description);
-    if (map.ok()) {
-      look.crs = (*map)->crs_name();
-      look.unit = (*map)->is_geographic() ? "degree" : UnitName((*map)->unit());
+    const absl::StatusOr<formats::LasCrs> crs = formats::CrsOf(reader, "");
+    if (crs.ok()) {
+      look.crs = crs->map->crs_name();
+      look.unit = crs->map->is_geographic() ? "degree" : UnitName(crs->map->unit());
     } else {
-      look.crs_message = std::string(map.status().message());
+      look.crs_message = std::string(crs.status().message());
     }
   }
   const absl::StatusOr<annotate::LasPlace> place = annotate::PlaceOf(reader, {});

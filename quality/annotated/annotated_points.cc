@@ -173,24 +173,24 @@ absl::Status AnnotatedLasFile::FindFloats() {
 }
 
 absl::Status AnnotatedLasFile::FindCrs() {
-  ASSIGN_OR_RETURN(const formats::CrsDescription description, formats::DescribeCrs(reader_));
+  ASSIGN_OR_RETURN(formats::CrsDescription description, formats::DescribeCrs(reader_));
   const Json& parameters = (*summary_)["parameters"];
-  formats::CrsDescription crs = description;
-  if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
+  if (const Json user = parameters.value("crs", Json()); user.is_string()) description.user = user.get<std::string>();
   bool has_map = false;
-  if (!crs.empty()) {
-    const auto frame = formats::MapFrame::Create(path_.string(), crs);
-    if (frame.ok() && (*frame)->is_geographic()) {
-      return Invalid(path_, absl::StrCat("has geographic coordinates (", (*frame)->crs_name(),
+  if (!description.empty()) {
+    const absl::StatusOr<formats::LasCrs> crs = formats::CrsOf(reader_, description.user);
+    const formats::MapFrame* const map = crs.ok() ? crs->map.get() : nullptr;
+    if (map != nullptr && map->is_geographic()) {
+      return Invalid(path_, absl::StrCat("has geographic coordinates (", map->crs_name(),
                                          "); a grid of square cells needs projected ones, such as UTM"));
     }
-    if (frame.ok()) {
-      crs_name_ = (*frame)->crs_name();
-      crs_wkt_ = (*frame)->wkt();
+    if (map != nullptr) {
+      crs_name_ = map->crs_name();
+      crs_wkt_ = map->wkt();
       has_map = true;
-      metres_per_unit_ = (*frame)->unit();
+      metres_per_unit_ = map->unit();
       // Heights without a unit are metres, as albtpu-query las reads them.
-      metres_per_height_unit_ = (*frame)->metres_per_height_unit().value_or(1);
+      metres_per_height_unit_ = crs->metres_per_height_unit.value_or(1);
       // A unit of its own in GeoTIFF keys is none of the text.
       if (std::abs(UnitOfWkt(crs_wkt_).value_or(metres_per_unit_) / metres_per_unit_ - 1) > 1e-7) crs_wkt_.clear();
     } else {

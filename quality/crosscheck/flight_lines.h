@@ -1,5 +1,5 @@
-// The flight lines of a survey: points of one point source ID, which gaps in time tell apart where one ID stands for
-// several lines.
+// The flight lines of a survey: points of one point source ID. Where one ID stands for several lines, they begin after
+// gaps in time.
 #pragma once
 
 #include <cstddef>
