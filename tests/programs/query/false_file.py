@@ -32,13 +32,15 @@ CLOSE = 2e-5  # Of numbers in single precision, from coordinates about another o
 
 
 class Points:
-    """A LAS file of format 6 whose bytes are changed."""
+    """A LAS file whose bytes are changed. Formats 0 to 5 have class and flags in one byte."""
 
     def __init__(self, data):
         self.data = bytearray(data)
         self.begin, = struct.unpack_from("<I", data, 96)
-        self.length, = struct.unpack_from("<H", data, 105)
-        self.count, = struct.unpack_from("<Q", data, 247)
+        self.format, self.length = struct.unpack_from("<BH", data, 104)
+        self.old = self.format < 6
+        self.count, = struct.unpack_from("<I", data, 107) if self.old else struct.unpack_from("<Q", data, 247)
+        self.time = 20 if self.old else 22  # Its place in a point.
 
     def put(self, kind, offset, *values):
         struct.pack_into(kind, self.data, offset, *values)
@@ -50,11 +52,16 @@ class Points:
         return self.begin + point * self.length + field
 
     def points(self, *classes):
-        return [i for i in range(self.count) if self.data[self.at(i, 16)] in classes]
+        mask, field = (31, 15) if self.old else (255, 16)
+        return [i for i in range(self.count) if self.data[self.at(i, field)] & mask in classes]
+
+    def classify(self, point, number):
+        at = self.at(point, 15 if self.old else 16)
+        self.data[at] = self.data[at] & 0xe0 | number if self.old else number
 
     def flag(self, points, bits):
         for i in points:
-            self.data[self.at(i, 15)] |= bits
+            self.data[self.at(i, 15)] |= bits << 5 & 0xe0 if self.old else bits
 
     def raise_by(self, points, metres):
         step = self.get("<3d", SCALE)[2]
