@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ constexpr std::uint32_t kPools = 16, kPhotons = 500'000;  // some tens of second
 struct Case {
   std::string name;
   double incidence, attenuation, depth, field_of_view, nanoseconds, footprint;
+  bool always = false;
 
   friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
@@ -72,6 +74,8 @@ class WaterRoundTrip : public testing::TestWithParam<Case> {};
 
 TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
   const Case& c = GetParam();
+  // What is compared is two simulations, so that one case notices a change of either.
+  if (!c.always && std::getenv("ALBTPU_EVERY_CASE") == nullptr) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   const double pulses[] = {c.PulseLength()};
   const WaterColumnBias trips =
       BiasOfEchoes(TraceRoundTrips(kOcean, c.Trip(), pulses[0] / 30, kPools, kPhotons, 1), c.Column(), pulses);
@@ -98,7 +102,7 @@ TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
 INSTANTIATE_TEST_SUITE_P(Cases, WaterRoundTrip,
                          testing::Values(Case{"wide at 12", 12, 0.1, 10, 16, 5, 2},
                                          Case{"wide at 20", 20, 0.1, 10, 16, 5, 2},
-                                         Case{"narrow at 12", 12, 0.1, 10, 6, 3, 1}),
+                                         Case{"narrow at 12", 12, 0.1, 10, 6, 3, 1, true}),
                          [](const auto& case_info) {
                            std::string name = case_info.param.name;
                            for (char& c : name) c = c == ' ' ? '_' : c;
