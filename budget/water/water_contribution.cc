@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "budget/water/water_draws.h"
+#include "budget/water/water_lookup.h"
 
 namespace albtpu {
 namespace {
@@ -17,49 +18,7 @@ constexpr double kIncidenceStep = 1.5;  // degree
 constexpr std::size_t kDepths = 65;     // even in the root of the depth
 constexpr double kFootprintsInView = 2.5;
 const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::log(2.0)));
-// Of draws whose bias at the depth of a calibration has the other sign.
-constexpr double kMostOfOtherSign = 0.02;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// The vertical bias, the bias along the beam, and spot, stretch and energy: each divided by the depth.
-struct Looked {
-  double vertical = 0, along = 0, spot = 0, stretch = 0, energy = 0;
-};
-
-class Lookup {
- public:
-  Lookup(const WaterColumnTable& table, const WaterReceiver& receiver, const DrawnWater& draw)
-      : receiver_(receiver),
-        draw_(draw),
-        min_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
-        last_(table.Range(WaterAxis::kOpticalDepth).second),
-        water_(table.Of(draw.fraction, draw.ratio)) {}
-
-  // The depth is above 0. Beyond the last optical depth, biases over the optical depth stay.
-  Looked At(double incidence, double depth) const {
-    const double tau = draw_.attenuation * depth;
-    const std::optional<WaterAnswer> answer =
-        water_.At({.incidence = incidence,
-                   .optical_depth = std::min(tau, last_),
-                   .field_of_view = receiver_.field_of_view / depth,
-                   .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
-    assert(answer.has_value());
-    // Below the lowest scattering of the table, values are in proportion to the scattering.
-    const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / min_ratio_);
-    const std::size_t detector = static_cast<std::size_t>(receiver_.detector);
-    return {.vertical = (*answer)[Index(WaterQuantity::kBiasVerticalPeak) + detector] * beyond,
-            .along = (*answer)[Index(WaterQuantity::kBiasAlongPeak) + detector] * beyond,
-            .spot = (*answer)[Index(WaterQuantity::kSpot)],
-            .stretch = (*answer)[Index(WaterQuantity::kStretch)],
-            .energy = (*answer)[Index(WaterQuantity::kEnergy)]};
-  }
-
- private:
-  WaterReceiver receiver_;
-  DrawnWater draw_;
-  double min_ratio_, last_;
-  OneWater water_;
-};
 
 // Whether the table covers the waters.
 absl::Status CheckOptics(const WaterColumnTable& table, const WaterOptics& optics) {
@@ -119,6 +78,22 @@ double QuantileOf(std::vector<double>& values, double fraction) {
   return values[lower] * (1 - part) + values[std::min(lower + 1, values.size() - 1)] * part;
 }
 
+// The waters that return an echo at one incidence and depth.
+struct WatersThere {
+  Moments before, scaled;  // by a calibration
+  Looked sums;
+  std::vector<double> verticals;
+
+  void Add(const Looked& looked, double scale) {
+    before.Add(looked.vertical, looked.along);
+    scaled.Add(scale * looked.vertical, scale * looked.along);
+    verticals.push_back(looked.vertical);
+    sums.spot += looked.spot;
+    sums.stretch += looked.stretch;
+    sums.energy += looked.energy;
+  }
+};
+
 }  // namespace
 
 absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTable& table, const WaterOptics& optics,
@@ -140,13 +115,13 @@ absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTab
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
   const std::vector<DrawnWater> draws = DrawWaters(optics, kDraws);
-  std::vector<Lookup> lookups;
+  std::vector<WaterLookup> lookups;
   lookups.reserve(draws.size());
   for (const DrawnWater& draw : draws) lookups.emplace_back(table, receiver, draw);
   // The point was reported, so only waters that return an echo count. At the largest depth, half of the draws do.
   const auto sees = [&](double depth) {
-    const auto seeing = std::count_if(lookups.begin(), lookups.end(), [&](const Lookup& lookup) {
-      return lookup.At(0, depth).energy >= kMinEchoEnergy;
+    const auto seeing = std::count_if(lookups.begin(), lookups.end(), [&](const WaterLookup& lookup) {
+      return lookup.At(depth).At(0).energy >= kMinEchoEnergy;
     });
     return 2 * static_cast<std::size_t>(seeing) >= lookups.size();
   };
@@ -164,42 +139,30 @@ absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTab
                                                                     static_cast<double>(contribution.incidences_ - 1)
                                                               : 1;
   contribution.nodes_.resize(contribution.incidences_ * kDepths);
-  std::vector<char> disagrees(contribution.incidences_, 0);
-  tbb::parallel_for(std::size_t{0}, contribution.incidences_, [&](std::size_t i) {
-    const double incidence =
+  std::vector<double> incidences(contribution.incidences_);
+  for (std::size_t i = 0; i < incidences.size(); ++i)
+    incidences[i] =
         std::min(first + static_cast<double>(i) * contribution.incidence_step_, contribution.max_incidence_);
-    // The factor by which each water's bias must be multiplied to equal the measured one.
-    std::vector<double> scales(draws.size(), 1.0);
-    double noise = 0;
-    if (treatment.handling == BiasHandling::kCalibrated) {
-      Moments there;
-      std::size_t other_sign = 0;
-      for (const Lookup& lookup : lookups) there.Add(lookup.At(incidence, treatment.calibration_depth).vertical, 0);
-      for (std::size_t j = 0; j < draws.size(); ++j) {
-        const double bias = lookups[j].At(incidence, treatment.calibration_depth).vertical;
-        other_sign += bias * there.mean_vertical() <= 0;
-        scales[j] = treatment.calibration_offset / (bias * treatment.calibration_depth);
+  const CalibratedWaters calibrated(lookups, incidences, treatment);
+  if (calibrated.disagree()) {
+    return absl::InvalidArgumentError(absl::StrCat("a calibration at ", treatment.calibration_depth,
+                                                   " m cannot be scaled (there the bias passes through zero, "
+                                                   "with other signs in other waters); calibrate at "
+                                                   "another depth, or by another detector"));
+  }
+  tbb::parallel_for(std::size_t{0}, kDepths, [&](std::size_t k) {
+    const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
+    const double depth = contribution.max_depth_ * root * root;
+    std::vector<WatersThere> there(incidences.size());
+    for (std::size_t j = 0; j < lookups.size(); ++j) {
+      const WaterAtDepth water = lookups[j].At(depth);
+      for (std::size_t i = 0; i < incidences.size(); ++i) {
+        const Looked looked = water.At(incidences[i]);
+        if (looked.energy >= kMinEchoEnergy) there[i].Add(looked, calibrated.scale(i, j));
       }
-      disagrees[i] = static_cast<double>(other_sign) > kMostOfOtherSign * static_cast<double>(draws.size());
-      noise = treatment.calibration_sigma / (std::abs(there.mean_vertical()) * treatment.calibration_depth);
     }
-    std::vector<double> verticals;
-    for (std::size_t k = 0; k < kDepths; ++k) {
-      const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
-      const double depth = contribution.max_depth_ * root * root;
-      Moments before, scaled;
-      Looked sums;
-      verticals.clear();
-      for (std::size_t j = 0; j < draws.size(); ++j) {
-        const Looked looked = lookups[j].At(incidence, depth);
-        if (looked.energy < kMinEchoEnergy) continue;
-        before.Add(looked.vertical, looked.along);
-        scaled.Add(scales[j] * looked.vertical, scales[j] * looked.along);
-        verticals.push_back(looked.vertical);
-        sums.spot += looked.spot;
-        sums.stretch += looked.stretch;
-        sums.energy += looked.energy;
-      }
+    for (std::size_t i = 0; i < incidences.size(); ++i) {
+      auto& [before, scaled, sums, verticals] = there[i];
       std::array<double, kNumbers> node = {};
       if (verticals.empty()) {
         for (std::size_t n = 0; n < kNumbers; ++n) contribution.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
@@ -230,7 +193,7 @@ absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTab
           break;
         }
         case BiasHandling::kCalibrated: {
-          const double v = noise * before.mean_vertical(), a = noise * before.mean_along();
+          const double v = calibrated.noise(i) * before.mean_vertical(), a = calibrated.noise(i) * before.mean_along();
           node[kLeftVertical] = scaled.variance_vertical() + v * v;
           node[kLeftAlong] = scaled.variance_along() + a * a;
           node[kLeftCovariance] = scaled.covariance() + v * a;
@@ -241,12 +204,6 @@ absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTab
       for (std::size_t n = 0; n < kNumbers; ++n) kept[n] = static_cast<float>(node[n]);
     }
   });
-  if (std::find(disagrees.begin(), disagrees.end(), 1) != disagrees.end()) {
-    return absl::InvalidArgumentError(absl::StrCat("a calibration at ", treatment.calibration_depth,
-                                                   " m cannot be scaled (there the bias passes through zero, "
-                                                   "with other signs in other waters); calibrate at "
-                                                   "another depth, or by another detector"));
-  }
   return contribution;
 }
 

@@ -76,45 +76,91 @@ bool IsOdd(std::size_t quantity) {
   return quantity >= Index(WaterQuantity::kBiasAlongPeak) && quantity <= Index(WaterQuantity::kBiasAlongCentroid);
 }
 
-}  // namespace
+// Where a beam lies on the axes but that of the incidence. nullopt if the table does not cover it.
+struct PlaceOfBeam {
+  Weights tau, view, pulse;
 
-std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
-  const Axis &incidence = AxisOf(*axes_, WaterAxis::kIncidence),
-             &optical_depth = AxisOf(*axes_, WaterAxis::kOpticalDepth), &view = AxisOf(*axes_, WaterAxis::kFieldOfView),
-             &pulse = AxisOf(*axes_, WaterAxis::kPulseLength);
-  const auto within = [](const Axis& axis, double x) { return x >= axis.nodes().front() && x <= axis.nodes().back(); };
-  if (!within(incidence, beam.incidence)) return std::nullopt;
-  if (!(beam.optical_depth >= 0 && beam.optical_depth <= optical_depth.nodes().back())) return std::nullopt;
-  if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front())) return std::nullopt;
-  const auto [even, odd] = WeightsOfIncidence(incidence, beam.incidence);
-  const Weights tau = CubicWeights(optical_depth, Held(optical_depth, beam.optical_depth));
-  const Weights f = CubicWeights(view, Held(view, beam.field_of_view));
-  const Weights p = CubicWeights(pulse, Held(pulse, beam.pulse_length));
-  const std::size_t taus = optical_depth.size(), views = view.size(), pulses = pulse.size();
+  static std::optional<PlaceOfBeam> Of(const std::vector<Axis>& axes, const WaterBeam& beam) {
+    const Axis &optical_depth = AxisOf(axes, WaterAxis::kOpticalDepth), &view = AxisOf(axes, WaterAxis::kFieldOfView),
+               &pulse = AxisOf(axes, WaterAxis::kPulseLength);
+    if (!(beam.optical_depth >= 0 && beam.optical_depth <= optical_depth.nodes().back())) return std::nullopt;
+    if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front()))
+      return std::nullopt;
+    return PlaceOfBeam{CubicWeights(optical_depth, Held(optical_depth, beam.optical_depth)),
+                       CubicWeights(view, Held(view, beam.field_of_view)),
+                       CubicWeights(pulse, Held(pulse, beam.pulse_length))};
+  }
+};
+
+// At a node of the incidence, interpolated over the other axes.
+WaterAnswer AtNode(const std::array<std::vector<float>, kWaterQuantityCount>& values, const std::vector<Axis>& axes,
+                   std::size_t node, const PlaceOfBeam& place) {
+  const std::size_t taus = AxisOf(axes, WaterAxis::kOpticalDepth).size(),
+                    views = AxisOf(axes, WaterAxis::kFieldOfView).size(),
+                    pulses = AxisOf(axes, WaterAxis::kPulseLength).size();
   WaterAnswer answer = {};
-  for (std::size_t i = 0; i < even.count; ++i) {
-    for (std::size_t j = 0; j < tau.count; ++j) {
-      for (std::size_t k = 0; k < f.count; ++k) {
-        const std::size_t at = ((even.first + i) * taus + tau.first + j) * views + f.first + k;
-        for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
-          const double weight = (IsOdd(q) ? odd : even).of[i] * tau.of[j] * f.of[k];
-          const float* const values = values_[q].data();
-          if (!kWaterColumn.quantities[q].over_last_axis) {
-            answer[q] += weight * values[at];
-            continue;
-          }
-          const float* const row = values + at * pulses + p.first;
-          double sum = 0;
-          for (std::size_t l = 0; l < p.count; ++l) sum += p.of[l] * row[l];
-          answer[q] += weight * sum;
+  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+    const bool over_pulse = kWaterColumn.quantities[q].over_last_axis;
+    for (std::size_t j = 0; j < place.tau.count; ++j) {
+      for (std::size_t k = 0; k < place.view.count; ++k) {
+        const std::size_t at = (node * taus + place.tau.first + j) * views + place.view.first + k;
+        const double weight = place.tau.of[j] * place.view.of[k];
+        if (!over_pulse) {
+          answer[q] += weight * values[q][at];
+          continue;
         }
+        const float* const row = values[q].data() + at * pulses + place.pulse.first;
+        double sum = 0;
+        for (std::size_t l = 0; l < place.pulse.count; ++l) sum += place.pulse.of[l] * row[l];
+        answer[q] += weight * sum;
       }
     }
   }
+  return answer;
+}
+
+// The sum over nodes of the incidence, in the units of an answer. `at_node`: of node i.
+template <typename AtNodes>
+WaterAnswer OverNodes(const MirroredWeights& weights, double scattering, const AtNodes& at_node) {
+  WaterAnswer answer = {};
+  for (std::size_t i = 0; i < weights.even.count; ++i) {
+    const WaterAnswer& node = at_node(weights.even.first + i);
+    for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
+      answer[q] += (IsOdd(q) ? weights.odd : weights.even).of[i] * node[q];
+  }
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
-    if (IsOverScattering(q)) answer[q] *= scattering_ * beam.optical_depth;
+    if (IsOverScattering(q)) answer[q] *= scattering;
   answer[Index(WaterQuantity::kEnergy)] = std::exp(answer[Index(WaterQuantity::kEnergy)]);
   return answer;
+}
+
+bool Covers(const Axis& axis, double x) { return x >= axis.nodes().front() && x <= axis.nodes().back(); }
+
+}  // namespace
+
+std::optional<WaterAnswer> WaterOverIncidence::At(double incidence) const {
+  if (!Covers(*axis_, incidence)) return std::nullopt;
+  return OverNodes(WeightsOfIncidence(*axis_, incidence), scattering_,
+                   [&](std::size_t node) -> const WaterAnswer& { return of_[node]; });
+}
+
+std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
+  const Axis& incidence = AxisOf(*axes_, WaterAxis::kIncidence);
+  const std::optional<PlaceOfBeam> place = PlaceOfBeam::Of(*axes_, beam);
+  if (!place || !Covers(incidence, beam.incidence)) return std::nullopt;
+  return OverNodes(WeightsOfIncidence(incidence, beam.incidence), scattering_ * beam.optical_depth,
+                   [&](std::size_t node) { return AtNode(values_, *axes_, node, *place); });
+}
+
+std::optional<WaterOverIncidence> OneWater::OverIncidence(const WaterBeam& beam) const {
+  const std::optional<PlaceOfBeam> place = PlaceOfBeam::Of(*axes_, beam);
+  if (!place) return std::nullopt;
+  WaterOverIncidence over;
+  over.axis_ = &AxisOf(*axes_, WaterAxis::kIncidence);
+  over.scattering_ = scattering_ * beam.optical_depth;
+  over.of_.reserve(over.axis_->size());
+  for (std::size_t i = 0; i < over.axis_->size(); ++i) over.of_.push_back(AtNode(values_, *axes_, i, *place));
+  return over;
 }
 
 absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {

@@ -23,6 +23,20 @@ struct WaterBeam {
 // By WaterQuantity.
 using WaterAnswer = std::array<double, kWaterQuantityCount>;
 
+// Answers of one water over the incidence, at one place of the other axes.
+class WaterOverIncidence {
+ public:
+  // As OneWater::At, which it equals. nullopt if the incidence is beyond the nodes.
+  std::optional<WaterAnswer> At(double incidence) const;
+
+ private:
+  friend class OneWater;
+
+  const Axis* axis_ = nullptr;   // of the incidence, in the table
+  double scattering_ = 0;        // b z
+  std::vector<WaterAnswer> of_;  // at each node; as OneWater keeps quantities
+};
+
 // One water: a table with its first two axes interpolated.
 class OneWater {
  public:
@@ -33,6 +47,9 @@ class OneWater {
   // incidence or the optical depth is above the last node, the field of view or the pulse below the first, or a
   // coordinate is negative or NaN.
   std::optional<WaterAnswer> At(const WaterBeam& beam) const;
+
+  // The same for many incidences at little more than the cost of one. `beam.incidence` does not matter.
+  std::optional<WaterOverIncidence> OverIncidence(const WaterBeam& beam) const;
 
  private:
   friend class WaterColumnTable;
