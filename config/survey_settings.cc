@@ -7,6 +7,7 @@
 #include "config/toml/toml_keys.h"
 #include "sea/sea_time.h"
 #include "status/status_macros.h"
+#include "tables/coverage.h"
 
 namespace albtpu::config {
 FlagKey FindFlag(std::string_view flag) {
@@ -22,6 +23,11 @@ FlagKey FindFlag(std::string_view flag) {
   return found;
 }
 
+std::optional<double> DatumSettings::standard_deviation() const {
+  if (!mcu.has_value()) return sigma;
+  return confidence == kConfidences[1] ? *mcu / VerticalFactor(Coverage::kP95) : *mcu;
+}
+
 SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
   if (flags.sea.has_waves()) {  // Then what goes with the waves of the survey file goes with them.
     SeaSettings& sea = file.sea;
@@ -30,6 +36,7 @@ SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
     sea.longest_gap = sea.anemometer_height = sea.fetch = {};
   }
   if (flags.trajectory.is_given()) file.trajectory = {};
+  if (flags.datum.sigma.has_value()) file.datum.mcu = {}, file.datum.confidence = file.datum.region = {};
   ForEachSection(
       [&](const char*, const auto& keys, const auto& section) { Override(keys, section(flags), section(file)); });
   if (!flags.sea.waves.empty()) file.sea.waves = flags.sea.waves;
@@ -77,6 +84,16 @@ void CheckTogether(TomlKeys& keys, const SurfaceSettings& surface) {
   if (!keys.Has("level") || surface.located.value_or("level") == "level") return;
   keys.Fail("level", "contradicts located = \"" + *surface.located +
                          "\" (returns of the lidar locate the surface, or a level does); give one of them");
+}
+void CheckTogether(TomlKeys& keys, const DatumSettings&) {
+  if (keys.Has("mcu") && keys.Has("sigma"))
+    keys.Fail("mcu",
+              "is given beside sigma (both are the uncertainty of the vertical datum, which would count twice); "
+              "give one of them");
+  if (keys.Has("mcu") && !keys.Has("confidence"))
+    keys.Fail("mcu", "has no confidence; give confidence = \"1sigma\" (as VDatum and cBLUE state it) or \"95%\"");
+  if (keys.Has("confidence") && keys.Has("sigma"))
+    keys.Fail("confidence", "contradicts sigma (which is one standard deviation); give mcu with it, or leave it out");
 }
 template <typename Settings>
 void CheckTogether(TomlKeys&, const Settings&) {}

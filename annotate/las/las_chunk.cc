@@ -312,6 +312,8 @@ void LasChunkWork::EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, cha
   for (const auto* column : {&total.thu_sea, &total.tvu_sea}) put(dry ? 0 : (*column)[i]);
   for (const auto* column : {&total.thu_water, &total.tvu_water})
     put(total_->water.share == nullptr ? formats::kNoNumber : dry ? 0 : (*column)[i]);
+  if (appended_.extra)
+    for (const float added : {total.extra.thu, total.extra.tvu}) put(added);
   const double factor = VerticalFactor(total_->options.coverage);
   for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
     put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));

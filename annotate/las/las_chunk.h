@@ -38,6 +38,7 @@ struct LasAnnotation {
     return {.coverage = style.coverage,
             .total = total.has_value(),
             .water = total.has_value() && total->water.share != nullptr,
+            .extra = total.has_value() && total->has_extra(),
             .details = details};
   }
   // How the sea is queried: for a total at 2 sigma.

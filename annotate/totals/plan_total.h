@@ -32,6 +32,7 @@ struct TotalPlan {
   std::optional<float> sea_axis;
   // m, standard deviation of the elevation of a sea that is known by its wind.
   float wave_height = 0;
+  bool has_extra() const { return options.extra_horizontal > 0 || options.extra_vertical > 0; }
   // The height of the waves is not part of how the surface was located.
   bool waves_unseen() const { return options.located != SurfaceLocation::kPulse; }
 };

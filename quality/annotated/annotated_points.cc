@@ -37,7 +37,10 @@ constexpr char kRemedy[] = "; annotate its input again by albtpu-query las with 
 struct FloatOfPoint {
   std::string_view name;
   float AnnotatedPoint::*member;
+  bool may_lack = false;  // Only where the survey has it.
 };
+
+constexpr std::size_t kAbsent = 0;  // A record begins with its coordinates.
 
 constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
@@ -45,6 +48,7 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"thu_sea", &AnnotatedPoint::thu_sea},
                                 FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
                                 FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
+                                FloatOfPoint{"tvu_extra", &AnnotatedPoint::tvu_extra, true},
                                 FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
                                 FloatOfPoint{"tvu_line", &AnnotatedPoint::tvu_line},
                                 FloatOfPoint{"bias_along_beam", &AnnotatedPoint::bias_along_beam},
@@ -165,6 +169,10 @@ absl::Status AnnotatedLasFile::FindFloats() {
   const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
   for (const FloatOfPoint& each : kFloats) {
     const auto found = offsets.find(each.name);
+    if (found == offsets.end() && each.may_lack) {
+      offsets_.push_back(kAbsent);
+      continue;
+    }
     if (found == offsets.end())
       return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
     offsets_.push_back(begin + found->second);
@@ -246,13 +254,14 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
       point.z = fields.Z(record) * metres_per_height_unit_;
       if (fields.has_gps_time()) point.time = fields.GpsTime(record);
       point.line = fields.PointSourceId(record);
-      for (std::size_t k = 0; k < kFloats.size(); ++k) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      for (std::size_t k = 0; k < kFloats.size(); ++k)
+        if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
       point.gap = GapOf(point, may_lack_surface_);
       for (float AnnotatedPoint::*const length :
            {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
-            &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+            &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
         point.*length = KnownOrZero(point.*length, false);
       for (float AnnotatedPoint::*const bias :
            {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,

@@ -48,7 +48,7 @@ struct AnnotatedPoint {
   Gap gap = Gap::kNone;
   bool has_number = false;  // Otherwise only the members above are known.
   float thu = 0, tvu = 0;
-  float tvu_air = 0, tvu_sea = 0, tvu_water = 0;  // Contributions.
+  float tvu_air = 0, tvu_sea = 0, tvu_water = 0, tvu_extra = 0;  // Contributions.
   float tvu_pulse = 0,
         tvu_line = 0;  // The parts that are independent from pulse to pulse, and from line to line.
   float bias_along_beam = 0, bias_vertical = 0;

@@ -125,7 +125,7 @@ class Reporter {
   }
 
   void AddFailing(const AnnotatedPoint& point) {
-    const std::array<double, 4> shares = VerticalShares(point, first_.coverage());
+    const auto shares = VerticalShares(point, first_.coverage());
     ++failing_.points;
     for (std::size_t i = 0; i < shares.size(); ++i) failing_.shares[i] += shares[i];
     ++failing_.largest[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];

@@ -22,7 +22,8 @@ REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration):
                    " lower flight",
             "sea": "the sea surface: a calmer sea, or smaller incidence",
             "water": "the water column: a measured attenuation, or bias = \"correct\"",
-            "datum": "the vertical datum: a better separation model, or delivery above the ellipsoid"}
+            "datum": "the vertical datum: a better separation model, or delivery above the ellipsoid",
+            "extra": "what [extra] of the survey file adds: a smaller number, where it can be shown"}
 
 
 def asked(report: Report) -> str:
