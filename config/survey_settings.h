@@ -14,14 +14,16 @@
 #include "budget/water/water_contribution.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
+#include "config/sensor_channels.h"
 #include "config/sensors/sensor.h"
 #include "tables/s44.h"
 
 namespace albtpu::config {
 
-struct SensorSettings {             // [sensor]
-  std::optional<std::string> name;  // Of an installed sensor, or the path of a file: FindSensor().
-  std::optional<Triple> lever_arm;  // Forward, right, down, m.
+struct SensorSettings {                   // [sensor]
+  std::optional<std::string> name;        // Of an installed sensor, or the path of a file: FindSensor().
+  std::optional<Triple> lever_arm;        // Forward, right, down, m.
+  std::vector<ChannelSettings> channels;  // In place of a name, where a file has points of several scanners.
 };
 
 struct TrajectorySettings {                  // [trajectory]
@@ -98,7 +100,9 @@ struct SurveySettings {
   config::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
   OutputSettings output;
 
-  bool wants_total() const { return sensor.name.has_value(); }
+  bool wants_total() const { return sensor.name.has_value() || !sensor.channels.empty(); }
+  // That of one of the channels alone, as if its sensor were the only one.
+  SurveySettings OfChannel(const ChannelSettings& channel) const;
 };
 
 inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
@@ -114,8 +118,6 @@ inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", 
 
 // The class of a point in LAS 1.4 is one byte.
 inline constexpr WholeNumbers kClasses = {0, 255};
-// The longest aircraft has 84 m (An-225).
-inline constexpr ThreeNumbers kLeverArm = {-100, 100, "m", "[forward, right, down]", "X,Y,Z"};
 // From the Dead Sea to the highest lakes (6400 m), in metres or in feet.
 inline constexpr NumberOrPath kLevel = {
     {-2000, 25000, "1"}, "a height, or the path of a file of heights", "Z|FILE.csv"};
@@ -320,6 +322,9 @@ struct ListedKey {
 
 // By section, in the order of the tables.
 std::vector<ListedKey> ListKeys();
+
+// Whether a survey file may have any number of tables of this name: [[sea.waves]].
+inline bool IsOfMany(std::string_view section) { return section == "sea.waves" || section == "sensor.channel"; }
 
 // "Depth of the water that the waves travel in [m] (default: ...)"
 std::string HelpText(const KeyDeclaration& key);

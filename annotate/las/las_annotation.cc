@@ -71,6 +71,17 @@ absl::Status CheckIncidence(const formats::LasReader& reader, const LasAnnotatio
                       reader.name(), incidence.middle(), kLargestMedianIncidence));
 }
 
+void NoteChannels(const LasAnnotation& annotation, AnnotatedLas& annotated) {
+  const std::uint64_t bathymetric = annotated.summary.outcomes().count(NoPulse::kNoChannel);
+  if (const std::uint64_t none = bathymetric + annotated.dry_without_channel; none > 0)
+    annotated.notes.push_back(
+        absl::StrCat(none, " points belong to no channel of [[sensor.channel]] and have no number (NO_CHANNEL); ",
+                     bathymetric, " of them are bathymetric"));
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i)
+    if (annotated.points_by_channel[i] == 0)
+      annotated.notes.push_back(absl::StrCat("no point is of ", annotation.channels[i].label));
+}
+
 // The bytes of the file that hold `points` points; compressed points count as equally long.
 std::uint64_t BytesOf(const formats::LasReader& reader, std::uint64_t points) {
   const formats::LasHeader& header = reader.header();
@@ -92,8 +103,8 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
   formats::LasWriter writer(reader, head, annotated.file);
   ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach));
   RETURN_IF_ERROR(writer.Begin());
-  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(), beams.has_surface_returns(),
-                          source);
+  const LasChunkWork work(header, annotation, head.replaced, beams.geometries(), beams.utc(),
+                          beams.has_surface_returns(), source);
   std::uint64_t written_records = 0;
   const absl::Status status = formats::RunOrderedPipeline(
       [&] {
@@ -118,6 +129,11 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
         annotated.dry.Merge(chunk.dry);
         annotated.submerged += chunk.submerged;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
+        for (std::size_t i = 0; i < annotated.points_by_channel.size(); ++i) {
+          annotated.points_by_channel[i] += chunk.points_by_channel[i];
+          annotated.totals_by_channel[i].Merge(chunk.totals_by_channel[i]);
+        }
+        annotated.dry_without_channel += chunk.dry_without_channel;
         annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
@@ -155,6 +171,8 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
                          .copc_index_left_out = formats::HasCopcIndex(reader),
                          .chosen_classes = annotation.ClassesOf(reader.header().point_format),
                          .summary = UncertaintySummary(annotation.style_of_sea()),
+                         .points_by_channel = std::vector<std::uint64_t>(annotation.channels.size()),
+                         .totals_by_channel = std::vector<TotalSummary>(annotation.channels.size()),
                          .file = std::move(file)};
   const absl::Status status = AnnotatePoints(reader, head, annotation, **beams, source, file_progress, annotated);
   RETURN_IF_ERROR(reader.CheckUnchanged());
@@ -174,6 +192,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
         absl::StrCat(annotated.synthetic,
                      " bathymetric points are synthetic: no pulse measured them, and their numbers are those "
                      "of a pulse there"));
+  if (!annotation.channels.empty()) NoteChannels(annotation, annotated);
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
     (*annotated.geometry)["incidence"] = {{"least", formats::JsonNumber(least)},

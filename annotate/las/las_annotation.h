@@ -32,6 +32,10 @@ struct AnnotatedLas {
   TotalSummary totals = {};  // Empty without a total; so are the next two.
   std::map<int, TotalSummary> totals_by_line = {};
   std::uint64_t sigmas_assumed = 0;
+  // By channel of the annotation: points that may get a number, and totals. Dry points of none.
+  std::vector<std::uint64_t> points_by_channel = {};
+  std::vector<TotalSummary> totals_by_channel = {};
+  std::uint64_t dry_without_channel = 0;
   DrySummary dry = {};
   std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
   SurfaceCounts surface = {};

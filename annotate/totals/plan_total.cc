@@ -195,7 +195,7 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
          "\"pulse\" (by the return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a "
          "water level)"});
   }
-  if (!survey.wants_total()) return open;
+  if (!survey.sensor.name.has_value()) return open;
   const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*survey.sensor.name);
   if (!sensor.ok()) return open;
   if (const std::vector<std::string> missing = MissingNumbers(survey.sigma, *sensor); !missing.empty()) {
@@ -206,6 +206,11 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
 }
 
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
+  if (!survey.sensor.name.has_value()) {
+    return formats::UsageError(
+        "[[sensor.channel]] names several sensors (of which only points of LAS files have one each); name one by "
+        "--sensor");
+  }
   ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*survey.sensor.name));
   const std::vector<config::OpenDecision> open = UndecidedOf(survey, context);
   if (!open.empty()) return formats::UsageError(open.front().message);

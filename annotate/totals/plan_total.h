@@ -62,7 +62,7 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey, const TotalContext& context);
 
 // UsageError where something is not decided or the settings contradict each other.
-// `survey.sensor` must have a name.
+// Also where the survey has several scanners and none is named.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 
 // The spectrum by which a table of winds was made, an attribute; empty if it does not state it.

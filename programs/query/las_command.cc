@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -45,14 +46,41 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
   return json;
 }
 
+// What was assumed: of several scanners once where it is the same, otherwise with the channel.
+std::vector<std::string> AssumedOf(const annotate::LasAnnotation& annotation) {
+  if (annotation.channels.empty()) return annotate::Assumptions(*annotation.total);
+  std::map<std::string, std::vector<std::string>> channels;
+  std::vector<std::string> lines, assumed;
+  for (const annotate::LasChannel& channel : annotation.channels) {
+    for (const std::string& line : annotate::Assumptions(channel.total)) {
+      if (!channels.contains(line)) lines.push_back(line);
+      channels[line].push_back(channel.label);
+    }
+  }
+  for (const std::string& line : lines) {
+    const bool of_all = channels[line].size() == annotation.channels.size();
+    assumed.push_back(of_all ? line : absl::StrCat(absl::StrJoin(channels[line], " and "), ": ", line));
+  }
+  return assumed;
+}
+
 // The contribution of the sea, and the total beside it.
 nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
   json = annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i) {
+    const annotate::LasChannel& channel = annotation.channels[i];
+    nlohmann::ordered_json of_channel = {{"name", channel.label}, {"points", annotated.points_by_channel[i]}};
+    of_channel["total"] = annotated.totals_by_channel[i].Json();
+    of_channel["total"]["assumed"] = annotate::Assumptions(channel.total);
+    json["channels"].push_back(std::move(of_channel));
+  }
+  if (!annotation.channels.empty()) json["total"]["assumed"] = AssumedOf(annotation);
   if (annotation.plan.dry_points) {
     json["dry"] = annotated.dry.Json();
     json["dry"]["submerged"] = annotated.submerged;
+    if (!annotation.channels.empty()) json["dry"]["no_channel"] = annotated.dry_without_channel;
   }
   return json;
 }
@@ -64,7 +92,10 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
                                   annotated.totals.Text(annotation.style.coverage, order));
   if (annotated.dry.count() > 0) absl::StrAppend(&text, "\n  ", annotated.dry.Text(annotation.style.coverage));
-  for (const std::string& assumed : annotate::Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i)
+    absl::StrAppend(&text, "\n  ", annotation.channels[i].label, ": ", annotated.points_by_channel[i], " points, ",
+                    annotated.totals_by_channel[i].count(), " bathymetric with a total");
+  for (const std::string& assumed : AssumedOf(annotation)) absl::StrAppend(&text, "\n  ", assumed);
   return text;
 }
 
@@ -161,12 +192,17 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
   ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), file_options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
+  for (annotate::LasChannel& channel : annotation.channels) {
+    channel.plan.trajectories = annotation.plan.trajectories;
+    channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
+  }
   ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
   annotation.seas = answerer.timeline();
   const annotate::AnswerSource source = answerer.source();
   if (annotation.total.has_value() && !sea.has_waves()) {
     annotation.total->wave_height = annotate::WaveHeightOfWind(annotation.plan.wind_speed, annotation.plan.fetch,
                                                                annotate::SpectrumOf(source.table()));
+    for (annotate::LasChannel& channel : annotation.channels) channel.total.wave_height = annotation.total->wave_height;
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
   LasFiles files(options, annotation, kind, source);

@@ -87,6 +87,13 @@ bool IsOurs(const Json& summary) {
          std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
 }
 
+std::set<int> NumbersOf(const Json& channel, const char* key) {
+  std::set<int> numbers;
+  for (const Json& number : channel.is_object() ? channel.value(key, Json::array()) : Json::array())
+    if (number.is_number_unsigned() && number <= 255) numbers.insert(number.get<int>());
+  return numbers;
+}
+
 // Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
 // those `may_lack_surface`, that is the more severe of two reasons why a depth is missing.
 Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
@@ -154,6 +161,8 @@ absl::Status AnnotatedLasFile::ReadSummary() {
     classes_.insert(each.get<int>());
   }
   if (classes_.empty()) classes_ = formats::DefaultClasses(reader_.header().point_format);
+  for (const Json& channel : read["parameters"].value("channels", Json::array()))
+    channels_.push_back({NumbersOf(channel, "scanner_channels"), NumbersOf(channel, "user_data")});
   const Json unit = read["parameters"].value("metres_per_unit", Json());
   if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
@@ -169,13 +178,9 @@ absl::Status AnnotatedLasFile::FindFloats() {
   const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
   for (const FloatOfPoint& each : kFloats) {
     const auto found = offsets.find(each.name);
-    if (found == offsets.end() && each.may_lack) {
-      offsets_.push_back(kAbsent);
-      continue;
-    }
-    if (found == offsets.end())
+    if (found == offsets.end() && !each.may_lack)
       return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
-    offsets_.push_back(begin + found->second);
+    offsets_.push_back(found == offsets.end() ? kAbsent : begin + found->second);
   }
   return absl::OkStatus();
 }
@@ -258,7 +263,9 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
-      point.gap = GapOf(point, may_lack_surface_);
+      const auto is_its = [&](const formats::ScannerPoints& points) { return points.Has(fields, record); };
+      const bool scanned = channels_.empty() || point.has_number || std::ranges::any_of(channels_, is_its);
+      point.gap = scanned ? GapOf(point, may_lack_surface_) : Gap::kNoChannel;
       for (float AnnotatedPoint::*const length :
            {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
             &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})

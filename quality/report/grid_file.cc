@@ -231,8 +231,9 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
                           "exclusive special order_1a order_1b order_2 none");
   const int dominant = codes("dominant_share", "largest share of the vertical variance",
                              static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum extra");
-  const int gap = codes("gap", "why points have no uncertainty, the most severe reason", 4,
-                        "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
+  const int gap =
+      codes("gap", "why points have no uncertainty, the most severe reason", 5,
+            "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory no_channel");
   file.EndDefinitions();
   file.Put(ys, Centres(grid.first_row(), rows, grid.cell(), true));
   file.Put(xs, Centres(grid.first_column(), columns, grid.cell(), false));

@@ -135,7 +135,7 @@ TEST(SurveySections, RefuseWrongKeysAndContradictionsWithOneClearMessage) {
   for (const WrongKey& wrong :
        {WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'", "3 numbers"},
         WrongKey{"[sensor]\nscan = 0.02\n", "line 2: 'sensor.scan' is no key of a survey file",
-                 "there are lever_arm, name"},
+                 "there are channel, lever_arm, name"},
         WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'", "begin it with [sensor]"},
         WrongKey{"[trajectory]\nfiles = ['a', 5]\n", "line 2: 'trajectory.files' has 5", "path"},
         WrongKey{"[trajectory]\nfiles = [\n'a',\n'a']\n", "line 4: 'trajectory.files' has 'a' twice", "once"},

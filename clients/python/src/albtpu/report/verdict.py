@@ -14,6 +14,7 @@ OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "NO_SEA": "no state of the sea at their time",
             "ABOVE_WATER": "they lie above the water",
             "DRY": "they lie above the water",
+            "NO_CHANNEL": "of a scanner that [[sensor.channel]] does not map",
             "NO_WATER": "outside the table of the water column",
             "UNKNOWN": "a reason that the summaries do not name",
             "INVALID": "invalid numbers"}
