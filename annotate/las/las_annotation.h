@@ -44,13 +44,20 @@ struct AnnotatedLas {
   JsonBox sea = {};                     // The same for the sea; null where a table of winds answers.
   std::vector<std::string> notes = {};  // For the user, a line each.
   OutputFile file;                      // Complete; Commit() gives it its name.
+  std::optional<OutputFile> csv = {};   // The same beside it, where both are wanted.
 };
 
+// Where the points go: as LAS or LAZ, as CSV, or both; empty: not wanted.
+struct LasOutputs {
+  std::filesystem::path las, csv;
+};
+
+// `file` of the result is the LAS file where one is wanted, otherwise the CSV (LasCsv), with a line for each point.
 // Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.
 // `kind` is that of the output; absent: that of the input. Reading, querying and writing overlap; memory does not grow
 // with the file. Fails and leaves no output when LasReader, PlaceOf, the track, AnnotatedHead or the source fails, when
 // the output is the input, and when the input is modified meanwhile.
-absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const LasOutputs& outputs,
                                          Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<formats::LasKind> kind = std::nullopt);
 

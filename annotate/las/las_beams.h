@@ -30,6 +30,7 @@ class LasBeams {
 
   // Of each scanner of the annotation, or of the only one.
   const std::vector<BeamGeometry>& geometries() const { return geometries_; }
+  const LasPlace& place() const { return place_; }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
   // UTC [s since 1970] = time of a point + it; where the sea goes by time.
   double utc() const { return utc_; }

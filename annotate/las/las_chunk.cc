@@ -68,6 +68,10 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   Begin(chunk);
   for (const Scanner& scanner : scanners_) RETURN_IF_ERROR(Annotate(scanner, chunk));
+  if (csv_ != nullptr) {
+    chunk.csv.clear();
+    csv_->Append(chunk.annotated, chunk.own, record_length_, record_length_ + no_data_.size(), chunk.csv);
+  }
   if (!replaced_.empty()) Replace(chunk);
   return absl::OkStatus();
 }

@@ -15,6 +15,7 @@
 #include "annotate/answers/uncertainty_summary.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/beams/point_beams.h"
+#include "annotate/las/las_csv.h"
 #include "annotate/seas/sea_timeline.h"
 #include "annotate/totals/total_summary.h"
 #include "formats/las/las_extra_bytes.h"
@@ -72,6 +73,7 @@ class LasChunkWork {
     explicit Chunk(AnswerStyle style) : summary(style) {}
 
     std::string annotated;  // Output: the own records, each followed by the appended bytes.
+    std::string csv;        // The same as text, where it is wanted.
     formats::LasClassCounts classes;
     std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
     DrySummary dry;                             // Of dry points, where the plan has them.
@@ -106,6 +108,9 @@ class LasChunkWork {
     AircraftColumns dry_aircraft;
     TotalBatch dry_total;
   };
+
+  // Makes `csv` of chunks, too; it must outlive this.
+  void MakeCsv(const LasCsv* csv) { csv_ = csv; }
 
   absl::Status operator()(Chunk& chunk) const;
 
@@ -156,6 +161,7 @@ class LasChunkWork {
   AnswerSelection selection_;
   std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {};
   AnswerSource source_;
+  const LasCsv* csv_ = nullptr;
 };
 
 }  // namespace albtpu::annotate

@@ -101,19 +101,24 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
 
 class LasFiles {
  public:
+  // `many`: files of a folder, of which some may be dry land.
   LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation, std::optional<formats::LasKind> kind,
-           const annotate::AnswerSource& source)
-      : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
+           const annotate::AnswerSource& source, bool many)
+      : options_(options), annotation_(annotation), kind_(kind), source_(source), many_(many) {}
 
   absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job, annotate::FileProgress& progress) {
-    ASSIGN_OR_RETURN(annotate::AnnotatedLas annotated, annotate::AnnotateLas(job.input, job.output, options_.existing,
+    const bool alone = IsCsvAlone(options_);
+    const annotate::LasOutputs outputs = {.las = alone ? std::filesystem::path() : job.output,
+                                          .csv = alone ? job.output : job.csv};
+    ASSIGN_OR_RETURN(annotate::AnnotatedLas annotated, annotate::AnnotateLas(job.input, outputs, options_.existing,
                                                                              annotation_, source_, progress, kind_));
+    const std::string format = alone ? "CSV" : std::string(Name(annotated.output_kind));
+    const std::uint64_t csv_bytes = annotated.csv.has_value() ? annotated.csv->size() : 0;
     const std::uint64_t points = annotated.classes.points();
     const std::uint64_t bathymetric = annotated.summary.outcomes().total();
     const bool none = points > 0 && bathymetric == 0 && annotated.dry.count() == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
-    if (none && options_.files.output_folder.empty())
-      return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
+    if (none && !many_) return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
     if (none) annotate::Note(ClassHint(job, annotated) + "; all its points get no-data");
     if (!none && points > 0 && bathymetric == 0) annotate::Note(ClassHint(job, annotated) + "; all are taken as dry");
     if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
@@ -122,15 +127,16 @@ class LasFiles {
     numbered_ += bathymetric + annotated.dry.count();
     return annotate::AnnotatedFile{
         std::move(annotated.file),
-        annotate::Findings{
-            .input_bytes = annotated.input_bytes,
-            .input = annotate::JsonBox(InputJson(annotated)),
-            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", std::string(Name(annotated.output_kind))}}),
-            .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
-            .tally = annotated.summary.Tally()},
+        annotate::Findings{.input_bytes = annotated.input_bytes,
+                           .csv_bytes = csv_bytes,
+                           .input = annotate::JsonBox(InputJson(annotated)),
+                           .output = annotate::JsonBox(nlohmann::ordered_json{{"format", format}}),
+                           .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
+                           .tally = annotated.summary.Tally()},
         absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, annotated, source_.table()),
                      absl::StrJoin(annotated.notes, "",
-                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
+                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); })),
+        std::move(annotated.csv)};
   }
 
   bool found_none() const { return points_ > 0 && numbered_ == 0; }
@@ -148,6 +154,7 @@ class LasFiles {
   const annotate::LasAnnotation& annotation_;
   std::optional<formats::LasKind> kind_;  // Of the outputs.
   annotate::AnswerSource source_;
+  bool many_;
   bool resolution_noted_ = false;
   std::uint64_t points_ = 0, numbered_ = 0;
 };
@@ -182,15 +189,13 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
   const config::SeaSettings& sea = settings.sea;
   ASSIGN_OR_RETURN(const std::vector<config::OpenDecision> open, OpenDecisionsOf(options, settings));
-  if (!open.empty() && open.size() + (annotate::IsOutputMissing(options.files) ? 1 : 0) > 1) {
+  if (!open.empty() && open.size() + (annotate::IsOutputMissing(options.files) && options.csv.empty() ? 1 : 0) > 1) {
     ASSIGN_OR_RETURN(const FirstContact contact, ContactOf(options, settings, open, GivenArguments(command)));
     return Refuse(contact);
   }
   ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
-  annotate::FileOptions file_options = options.files;
-  if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
-  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), file_options));
+  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, JobsOf(options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
   for (annotate::LasChannel& channel : annotation.channels) {
     channel.plan.trajectories = annotation.plan.trajectories;
@@ -205,7 +210,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
     for (annotate::LasChannel& channel : annotation.channels) channel.total.wave_height = annotation.total->wave_height;
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
-  LasFiles files(options, annotation, kind, source);
+  LasFiles files(options, annotation, kind, source, !options.files.output_folder.empty() || jobs.size() > 1);
   std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
   const absl::Status status = annotate::AnnotateFiles(

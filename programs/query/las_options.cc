@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,8 @@
 
 namespace albtpu::programs {
 namespace {
+
+constexpr char kCsv[] = ".csv";
 
 absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settings, const annotate::BeamPlan& plan,
                                             bool is_divergence_given, Coverage coverage) {
@@ -102,6 +106,14 @@ absl::StatusOr<ScannerPlan> PlanOf(const LasOptions& options, const BeamOptions&
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFileOptions(command, ".las", options.files, options.existing);
+  command
+      .add_option(
+          "--csv", options.csv,
+          "Write GPS time, x, y, z, THU, TVU and class of each point as CSV: a file, or an existing folder for a "
+          "file of each input. With OUT or --output-dir beside LAS or LAZ, otherwise alone")
+      ->type_name("OUT.csv|DIR")
+      ->check(NotEmpty("file or folder"))
+      ->group(group::kFiles);
   AddBeamOptions(command, options.beams, options.flags);
   AddSeaFlags(command, options.flags, kRareSeaFlags);
   AddTotalFlags(command, options.flags);
@@ -202,6 +214,45 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   annotation.plan = std::move(plans.front().beams);
   annotation.total = std::move(plans.front().total);
   return annotation;
+}
+
+bool IsCsvAlone(const LasOptions& options) { return !options.csv.empty() && annotate::IsOutputMissing(options.files); }
+
+absl::StatusOr<std::vector<annotate::Job>> JobsOf(const LasOptions& options) {
+  annotate::FileOptions files = options.files;
+  if (options.format.has_value()) files.output_extension = formats::Extension(*options.format);
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(options.csv, ignored);
+  if (IsCsvAlone(options)) {
+    if (options.format.has_value())
+      return formats::UsageError("las: --format has no effect with --csv alone; leave it out");
+    files.output_extension = kCsv;
+    if (folder)
+      files.output_folder = options.csv;
+    else if (files.files.size() == 1)
+      files.files.push_back(options.csv);
+    else
+      return formats::UsageError(absl::StrCat("las: --csv ", options.csv, " is no folder, in which each of ",
+                                              files.files.size(), " inputs has a file; give one that exists"));
+  }
+  ASSIGN_OR_RETURN(std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), files));
+  if (options.csv.empty() || IsCsvAlone(options)) return jobs;
+  if (!folder && jobs.size() > 1) {
+    return formats::UsageError(absl::StrCat("las: --csv ", options.csv, " is no folder, in which each of ", jobs.size(),
+                                            " inputs has a file; give one that exists"));
+  }
+  std::set<std::filesystem::path> names;
+  for (annotate::Job& job : jobs) {
+    const std::filesystem::path name =
+        files.output_folder.empty() ? job.output.filename() : job.output.lexically_relative(files.output_folder);
+    job.csv = folder ? (std::filesystem::path(options.csv) / name).replace_extension(kCsv)
+                     : std::filesystem::path(options.csv);
+    if (job.csv.lexically_normal() == job.output.lexically_normal() || !names.insert(job.csv).second) {
+      return formats::UsageError(absl::StrCat("las: two outputs would be called ", job.csv.string(),
+                                              "; give --csv another name, or annotate the inputs one at a time"));
+    }
+  }
+  return jobs;
 }
 
 absl::StatusOr<std::optional<formats::LasKind>> OutputKind(const LasOptions& options) {

@@ -117,8 +117,8 @@ class LasChunkTest : public ::testing::Test {
   std::string AnnotateFile(const std::string& file) {
     const std::filesystem::path output = folder_ / "out.las";
     FileProgress progress("points", 1, 0);
-    absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(folder_.Write("in.las", file), output, Existing::kReplace, annotation_, source_, progress);
+    absl::StatusOr<AnnotatedLas> annotated = AnnotateLas(folder_.Write("in.las", file), {.las = output, .csv = {}},
+                                                         Existing::kReplace, annotation_, source_, progress);
     EXPECT_TRUE(annotated->file.Commit().ok());
     const std::string bytes = albtpu::testing::ReadFile(output);
     return bytes.substr(Load<std::uint32_t>(bytes, 96));
