@@ -96,7 +96,7 @@ std::string DraftText(const SurveyDraft& draft) {
     if (key.section != section) {
       section = key.section;
       // A table in a section holds only where it is wanted.
-      const bool inner = section.find('.') != section.npos, many = section == "sea.waves";
+      const bool inner = section.find('.') != section.npos, many = IsOfMany(section);
       absl::StrAppend(&text, "\n", inner ? "#" : "", many ? "[[" : "[", section, many ? "]]" : "]", "\n");
       for (const OpenDecision& decision : draft.decisions)
         if (decision.section == section) absl::StrAppend(&text, Prose("DECIDE: " + WithKeys(decision.message)));

@@ -1,5 +1,6 @@
 #include "config/survey_settings.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "absl/strings/str_cat.h"
@@ -7,6 +8,7 @@
 #include "config/toml/toml_keys.h"
 #include "sea/sea_time.h"
 #include "status/status_macros.h"
+#include "tables/coverage.h"
 
 namespace albtpu::config {
 FlagKey FindFlag(std::string_view flag) {
@@ -22,6 +24,23 @@ FlagKey FindFlag(std::string_view flag) {
   return found;
 }
 
+std::optional<double> DatumSettings::standard_deviation() const {
+  if (!mcu.has_value()) return sigma;
+  return confidence == kConfidences[1] ? *mcu / VerticalFactor(Coverage::kP95) : *mcu;
+}
+
+SurveySettings SurveySettings::OfChannel(const ChannelSettings& channel) const {
+  SurveySettings survey = *this;
+  survey.sensor = {.name = channel.name, .lever_arm = channel.lever_arm, .channels = {}};
+  if (!channel.lever_arm.has_value()) survey.sensor.lever_arm = sensor.lever_arm;
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    if (!channel.sigma.stated[i]) continue;
+    survey.sigma.stated[i] = true;
+    std::ranges::copy(kErrorSources[i].In(channel.sigma.values), kErrorSources[i].In(survey.sigma.values).begin());
+  }
+  return survey;
+}
+
 SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
   if (flags.sea.has_waves()) {  // Then what goes with the waves of the survey file goes with them.
     SeaSettings& sea = file.sea;
@@ -30,6 +49,8 @@ SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
     sea.longest_gap = sea.anemometer_height = sea.fetch = {};
   }
   if (flags.trajectory.is_given()) file.trajectory = {};
+  if (flags.sensor.name.has_value()) file.sensor.channels.clear();
+  if (flags.datum.sigma.has_value()) file.datum.mcu = {}, file.datum.confidence = file.datum.region = {};
   ForEachSection(
       [&](const char*, const auto& keys, const auto& section) { Override(keys, section(flags), section(file)); });
   if (!flags.sea.waves.empty()) file.sea.waves = flags.sea.waves;
@@ -53,19 +74,22 @@ JonswapWaves ReadWaves(TomlKeys& keys) {
 }
 
 // What of a section is not in the table of its keys.
-void ReadMore(TomlKeys& keys, SeaSettings& sea) {
+void ReadMore(TomlKeys& keys, const fs::path& folder, SensorSettings& sensor) {
+  sensor.channels = ReadChannels(keys, folder);
+}
+void ReadMore(TomlKeys& keys, const fs::path&, SeaSettings& sea) {
   if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value())
     keys.Fail("time is no time; give UTC as \"2020-06-08T03:50Z\"");
   for (TomlKeys& waves : keys.Tables("waves")) sea.waves.push_back(ReadWaves(waves));
 }
-void ReadMore(TomlKeys& keys, WaterSettings& water) {
+void ReadMore(TomlKeys& keys, const fs::path&, WaterSettings& water) {
   for (TomlKeys& table : keys.Table("calibration")) {
     ReadKeys(table, kCalibrationKeys, "", water.calibration.emplace());
     table.Finish();
   }
 }
 template <typename Settings>
-void ReadMore(TomlKeys&, Settings&) {}
+void ReadMore(TomlKeys&, const fs::path&, Settings&) {}
 
 // Keys that contradict each other.
 void CheckTogether(TomlKeys& keys, const TrajectorySettings& trajectory) {
@@ -77,6 +101,16 @@ void CheckTogether(TomlKeys& keys, const SurfaceSettings& surface) {
   if (!keys.Has("level") || surface.located.value_or("level") == "level") return;
   keys.Fail("level", "contradicts located = \"" + *surface.located +
                          "\" (returns of the lidar locate the surface, or a level does); give one of them");
+}
+void CheckTogether(TomlKeys& keys, const DatumSettings&) {
+  if (keys.Has("mcu") && keys.Has("sigma"))
+    keys.Fail("mcu",
+              "is given beside sigma (both are the uncertainty of the vertical datum, which would count twice); "
+              "give one of them");
+  if (keys.Has("mcu") && !keys.Has("confidence"))
+    keys.Fail("mcu", "has no confidence; give confidence = \"1sigma\" (as VDatum and cBLUE state it) or \"95%\"");
+  if (keys.Has("confidence") && keys.Has("sigma"))
+    keys.Fail("confidence", "contradicts sigma (which is one standard deviation); give mcu with it, or leave it out");
 }
 template <typename Settings>
 void CheckTogether(TomlKeys&, const Settings&) {}
@@ -92,7 +126,7 @@ absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const fs::path
     if (name.find('.') != name.npos) return;  // A table in a section.
     for (TomlKeys& given : keys.Table(name)) {
       ReadKeys(given, table, folder, section(survey));
-      ReadMore(given, section(survey));
+      ReadMore(given, folder, section(survey));
       given.Finish();
       CheckTogether(given, section(survey));
     }
@@ -177,6 +211,7 @@ std::vector<ListedKey> ListKeys() {
   ForEachSection([&](std::string_view section, const auto& table, const auto&) {
     if (section == "output") AddSigma(list);
     AddTable(section.data(), table, list);
+    if (section == "sensor") AddTable("sensor.channel", kChannelKeys, list);
     if (section == "water") AddTable("water.calibration", kCalibrationKeys, list);
   });
   return list;

@@ -14,14 +14,16 @@
 #include "budget/water/water_contribution.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
+#include "config/sensor_channels.h"
 #include "config/sensors/sensor.h"
 #include "tables/s44.h"
 
 namespace albtpu::config {
 
-struct SensorSettings {             // [sensor]
-  std::optional<std::string> name;  // Of an installed sensor, or the path of a file: FindSensor().
-  std::optional<Triple> lever_arm;  // Forward, right, down, m.
+struct SensorSettings {                   // [sensor]
+  std::optional<std::string> name;        // Of an installed sensor, or the path of a file: FindSensor().
+  std::optional<Triple> lever_arm;        // Forward, right, down, m.
+  std::vector<ChannelSettings> channels;  // In place of a name, where a file has points of several scanners.
 };
 
 struct TrajectorySettings {                  // [trajectory]
@@ -64,6 +66,18 @@ struct WaterSettings {                                     // [water]
 
 struct DatumSettings {                            // [datum]
   std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
+  // In place of sigma: the maximum cumulative uncertainty of a transformation by VDatum, m.
+  std::optional<double> mcu;
+  std::optional<std::string> confidence;  // kConfidences, of the mcu
+  std::optional<std::string> region;      // Of VDatum, as it is recorded.
+
+  // m, one standard deviation, by whichever is given.
+  std::optional<double> standard_deviation() const;
+};
+
+// What the surveyor adds to every point beside all that is computed, m, standard deviations; 0: none.
+struct ExtraSettings {  // [extra]
+  std::optional<double> horizontal, vertical;
 };
 
 struct OutputSettings {               // [output]
@@ -82,10 +96,13 @@ struct SurveySettings {
   SeaSettings sea;
   WaterSettings water;
   DatumSettings datum;
+  ExtraSettings extra;
   config::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
   OutputSettings output;
 
-  bool wants_total() const { return sensor.name.has_value(); }
+  bool wants_total() const { return sensor.name.has_value() || !sensor.channels.empty(); }
+  // That of one of the channels alone, as if its sensor were the only one.
+  SurveySettings OfChannel(const ChannelSettings& channel) const;
 };
 
 inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
@@ -95,13 +112,12 @@ inline constexpr std::array<std::string_view, 4> kVelocityAxes = {"auto", "wande
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
+inline constexpr std::array<std::string_view, 2> kConfidences = {"1sigma", "95%"};
 inline constexpr std::array<std::string_view, 2> kPointChoices = {"all", "bathymetric"};
 inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", "1sigma"};
 
 // The class of a point in LAS 1.4 is one byte.
 inline constexpr WholeNumbers kClasses = {0, 255};
-// The longest aircraft has 84 m (An-225).
-inline constexpr ThreeNumbers kLeverArm = {-100, 100, "m", "[forward, right, down]", "X,Y,Z"};
 // From the Dead Sea to the highest lakes (6400 m), in metres or in feet.
 inline constexpr NumberOrPath kLevel = {
     {-2000, 25000, "1"}, "a height, or the path of a file of heights", "Z|FILE.csv"};
@@ -199,14 +215,33 @@ inline constexpr std::array<Key<CalibrationSettings>, 3> kCalibrationKeys = {{
      &CalibrationSettings::offset},
     {{"sigma", "", Number{0, 10, "m"}, "", "Its standard deviation"}, &CalibrationSettings::sigma},
 }};
-// What EGM2008 has on Earth is -107 to 86 m.
-inline constexpr std::array<Key<DatumSettings>, 2> kDatumKeys = {{
+// What EGM2008 has on Earth is -107 to 86 m. The regions of VDatum have an mcu of 0.08 to 0.23 m; in centimetres, as
+// the table of cBLUE has them, all are 8 or more.
+inline constexpr std::array<Key<DatumSettings>, 5> kDatumKeys = {{
     {{"sigma", "--datum-sigma", Number{0, 10, "m"}, "",
       "Standard deviation of the vertical datum; 0 for ellipsoidal heights"},
      &DatumSettings::sigma},
     {{"geoid_separation", "--geoid-separation", Number{-120, 100, "m"}, "",
       "Height of the points' vertical datum above the ellipsoid, where the points are not ellipsoidal"},
      &DatumSettings::geoid_separation},
+    {{"mcu", "", Number{0.001, 2, "m"}, "",
+      "In place of sigma: the maximum cumulative uncertainty (MCU) that VDatum states for the transformation of "
+      "heights; needs confidence"},
+     &DatumSettings::mcu},
+    {{"confidence", "", Word{kConfidences}, "",
+      "What mcu is: 1sigma for one standard deviation, as VDatum and cBLUE state it, or 95% for 1.96 of them"},
+     &DatumSettings::confidence},
+    {{"region", "", Text{"the name of a region of VDatum", "NAME"}, "",
+      "The region of VDatum that mcu or sigma is of; recorded beside it"},
+     &DatumSettings::region},
+}};
+// An uncertainty of metres from no known source is no survey.
+inline constexpr std::array<Key<ExtraSettings>, 2> kExtraKeys = {{
+    {{"horizontal", "", Number{0, 10, "m"}, "0",
+      "Standard deviation that is added to all that is computed, as the HUC of cBLUE: radial, the root of the sum of "
+      "the variances along two axes, which are equal"},
+     &ExtraSettings::horizontal},
+    {{"vertical", "", Number{0, 10, "m"}, "0", "The same of heights, as the VUC of cBLUE"}, &ExtraSettings::vertical},
 }};
 inline constexpr std::array<Key<OutputSettings>, 6> kOutputKeys = {{
     {{"classes", "--classes", kClasses, "40, 43; 26 in point formats 0 to 5", "The classes of bathymetric points"},
@@ -242,6 +277,7 @@ void ForEachSection(const Visit& visit) {
       "sea.waves", kWaveKeys, [](auto& all) -> auto& { return all.sea.wave_flags; });
   visit("water", kWaterKeys, std::mem_fn(&SurveySettings::water));
   visit("datum", kDatumKeys, std::mem_fn(&SurveySettings::datum));
+  visit("extra", kExtraKeys, std::mem_fn(&SurveySettings::extra));
   visit("output", kOutputKeys, std::mem_fn(&SurveySettings::output));
 }
 
@@ -286,6 +322,9 @@ struct ListedKey {
 
 // By section, in the order of the tables.
 std::vector<ListedKey> ListKeys();
+
+// Whether a survey file may have any number of tables of this name: [[sea.waves]].
+inline bool IsOfMany(std::string_view section) { return section == "sea.waves" || section == "sensor.channel"; }
 
 // "Depth of the water that the waves travel in [m] (default: ...)"
 std::string HelpText(const KeyDeclaration& key);

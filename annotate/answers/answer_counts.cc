@@ -96,8 +96,8 @@ std::string_view OutcomeCounts::Name(std::size_t number) {
 }
 
 std::string_view OutcomeName(NoPulse why) {
-  constexpr std::array<std::string_view, kNoPulseCount> kNames = {"NO_TRAJECTORY", "UNCERTAIN_TRAJECTORY", "NO_SURFACE",
-                                                                  "NO_SEA",        "ABOVE_WATER",          "DRY"};
+  constexpr std::array<std::string_view, kNoPulseCount> kNames = {
+      "NO_TRAJECTORY", "UNCERTAIN_TRAJECTORY", "NO_SURFACE", "NO_SEA", "ABOVE_WATER", "DRY", "NO_CHANNEL"};
   return kNames[static_cast<std::size_t>(why)];
 }
 

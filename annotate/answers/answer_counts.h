@@ -50,8 +50,9 @@ enum class NoPulse : std::uint8_t {
   kNoSea,                // The series of the sea has no state at its time.
   kAboveWater,           // The point lies above the water surface.
   kDry,                  // The same, and it has the uncertainty of a dry point.
+  kNoChannel,            // It belongs to none of the scanners that the survey has.
 };
-inline constexpr std::size_t kNoPulseCount = 6;
+inline constexpr std::size_t kNoPulseCount = 7;
 
 constexpr bool IsAbove(NoPulse why) { return why == NoPulse::kAboveWater || why == NoPulse::kDry; }
 

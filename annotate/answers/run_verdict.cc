@@ -166,6 +166,9 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
       return {"the file of the sea has no record near their times",
               "check that it is of these days, in UTC; choose one of its times by --sea-time, or bridge "
               "longer gaps by longest_gap in [sea] of a survey file"};
+    case NoPulse::kNoChannel:
+      return {"they are of scanners that the survey file does not have",
+              "add their scanner_channels or user_data to [[sensor.channel]]"};
     case NoPulse::kAboveWater:
     case NoPulse::kDry:
       break;

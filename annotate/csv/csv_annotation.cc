@@ -129,6 +129,8 @@ class BlockWork {
         number(totals.tvu_water[i]);
       }
       const bool answered = std::isfinite(totals.thu[i]);
+      if (total_->plan.has_extra())
+        for (const float added : {totals.extra.thu, totals.extra.tvu}) number(answered ? added : NAN);
       for (const std::vector<float>& entry : totals.covariance) number(answered ? entry[i] : NAN);
     }
     number(answers[Quantity::kBiasAlongBeam][i]);
@@ -230,6 +232,7 @@ std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& st
   if (total.details) {
     names.insert(names.end(), {"thu_air", "tvu_air", "thu_sea", "tvu_sea"});
     if (total.plan.water.share != nullptr) names.insert(names.end(), {"thu_water", "tvu_water"});
+    if (total.plan.has_extra()) names.insert(names.end(), {"thu_extra", "tvu_extra"});
     for (const std::string_view entry : kCovarianceNames)
       names.push_back(absl::StrCat("covariance_", std::string(entry)));
   }

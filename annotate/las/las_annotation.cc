@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/las/las_beams.h"
+#include "annotate/las/las_csv.h"
 #include "annotate/las/las_prescan.h"
 #include "annotate/seas/sea_facts.h"
 #include "formats/files/ordered_pipeline.h"
@@ -71,6 +72,17 @@ absl::Status CheckIncidence(const formats::LasReader& reader, const LasAnnotatio
                       reader.name(), incidence.middle(), kLargestMedianIncidence));
 }
 
+void NoteChannels(const LasAnnotation& annotation, AnnotatedLas& annotated) {
+  const std::uint64_t bathymetric = annotated.summary.outcomes().count(NoPulse::kNoChannel);
+  if (const std::uint64_t none = bathymetric + annotated.dry_without_channel; none > 0)
+    annotated.notes.push_back(
+        absl::StrCat(none, " points belong to no channel of [[sensor.channel]] and have no number (NO_CHANNEL); ",
+                     bathymetric, " of them are bathymetric"));
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i)
+    if (annotated.points_by_channel[i] == 0)
+      annotated.notes.push_back(absl::StrCat("no point is of ", annotation.channels[i].label));
+}
+
 // The bytes of the file that hold `points` points; compressed points count as equally long.
 std::uint64_t BytesOf(const formats::LasReader& reader, std::uint64_t points) {
   const formats::LasHeader& header = reader.header();
@@ -81,24 +93,36 @@ std::uint64_t BytesOf(const formats::LasReader& reader, std::uint64_t points) {
          static_cast<std::uint64_t>(part * static_cast<double>(extent.points_end - extent.points_begin));
 }
 
-// Copies the file of `reader` to that of `annotated`, with the uncertainty of its points.
-absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::LasHead& head,
+// Copies the file of `reader` to that of `annotated`, with the uncertainty of its points. Without a `head` that of
+// `annotated` is the CSV.
+absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optional<formats::LasHead>& head,
                             const LasAnnotation& annotation, const LasBeams& beams, const AnswerSource& source,
                             FileProgress::File& progress, AnnotatedLas& annotated) {
   const formats::LasHeader& header = reader.header();
+  const bool compressed = head.has_value() && head->record.has_value();
   const std::uint64_t max_records =
-      head.record.has_value() ? head.record->chunk_size
-                              : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
-  formats::LasWriter writer(reader, head, annotated.file);
+      compressed ? head->record->chunk_size
+                 : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
+  std::optional<formats::LasWriter> writer;
+  if (head.has_value()) writer.emplace(reader, *head, annotated.file);
+  OutputFile* const csv_file = !head.has_value()           ? &annotated.file
+                               : annotated.csv.has_value() ? &*annotated.csv
+                                                           : nullptr;
   ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach));
-  RETURN_IF_ERROR(writer.Begin());
-  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(), beams.has_surface_returns(),
-                          source);
+  if (writer.has_value()) RETURN_IF_ERROR(writer->Begin());
+  const std::vector<formats::ReplacedFloat> replaced =
+      head.has_value() ? head->replaced : std::vector<formats::ReplacedFloat>();
+  LasChunkWork work(header, annotation, replaced, beams.geometries(), beams.utc(), beams.has_surface_returns(), source);
+  const LasCsv csv(header, beams.place(), annotation.appended());
+  if (csv_file != nullptr) {
+    work.MakeCsv(&csv);
+    RETURN_IF_ERROR(csv_file->Write(csv.head()));
+  }
   std::uint64_t written_records = 0;
   const absl::Status status = formats::RunOrderedPipeline(
       [&] {
         return Passing{.chunk = LasChunkWork::Chunk(annotation.style_of_sea()),
-                       .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
+                       .encoder = compressed ? laz::ChunkEncoder::For(*head->record) : nullptr,
                        .compressed = {}};
       },
       [&](Passing& passing) { return runs.Next(max_records, passing.chunk); },
@@ -108,7 +132,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
           passing.encoder->Encode(passing.chunk.annotated, passing.compressed);
         return worked;
       },
-      [&](Passing& passing) {
+      [&](Passing& passing) -> absl::Status {
         const LasChunkWork::Chunk& chunk = passing.chunk;
         annotated.classes.Merge(chunk.classes);
         annotated.withheld += chunk.withheld;
@@ -118,27 +142,37 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
         annotated.dry.Merge(chunk.dry);
         annotated.submerged += chunk.submerged;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
+        for (std::size_t i = 0; i < annotated.points_by_channel.size(); ++i) {
+          annotated.points_by_channel[i] += chunk.points_by_channel[i];
+          annotated.totals_by_channel[i].Merge(chunk.totals_by_channel[i]);
+        }
+        annotated.dry_without_channel += chunk.dry_without_channel;
         annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
         written_records += chunk.own;
         progress.Reach(BytesOf(reader, written_records), written_records);
-        return writer.Write(passing.output(), chunk.own);
+        if (csv_file != nullptr) RETURN_IF_ERROR(csv_file->Write(chunk.csv));
+        return writer.has_value() ? writer->Write(passing.output(), chunk.own) : absl::OkStatus();
       });
-  return status.ok() ? writer.End(runs.tail_begin(), runs.tail_end()) : status;
+  return status.ok() && writer.has_value() ? writer->End(runs.tail_begin(), runs.tail_end()) : status;
 }
 
 }  // namespace
 
-absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const LasOutputs& outputs,
                                          Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<formats::LasKind> kind) {
-  RETURN_IF_ERROR(formats::CheckNotTheSameFile(input, output));
+  const bool las = !outputs.las.empty();
+  for (const std::filesystem::path& output : {outputs.las, outputs.csv})
+    if (!output.empty()) RETURN_IF_ERROR(formats::CheckNotTheSameFile(input, output));
   ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(input));
   const formats::LasKind output_kind = kind.value_or(reader.kind());
-  ASSIGN_OR_RETURN(
-      const formats::LasHead head,
-      formats::AnnotatedHead(reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace));
+  std::optional<formats::LasHead> head;
+  if (las) {
+    ASSIGN_OR_RETURN(head, formats::AnnotatedHead(reader, formats::AppendedFloats(annotation.appended()), output_kind,
+                                                  annotation.replace));
+  }
   FileProgress::File file_progress(progress, input.filename().string());
   const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(reader, annotation);
   if (!beams.ok()) {
@@ -146,16 +180,23 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
     const absl::Status changed = reader.CheckUnchanged();
     return changed.ok() ? beams.status() : changed;
   }
-  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(output, existing));
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(las ? outputs.las : outputs.csv, existing));
+  std::optional<OutputFile> csv;
+  if (las && !outputs.csv.empty()) {
+    ASSIGN_OR_RETURN(csv, OutputFile::Create(outputs.csv, existing));
+  }
 
   AnnotatedLas annotated{.point_format = reader.header().point_format,
                          .input_bytes = reader.file_size(),
                          .input_kind = reader.kind(),
                          .output_kind = output_kind,
-                         .copc_index_left_out = formats::HasCopcIndex(reader),
+                         .copc_index_left_out = las && formats::HasCopcIndex(reader),
                          .chosen_classes = annotation.ClassesOf(reader.header().point_format),
                          .summary = UncertaintySummary(annotation.style_of_sea()),
-                         .file = std::move(file)};
+                         .points_by_channel = std::vector<std::uint64_t>(annotation.channels.size()),
+                         .totals_by_channel = std::vector<TotalSummary>(annotation.channels.size()),
+                         .file = std::move(file),
+                         .csv = std::move(csv)};
   const absl::Status status = AnnotatePoints(reader, head, annotation, **beams, source, file_progress, annotated);
   RETURN_IF_ERROR(reader.CheckUnchanged());
   if (!status.ok()) return status;
@@ -174,6 +215,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
         absl::StrCat(annotated.synthetic,
                      " bathymetric points are synthetic: no pulse measured them, and their numbers are those "
                      "of a pulse there"));
+  if (!annotation.channels.empty()) NoteChannels(annotation, annotated);
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
     (*annotated.geometry)["incidence"] = {{"least", formats::JsonNumber(least)},

@@ -32,6 +32,10 @@ struct AnnotatedLas {
   TotalSummary totals = {};  // Empty without a total; so are the next two.
   std::map<int, TotalSummary> totals_by_line = {};
   std::uint64_t sigmas_assumed = 0;
+  // By channel of the annotation: points that may get a number, and totals. Dry points of none.
+  std::vector<std::uint64_t> points_by_channel = {};
+  std::vector<TotalSummary> totals_by_channel = {};
+  std::uint64_t dry_without_channel = 0;
   DrySummary dry = {};
   std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
   SurfaceCounts surface = {};
@@ -40,13 +44,20 @@ struct AnnotatedLas {
   JsonBox sea = {};                     // The same for the sea; null where a table of winds answers.
   std::vector<std::string> notes = {};  // For the user, a line each.
   OutputFile file;                      // Complete; Commit() gives it its name.
+  std::optional<OutputFile> csv = {};   // The same beside it, where both are wanted.
 };
 
+// Where the points go: as LAS or LAZ, as CSV, or both; empty: not wanted.
+struct LasOutputs {
+  std::filesystem::path las, csv;
+};
+
+// `file` of the result is the LAS file where one is wanted, otherwise the CSV (LasCsv), with a line for each point.
 // Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.
 // `kind` is that of the output; absent: that of the input. Reading, querying and writing overlap; memory does not grow
 // with the file. Fails and leaves no output when LasReader, PlaceOf, the track, AnnotatedHead or the source fails, when
 // the output is the input, and when the input is modified meanwhile.
-absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const std::filesystem::path& output,
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, const LasOutputs& outputs,
                                          Existing existing, const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<formats::LasKind> kind = std::nullopt);
 

@@ -38,6 +38,19 @@ absl::Status CheckTimes(const formats::LasReader& reader, const LasAnnotation& a
                    "one --water-level, or a file of another point format"));
 }
 
+absl::Status CheckChannels(const formats::LasReader& reader, const LasAnnotation& annotation) {
+  const int format = reader.header().point_format;
+  if (format >= formats::kFirstModernFormat) return absl::OkStatus();
+  for (const LasChannel& channel : annotation.channels) {
+    if (channel.points.channels.empty()) continue;
+    return absl::FailedPreconditionError(
+        absl::StrCat(reader.name(), ": points of format ", format,
+                     " have no scanner channel, by which [[sensor.channel]] tells those of ", channel.label,
+                     "; map them by user_data, if they have it, or name one sensor by --sensor"));
+  }
+  return absl::OkStatus();
+}
+
 constexpr double kRoundedBounds = 1;  // m; programs round the bounds of a header.
 
 // "x 0 to 8 instead of 3 to 8": the bounds of the header that are not those of the points. Empty without points.
@@ -99,8 +112,13 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
 
 }  // namespace
 
-absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
-  if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a position.
+absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
+                                                           const WaterHeights& water) {
+  if (prescan_.numbered == 0) return nullptr;  // No point needs a position.
+  const auto* const files = std::get_if<TrajectoryFromFiles>(&plan.source);
+  const std::array<double, 3> lever_arm = files != nullptr ? files->lever_arm : std::array<double, 3>{};
+  for (const std::unique_ptr<const Track>& known : tracks_)
+    if (known->lever_arm == lever_arm) return known.get();
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   if (!(file.times.span.first <= file.times.span.last)) {
     return absl::FailedPreconditionError(absl::StrCat(
@@ -108,11 +126,10 @@ absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPla
         ": the GPS times of its points are all 0 or no numbers, so that no position of the sensor belongs to them; "
         "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
   }
-  ASSIGN_OR_RETURN(FileTrack track, std::holds_alternative<TrajectoryFromFiles>(plan.source)
-                                        ? TrackFromFiles(file, plan)
-                                        : TrackFromReturns(file, plan.refractive_index));
-  track_ = std::move(track.track);
-  motions_ = std::move(track.motions);
+  ASSIGN_OR_RETURN(FileTrack track,
+                   files != nullptr ? TrackFromFiles(file, plan) : TrackFromReturns(file, plan.refractive_index));
+  tracks_.emplace_back(new Track{lever_arm, std::move(track.track), std::move(track.motions)});
+  if (tracks_.size() > 1) return tracks_.back().get();  // That of another lever arm says nothing else of the file.
   (*json_)["trajectory"] = std::move(*track.json);
   notes_.insert(notes_.end(), track.notes.begin(), track.notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
@@ -120,7 +137,7 @@ absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPla
         "most returns of one pulse do not lie side by side in the file, so that few points have the water "
         "surface of their own pulse; sort the points by GPS time for that");
   }
-  return absl::OkStatus();
+  return tracks_.back().get();
 }
 
 absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimeline& seas) {
@@ -200,6 +217,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
                                                          const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
   RETURN_IF_ERROR(CheckTimes(reader, annotation));
+  RETURN_IF_ERROR(CheckChannels(reader, annotation));
   std::unique_ptr<LasBeams> beams(new LasBeams());
   if (plan.water_level_file.has_value()) {
     ASSIGN_OR_RETURN(beams->levels_,
@@ -213,8 +231,18 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   const WaterHeights water = {.surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
                               .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
                               .level = plan.water_level};
-  if (plan.has_track()) RETURN_IF_ERROR(beams->FindTrack(reader, plan, water));
-  beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get(), beams->motions_.get());
+  const auto add = [&](const BeamPlan& of_scanner) -> absl::Status {
+    const Track* track = nullptr;
+    if (of_scanner.has_track()) {
+      ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, water));
+    }
+    beams->geometries_.emplace_back(of_scanner, beams->place_.frame, water,
+                                    track != nullptr ? track->track.get() : nullptr,
+                                    track != nullptr ? track->motions.get() : nullptr);
+    return absl::OkStatus();
+  };
+  if (annotation.channels.empty()) RETURN_IF_ERROR(add(plan));
+  for (const LasChannel& channel : annotation.channels) RETURN_IF_ERROR(add(channel.plan));
   return beams;
 }
 

@@ -1,6 +1,7 @@
 // The beams of a LAS file: everything that is determined before its points are annotated.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,9 @@ class LasBeams {
   static absl::StatusOr<std::unique_ptr<LasBeams>> Find(const formats::LasReader& reader,
                                                         const LasAnnotation& annotation);
 
-  const BeamGeometry& geometry() const { return *geometry_; }
+  // Of each scanner of the annotation, or of the only one.
+  const std::vector<BeamGeometry>& geometries() const { return geometries_; }
+  const LasPlace& place() const { return place_; }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
   // UTC [s since 1970] = time of a point + it; where the sea goes by time.
   double utc() const { return utc_; }
@@ -42,14 +45,21 @@ class LasBeams {
   absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
   // Place and first pass, again if the points show that the header had put the place elsewhere.
   absl::Status FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation);
-  absl::Status FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
+  // The track of the sensor at its lever arm, which scanners with equal ones share.
+  struct Track {
+    std::array<double, 3> lever_arm;
+    std::unique_ptr<const SensorTrack> track;
+    std::unique_ptr<const SensorMotions> motions;
+  };
+  // Null where no point needs a position.
+  absl::StatusOr<const Track*> FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
+                                         const WaterHeights& water);
 
   LasPlace place_;
   LasPrescan prescan_;
   std::optional<formats::WaterLevelSeries> levels_;
-  std::unique_ptr<const SensorTrack> track_;
-  std::unique_ptr<const SensorMotions> motions_;
-  std::optional<BeamGeometry> geometry_;
+  std::vector<std::unique_ptr<const Track>> tracks_;
+  std::vector<BeamGeometry> geometries_;
   double utc_ = 0;
   std::pair<std::size_t, std::size_t> records_;
   JsonBox json_ = JsonBox::Object();

@@ -15,6 +15,7 @@
 #include "annotate/answers/uncertainty_summary.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/beams/point_beams.h"
+#include "annotate/las/las_csv.h"
 #include "annotate/seas/sea_timeline.h"
 #include "annotate/totals/total_summary.h"
 #include "formats/las/las_extra_bytes.h"
@@ -22,6 +23,14 @@
 #include "formats/las/las_points.h"
 
 namespace albtpu::annotate {
+
+// One of several scanners whose points are in one file.
+struct LasChannel {
+  std::string label;  // "scanner channel 1"
+  formats::ScannerPoints points;
+  BeamPlan plan;
+  TotalPlan total;
+};
 
 struct LasAnnotation {
   std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClasses of the format.
@@ -32,12 +41,16 @@ struct LasAnnotation {
   bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
   AnswerStyle style;
   std::optional<TotalPlan> total = {};  // Absent: the contribution of the sea surface alone.
+  // Empty: the points are of one scanner. Otherwise `plan` and `total` are those of the first one; what belongs to no
+  // sensor is the same in all plans.
+  std::vector<LasChannel> channels = {};
 
   std::set<int> ClassesOf(int point_format) const;
   formats::Appended appended() const {
     return {.coverage = style.coverage,
             .total = total.has_value(),
             .water = total.has_value() && total->water.share != nullptr,
+            .extra = total.has_value() && total->has_extra(),
             .details = details};
   }
   // How the sea is queried: for a total at 2 sigma.
@@ -47,10 +60,11 @@ struct LasAnnotation {
 // The settings of all chunks of a file.
 class LasChunkWork {
  public:
-  // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where
-  // the sea goes by time. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
+  // `replaced`: as AnnotatedHead says. `beams` has those of each scanner, and must outlive it. `utc`: UTC [s since
+  // 1970] = time of a point + it, where the sea goes by time. `pulse_surface`: the water surface at a point may come
+  // from a return of the same pulse.
   LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
-               const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
+               const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams, double utc,
                bool pulse_surface, const AnswerSource& source);
 
   // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
@@ -59,6 +73,7 @@ class LasChunkWork {
     explicit Chunk(AnswerStyle style) : summary(style) {}
 
     std::string annotated;  // Output: the own records, each followed by the appended bytes.
+    std::string csv;        // The same as text, where it is wanted.
     formats::LasClassCounts classes;
     std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
     DrySummary dry;                             // Of dry points, where the plan has them.
@@ -68,13 +83,18 @@ class LasChunkWork {
     UncertaintySummary summary;
     TotalSummary totals;                         // Empty without a total.
     std::map<int, TotalSummary> totals_by_line;  // By point source id.
-    std::uint64_t sigmas_assumed = 0;            // As TotalBatch.
+    // By scanner, where there are several: own points that may get a number, and their totals. And points of none.
+    std::vector<std::uint64_t> points_by_channel;
+    std::vector<TotalSummary> totals_by_channel;
+    std::uint64_t dry_without_channel = 0;
+    std::uint64_t sigmas_assumed = 0;  // As TotalBatch.
 
    private:
     friend class LasChunkWork;
-    std::vector<std::uint32_t> chosen;  // Indices of own records that may get a number.
-    std::vector<std::uint32_t> water;   // Indices of records from the surface.
-    SurveyPoints points;                // Of the chosen records.
+    std::vector<std::uint8_t> scanners;  // Of each own record, that of a point that may get a number; or kNoScanner.
+    std::vector<std::uint32_t> chosen;   // Indices of own records of one scanner.
+    std::vector<std::uint32_t> water;    // Indices of records from the surface.
+    SurveyPoints points;                 // Of the chosen records.
     BeamScratch scratch;
     PointBeams beams;
     std::vector<std::uint32_t> rows;  // Of the points that have a pulse.
@@ -89,42 +109,59 @@ class LasChunkWork {
     TotalBatch dry_total;
   };
 
+  // Makes `csv` of chunks, too; it must outlive this.
+  void MakeCsv(const LasCsv* csv) { csv_ = csv; }
+
   absl::Status operator()(Chunk& chunk) const;
 
  private:
   std::string_view Record(const Chunk& chunk, std::size_t i) const {
     return std::string_view(chunk.records).substr(i * record_length_, record_length_);
   }
-  void Decode(Chunk& chunk) const;
-  void FindPulseSurface(Chunk& chunk) const;
+  // One of the scanners of the file, or the only one.
+  struct Scanner {
+    std::size_t number;
+    const formats::ScannerPoints* points;  // Null: all are its.
+    const BeamPlan* plan;
+    const BeamGeometry* beams;
+    const TotalPlan* total;  // Null without a total.
+  };
+  static constexpr std::uint8_t kNoScanner = 255;
+
+  // Counts, and the records without numbers.
+  void Begin(Chunk& chunk) const;
+  std::uint8_t ScannerOf(std::string_view record) const;
+  absl::Status Annotate(const Scanner& scanner, Chunk& chunk) const;
+  void Decode(const Scanner& scanner, Chunk& chunk) const;
+  void FindPulseSurface(const Scanner& scanner, Chunk& chunk) const;
   void FindSeas(Chunk& chunk) const;
-  void FindTotals(Chunk& chunk) const;
-  void FindDryTotals(Chunk& chunk) const;
+  void FindTotals(const Scanner& scanner, Chunk& chunk) const;
+  void FindDryTotals(const Scanner& scanner, Chunk& chunk) const;
   // Columns of `rows` of the points.
-  void TakeAircraft(const PointBeams& beams, const std::vector<std::uint32_t>& rows, AircraftColumns& aircraft) const;
+  static void TakeAircraft(const BeamPlan& plan, const PointBeams& beams, const std::vector<std::uint32_t>& rows,
+                           AircraftColumns& aircraft);
   void Summarize(Chunk& chunk) const;
-  void Encode(Chunk& chunk) const;
+  void Encode(const Scanner& scanner, Chunk& chunk) const;
   void Replace(Chunk& chunk) const;
   // Of row i of the totals, which is a dry one or a pulse in water.
-  void EncodeTotals(const Chunk& chunk, bool dry, std::size_t i, char* values) const;
+  void EncodeTotals(const TotalPlan& plan, const Chunk& chunk, bool dry, std::size_t i, char* values) const;
 
   formats::LasPointFields fields_;
   std::size_t record_length_;
-  const BeamPlan& plan_;
-  const BeamGeometry& beams_;
+  std::vector<Scanner> scanners_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
   double utc_;
-  bool pulse_surface_, use_withheld_;
+  bool pulse_surface_, use_withheld_, dry_points_;
   formats::Appended appended_;
   std::vector<formats::AppendedFloat> numbers_;  // What is appended or replaces: floats, and a byte at the end.
   std::string no_data_;                          // Its bytes where there is no number.
   std::vector<formats::ReplacedFloat> replaced_;
   std::size_t extra_bytes_begin_;  // In a record of the input.
   AnswerStyle style_;
-  const TotalPlan* total_;  // Null without a total.
   AnswerSelection selection_;
   std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {};
   AnswerSource source_;
+  const LasCsv* csv_ = nullptr;
 };
 
 }  // namespace albtpu::annotate

@@ -93,9 +93,11 @@ class Run {
     RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, run_.existing));
     std::error_code ignored;  // If this fails, creating the output reports why.
     if (job.in_subfolder) fs::create_directories(job.output.parent_path(), ignored);
+    if (job.in_subfolder && !job.csv.empty()) fs::create_directories(job.csv.parent_path(), ignored);
     ASSIGN_OR_RETURN(AnnotatedFile annotated, run_.annotate(job, progress_));
     const std::string summary = SummaryText(settings_, job, annotated.findings, annotated.file.size());
-    RETURN_IF_ERROR(CommitWithSummary(std::move(annotated.file), job, summary, run_.existing));
+    RETURN_IF_ERROR(
+        CommitWithSummary(std::move(annotated.file), job, summary, run_.existing, std::move(annotated.csv)));
     Note(absl::StrCat(job.output.string(), ":"), annotated.text);
     Judge(job, annotated.findings.tally);
     return absl::OkStatus();

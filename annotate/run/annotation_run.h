@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace albtpu::annotate {
 struct AnnotatedFile {
   OutputFile file;
   Findings findings;
-  std::string text;  // For the user; printed after the name of the output.
+  std::string text;                    // For the user; printed after the name of the output.
+  std::optional<OutputFile> csv = {};  // Of Job::csv.
 };
 
 struct AnnotationRun {

@@ -172,6 +172,7 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
   json["input"].update(*findings.input);
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
   json["output"].update(*findings.output);
+  if (!job.csv.empty()) json["output"]["csv"] = {{"name", job.csv.filename().string()}, {"bytes", findings.csv_bytes}};
   json["answers"] = *findings.answers;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -185,11 +186,12 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   };
   const ordered_json json = ReadSummary(summary);
   if (json.empty()) return differs(absl::StrCat("without a summary ", summary, " that says how it was made"));
-  const ordered_json here = {{"command", settings.command},
-                             {"parameters", *settings.parameters},
-                             {"table", TableJson(settings.table)},
-                             {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
-                             {"output", {{"bytes", SizeOf(job.output)}}}};
+  ordered_json here = {{"command", settings.command},
+                       {"parameters", *settings.parameters},
+                       {"table", TableJson(settings.table)},
+                       {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
+                       {"output", {{"bytes", SizeOf(job.output)}}}};
+  if (!job.csv.empty()) here["output"]["csv"] = {{"name", job.csv.filename().string()}, {"bytes", SizeOf(job.csv)}};
   const std::string difference = Difference(json, here, "");
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
   std::vector<fs::path> read = {job.input};
@@ -228,14 +230,18 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
       absl::StrCat(existing_file.string(), ": already exists; choose another name, or add --overwrite"));
 }
 
-absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing) {
+absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing,
+                               std::optional<OutputFile> csv) {
   const fs::path summary_path = SummaryPath(job.output);
   RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, existing));
   ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, Existing::kReplace));
   RETURN_IF_ERROR(output.Sync());
+  if (csv.has_value()) RETURN_IF_ERROR(csv->Sync());
   RETURN_IF_ERROR(file.Write(summary));
   RETURN_IF_ERROR(file.Sync());
   std::error_code error;
+  const bool new_csv = csv.has_value() && !fs::exists(job.csv, error);
+  if (csv.has_value()) RETURN_IF_ERROR(csv->Commit());
   if (fs::exists(job.output, error)) {
     // The old summary goes first: if the program is killed here, no summary describes the wrong output.
     fs::remove(summary_path, error);
@@ -245,6 +251,7 @@ absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::str
   absl::Status status = file.Commit();
   if (status.ok()) status = output.Commit();
   if (!status.ok()) fs::remove(summary_path, error);
+  if (!status.ok() && new_csv) fs::remove(job.csv, error);
   return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct FileOptions {
 // One file to annotate.
 struct Job {
   std::filesystem::path input, output;
-  bool in_subfolder = false;  // Of the output folder; the subfolder may not exist yet.
+  bool in_subfolder = false;       // Of the output folder; the subfolder may not exist yet.
+  std::filesystem::path csv = {};  // A second output, the same as CSV; empty: none.
 };
 
 // Whether neither OUT nor --output-dir says where outputs go; a folder has no OUT.
@@ -67,7 +69,7 @@ struct OutputSettings {
 
 // The results of a run over one file.
 struct Findings {
-  std::uint64_t input_bytes = 0;
+  std::uint64_t input_bytes = 0, csv_bytes = 0;
   JsonBox input;                       // Further properties: points, classes.
   JsonBox output = JsonBox::Object();  // Further properties: format.
   JsonBox answers;                     // UncertaintySummary::Json().
@@ -95,6 +97,8 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing);
 
 // Gives the output and the summary their names, both or neither: a summary never lies beside an output that it does
 // not describe. `existing` applies to both.
-absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing);
+// `csv` gets its name before them.
+absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing,
+                               std::optional<OutputFile> csv = std::nullopt);
 
 }  // namespace albtpu::annotate

@@ -144,6 +144,13 @@ std::vector<std::string> MissingNumbers(const config::StatedErrors& given, const
   return missing;
 }
 
+// "[datum] mcu 0.226 m at 95%, VDatum region Washington - Puget Sound"
+std::string SourceOf(const config::DatumSettings& datum) {
+  return absl::StrCat("[datum]",
+                      datum.mcu.has_value() ? absl::StrCat(" mcu ", *datum.mcu, " m at ", *datum.confidence) : "",
+                      datum.region.has_value() ? absl::StrCat(", VDatum region ", *datum.region) : "");
+}
+
 // Requires that something says it: UndecidedOf() has it otherwise.
 absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface, const TotalContext& context) {
   if (surface.located.has_value()) {
@@ -169,10 +176,10 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) 
 
 std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey, const TotalContext& context) {
   std::vector<config::OpenDecision> open;
-  if (!survey.datum.sigma.has_value()) {
+  if (!survey.datum.standard_deviation().has_value()) {
     open.push_back({"datum",
                     "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
-                    "[datum] sigma in m, 1 sigma (0 for ellipsoidal heights)"});
+                    "[datum] sigma in m, 1 sigma (0 for ellipsoidal heights), or mcu with its confidence"});
   }
   if (!survey.water.without_column() && !survey.water.bias.has_value()) {
     open.push_back(
@@ -188,7 +195,7 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
          "\"pulse\" (by the return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a "
          "water level)"});
   }
-  if (!survey.wants_total()) return open;
+  if (!survey.sensor.name.has_value()) return open;
   const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*survey.sensor.name);
   if (!sensor.ok()) return open;
   if (const std::vector<std::string> missing = MissingNumbers(survey.sigma, *sensor); !missing.empty()) {
@@ -199,6 +206,11 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
 }
 
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
+  if (!survey.sensor.name.has_value()) {
+    return formats::UsageError(
+        "[[sensor.channel]] names several sensors (of which only points of LAS files have one each); name one by "
+        "--sensor");
+  }
   ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*survey.sensor.name));
   const std::vector<config::OpenDecision> open = UndecidedOf(survey, context);
   if (!open.empty()) return formats::UsageError(open.front().message);
@@ -227,8 +239,14 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   options.lever_arm = arm.value_or(config::Triple{});
   state("lever_arm_vector", Text(options.lever_arm, "m"), arm.has_value() ? "the user" : "assumed: none",
         !arm.has_value());
-  options.datum = *survey.datum.sigma;
-  state("datum", absl::StrCat(options.datum, " m"), "[datum]", false);
+  options.datum = *survey.datum.standard_deviation();
+  state("datum", absl::StrCat(options.datum, " m"), SourceOf(survey.datum), false);
+  options.extra_horizontal = survey.extra.horizontal.value_or(0);
+  options.extra_vertical = survey.extra.vertical.value_or(0);
+  if (survey.extra.horizontal.has_value())
+    state("extra_horizontal", absl::StrCat(options.extra_horizontal, " m"), "[extra], radial", false);
+  if (survey.extra.vertical.has_value())
+    state("extra_vertical", absl::StrCat(options.extra_vertical, " m"), "[extra]", false);
   ASSIGN_OR_RETURN(plan.water, PlanWater(water, options.index, plan.numbers));
   return plan;
 }

@@ -32,6 +32,7 @@ struct TotalPlan {
   std::optional<float> sea_axis;
   // m, standard deviation of the elevation of a sea that is known by its wind.
   float wave_height = 0;
+  bool has_extra() const { return options.extra_horizontal > 0 || options.extra_vertical > 0; }
   // The height of the waves is not part of how the surface was located.
   bool waves_unseen() const { return options.located != SurfaceLocation::kPulse; }
 };
@@ -61,7 +62,7 @@ TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage);
 std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& survey, const TotalContext& context);
 
 // UsageError where something is not decided or the settings contradict each other.
-// `survey.sensor` must have a name.
+// Also where the survey has several scanners and none is named.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 
 // The spectrum by which a table of winds was made, an attribute; empty if it does not state it.

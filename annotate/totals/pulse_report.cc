@@ -130,6 +130,12 @@ absl::StatusOr<ordered_json> TotalJson(const PulseTotal& total, const AnswerSour
   json["sources"] = SourcesJson(total);
   json["sources"]["datum"] = {
       {"horizontal", 0}, {"vertical", std::pow(total.plan.options.datum, 2)}, {"group", "survey"}};
+  const BudgetOptions& options = total.plan.options;
+  if (total.plan.has_extra()) {
+    json["sources"]["extra"] = {{"horizontal", std::pow(options.extra_horizontal, 2)},
+                                {"vertical", std::pow(options.extra_vertical, 2)},
+                                {"group", "survey"}};
+  }
   json["sources"]["sea"] = {{"horizontal", NumberOrNull(totals.sea[0][0] + totals.sea[1][0])},
                             {"vertical", NumberOrNull(totals.sea[2][0])},
                             {"group", "pulse"}};

@@ -49,6 +49,12 @@ BudgetOutputs OutputsIn(std::size_t size, TotalBatch& totals) {
   return outputs;
 }
 
+void TakeExtra(const BudgetOptions& options, TotalBatch& totals) {
+  totals.extra = ExtraOf(options);
+  totals.extra_horizontal_variance = static_cast<float>(options.extra_horizontal * options.extra_horizontal);
+  totals.extra_vertical_variance = static_cast<float>(options.extra_vertical * options.extra_vertical);
+}
+
 // Where the beam travelled to is not known.
 void ForgetDirections(TotalBatch& totals) {
   for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(totals.size(), NAN);
@@ -64,6 +70,7 @@ void SelectForTotals(AnswerSelection& selection) {
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
                    TotalBatch& totals) {
   totals.sigmas_assumed = TakeSigmas(plan, aircraft);
+  TakeExtra(plan.options, totals);
   BudgetPulses asked{.pulses = pulses.columns(), .aircraft = {.size = pulses.size}, .sea_axis = {}};
   for (const BudgetInput input : kAircraftInputs) asked.aircraft[input] = aircraft[input];
   asked.aircraft[BudgetInput::kWaterSigmaAlong] = totals.water.sigma_along;
@@ -96,6 +103,7 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
 void ComputeDryTotals(const TotalPlan& plan, std::span<const float> incidence, AircraftColumns& aircraft,
                       TotalBatch& totals) {
   totals.sigmas_assumed = TakeSigmas(plan, aircraft);
+  TakeExtra(plan.options, totals);
   BudgetOptions options = plan.options;
   options.located = SurfaceLocation::kPulse;
   options.index = 1;

@@ -16,6 +16,8 @@ namespace albtpu::annotate {
 struct TotalBatch {
   std::vector<float> thu, tvu;                                                  // m, at the coverage of the plan.
   std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea, thu_water, tvu_water;  // The same of shares.
+  ExtraUncertainty extra;  // The same of what the surveyor adds to every pulse, and its variances, m^2.
+  float extra_horizontal_variance = 0, extra_vertical_variance = 0;
   // m^2, 1 sigma, the entries kCovarianceNames: of the total, of shares and of groups. Of shares and groups only the
   // variances (NN EE DD), unless they are wanted whole.
   using Covariance = std::array<std::vector<float>, 6>;

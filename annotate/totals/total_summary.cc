@@ -66,6 +66,7 @@ void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const T
   band.air.Add(totals.air, i);
   band.sea.Add(totals.sea, i);
   if (!totals.of_water[2].empty()) band.water.Add(totals.of_water, i);
+  band.extra.Merge({totals.extra_horizontal_variance, totals.extra_vertical_variance});
   for (std::size_t g = 0; g < kErrorGroups; ++g) {
     band.groups[g].Add(totals.groups[g], i);
     band.total.Add(totals.groups[g], i);
@@ -92,6 +93,7 @@ void TotalSummary::Band::Merge(const Band& other) {
   air.Merge(other.air);
   sea.Merge(other.sea);
   water.Merge(other.water);
+  extra.Merge(other.extra);
   total.Merge(other.total);
   for (std::size_t g = 0; g < kErrorGroups; ++g) groups[g].Merge(other.groups[g]);
   bias_along_beam += other.bias_along_beam;
@@ -120,11 +122,12 @@ ordered_json TotalSummary::Band::Json() const {
   // Of the sums of variances over all pulses.
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   const auto shares = [&](double Sums::*axis) {
-    const double whole = total.*axis, datum = std::max(0.0, whole - air.*axis - sea.*axis - water.*axis);
+    const double whole = total.*axis, datum = std::max(0.0, whole - air.*axis - sea.*axis - water.*axis - extra.*axis);
     return ordered_json{{"air", share(air.*axis, whole)},
                         {"sea", share(sea.*axis, whole)},
                         {"water", share(water.*axis, whole)},
-                        {"datum", share(axis == &Sums::vertical ? datum : 0, whole)}};
+                        {"datum", share(axis == &Sums::vertical ? datum : 0, whole)},
+                        {"extra", share(extra.*axis, whole)}};
   };
   json["shares_horizontal"] = shares(&Sums::horizontal);
   json["shares_vertical"] = shares(&Sums::vertical);
@@ -157,26 +160,31 @@ ordered_json TotalSummary::Json() const {
 
 std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
   const std::string at = CoverageText(coverage);
-  std::string text = absl::StrFormat("\n  %11s %9s %26s %26s %27s %12s", "depth", "points",
-                                     absl::StrCat("total THU, ", at), absl::StrCat("total TVU, ", at),
-                                     "vertical variance", absl::StrCat("S-44 ", std::string(Name(order))));
-  absl::StrAppend(
-      &text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %12s", "m", "", "median m", "95 % m",
-                             "max m", "median m", "95 % m", "max m", "air", "sea", "water", "datum", "met"));
+  const Band all = All();
+  const bool extra = all.extra.vertical > 0;  // A column that is shown where there is something in it.
+  std::string text =
+      absl::StrFormat("\n  %11s %9s %26s %26s %27s%s %12s", "depth", "points", absl::StrCat("total THU, ", at),
+                      absl::StrCat("total TVU, ", at), "vertical variance", extra ? "       " : "",
+                      absl::StrCat("S-44 ", std::string(Name(order))));
+  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s%s %12s", "m", "",
+                                         "median m", "95 % m", "max m", "median m", "95 % m", "max m", "air", "sea",
+                                         "water", "datum", extra ? "  extra" : "", "met"));
   const auto line = [&](const std::string& name, const Band& band) {
     const double whole = band.total.vertical > 0 ? band.total.vertical : 1;
     const double air = band.air.vertical / whole, sea = band.sea.vertical / whole, water = band.water.vertical / whole;
+    const double added = band.extra.vertical / whole;
     absl::StrAppend(
-        &text, absl::StrFormat(
-                   "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %% %10.1f %%",
-                   name, band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
-                   band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea,
-                   100 * water, 100 * std::max(0.0, 1 - air - sea - water),
-                   100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
+        &text,
+        absl::StrFormat(
+            "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %%%s %10.1f %%", name,
+            band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
+            band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea, 100 * water,
+            100 * std::max(0.0, 1 - air - sea - water - added), extra ? absl::StrFormat(" %4.0f %%", 100 * added) : "",
+            100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
   };
   for (std::size_t i = 0; i < bands_.size(); ++i)
     if (bands_[i].thu.count() > 0) line(BandText(i), bands_[i]);
-  if (count() > 0) line("all", All());
+  if (all.thu.count() > 0) line("all", all);
   return text;
 }
 

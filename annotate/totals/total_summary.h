@@ -64,7 +64,7 @@ class TotalSummary {
 
   struct Band {
     LengthSpread thu, tvu;
-    Sums air, sea, water, total;
+    Sums air, sea, water, extra, total;
     std::array<Sums, kErrorGroups> groups;
     double bias_along_beam = 0, bias_vertical = 0;  // Sums, m, with their signs.
     std::array<std::uint64_t, kS44Orders.size() + 1> best_orders = {};

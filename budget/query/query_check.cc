@@ -37,6 +37,8 @@ std::vector<OptionError> FindErrors(const BudgetOptions& options) {
   if (!(options.index >= 1 && options.index <= 2))
     found.push_back({"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
   CheckSigma("datum", options.datum, found);
+  CheckSigma("extra_horizontal", options.extra_horizontal, found);
+  CheckSigma("extra_vertical", options.extra_vertical, found);
   return found;
 }
 

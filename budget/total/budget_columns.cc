@@ -23,6 +23,11 @@ namespace {
 constexpr std::size_t kBlock = 64;
 using Column = float[kBlock];
 
+// m^2, of all points alike: along north and along east, and along down.
+struct CommonVariances {
+  float horizontal, vertical;
+};
+
 struct alignas(64) CovarianceBlock {
   Column nn, ee, dd, ne, nd, ed;
 };
@@ -108,7 +113,7 @@ HWY_INLINE Ned ShortRange(const BeamNumbers& beam) {
   return {back * beam.north, back * beam.east, Constant(-1)};
 }
 
-void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
+void ComputeBlock(const AirConstants& is, CommonVariances common, Block& block) {
   const Floats d;
   for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
     const auto in = [&](BudgetInput input)
@@ -135,7 +140,9 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
                                                 in(BudgetInput::kRefractionAlong), in(BudgetInput::kRefractionCross),
                                                 in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
     NedCovariance survey = air.survey;
-    survey.dd = survey.dd + Constant(datum_variance);
+    survey.nn = survey.nn + Constant(common.horizontal);
+    survey.ee = survey.ee + Constant(common.horizontal);
+    survey.dd = survey.dd + Constant(common.vertical);
     const NedCovariance water =
         WaterContributionOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
                             in(BudgetInput::kWaterCorrelation), air.beam);
@@ -226,7 +233,9 @@ void AtCoverage(const CovarianceBlock& c, Coverage coverage, Column& thu, Column
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs) {
   assert(options.index >= 1);
   const AirConstants constants(options.errors, options.located, options.index, options.lever_arm);
-  const auto datum_variance = static_cast<float>(options.datum * options.datum);
+  const double horizontal = options.extra_horizontal, vertical = options.extra_vertical;
+  const CommonVariances common = {static_cast<float>(horizontal * horizontal / 2),
+                                  static_cast<float>(options.datum * options.datum + vertical * vertical)};
   std::array<float, kBudgetInputCount> absent = {};
   const auto set = [&](BudgetInput input, double value) {
     absent[static_cast<std::size_t>(input)] = static_cast<float>(value);
@@ -246,7 +255,7 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
       assert(inputs.columns[i].size() <= 1 || inputs.columns[i].size() == inputs.size);
       if (begin == 0 || inputs.columns[i].size() > 1) Read(inputs.columns[i], absent[i], begin, count, block.input[i]);
     }
-    HWY_DYNAMIC_DISPATCH(ComputeBlock)(constants, datum_variance, block);
+    HWY_DYNAMIC_DISPATCH(ComputeBlock)(constants, common, block);
     alignas(64) Column thu, tvu;
     const auto state = [&](const CovarianceBlock& c, std::span<float> thu_column, std::span<float> tvu_column) {
       if (thu_column.empty() && tvu_column.empty()) return;
@@ -275,6 +284,12 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
                        in(BudgetInput::kDepth)[i]);
     }
   }
+}
+
+ExtraUncertainty ExtraOf(const BudgetOptions& options) {
+  const double vertical = VerticalFactor(options.coverage);
+  const double radial = options.coverage == Coverage::kP95 ? 2 * RadiusFactor95(1) : vertical;
+  return {static_cast<float>(radial * options.extra_horizontal), static_cast<float>(vertical * options.extra_vertical)};
 }
 
 }  // namespace albtpu

@@ -1,5 +1,5 @@
-// The total uncertainty of many pulses: the contributions of air side, sea surface, water column and datum, added as
-// covariances.
+// The total uncertainty of many pulses: the contributions of air side, sea surface, water column and datum, and what
+// the surveyor adds, added as covariances.
 #pragma once
 
 #include <array>
@@ -94,6 +94,9 @@ struct BudgetOptions {
   std::array<double, 3> lever_arm = {};  // m; forward, right, down, from the trajectory's point to the sensor.
   double index = 1.34;                   // Refractive index of the water: 1 or more.
   double datum = 0;                      // m, standard deviation of the height of the vertical datum.
+  // m, standard deviations that are added to all points, common to a survey. The horizontal one is radial, as THU at 1
+  // sigma: the root of the sum of the variances along north and east, which are equal.
+  double extra_horizontal = 0, extra_vertical = 0;
   Coverage coverage = Coverage::kTwoSigma;
 };
 
@@ -121,7 +124,7 @@ struct BudgetOutputs {
 // Computes `outputs` for all pulses. Allocates nothing. Each pulse depends on its own numbers alone, and has the same
 // bits on every processor.
 //
-//     C = C_air + C_sea + C_water + diag(0, 0, datum^2)
+//     C = C_air + C_sea + C_water + diag(0, 0, datum^2) + C_extra,    C_extra = diag(h^2 / 2, h^2 / 2, v^2)
 //
 // C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2, variances along and across the axis of the sea
 // in the proportion of the squared refractions, and the covariance of the two that Snell's law makes of uncorrelated
@@ -133,5 +136,11 @@ struct BudgetOutputs {
 //
 // Errors of rounding are below 1e-5 of the standard deviations.
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);
+
+// THU and TVU of C_extra alone, m, at the coverage of the options.
+struct ExtraUncertainty {
+  float thu = 0, tvu = 0;
+};
+ExtraUncertainty ExtraOf(const BudgetOptions& options);
 
 }  // namespace albtpu

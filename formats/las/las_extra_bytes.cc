@@ -148,6 +148,8 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
       floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"thu_water", "tvu_water"})
       floats.push_back({name, appended.water ? length : "left out", kNoNumber});
+    if (appended.extra)
+      for (const std::string_view name : {"thu_extra", "tvu_extra"}) floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"tvu_pulse", "tvu_line"})  // Errors that are independent between them.
       floats.push_back({name, length, kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});

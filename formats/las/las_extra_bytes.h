@@ -37,13 +37,15 @@ struct Appended {
   Coverage coverage = Coverage::kTwoSigma;
   bool total = false;    // The total uncertainty, not the contribution of the sea surface alone.
   bool water = false;    // The total includes the water column.
+  bool extra = false;    // The total includes what the surveyor adds.
   bool details = false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
 
   bool share_of() const { return total && details; }
 };
 
 // In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
-// more; with details the geometry; of a total with details share_of, the only byte.
+// more, and with `extra` two more behind tvu_water; with details the geometry; of a total with details share_of, the
+// only byte.
 std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 
 inline constexpr std::size_t kUncertaintyCount = 2;

@@ -81,6 +81,7 @@ class LasPointFields {
   bool IsWithheld(std::string_view record) const { return HasFlag(record, 0x04, 0x80); }
   bool IsSynthetic(std::string_view record) const { return HasFlag(record, 0x01, 0x20); }
 
+  int UserData(std::string_view record) const { return laz::Load<std::uint8_t>(record, 17); }
   // Mostly the number of the flight line.
   int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
 
@@ -126,6 +127,16 @@ class LasPointFields {
   std::size_t gps_time_;  // Offset in the record; 0: the format has none.
   std::array<double, 3> scale_, offset_;
   double time_shift_;  // s
+};
+
+// Which points of a file are those of one scanner.
+struct ScannerPoints {
+  std::set<int> channels, user_data;  // Empty: any.
+
+  bool Has(const LasPointFields& fields, std::string_view record) const {
+    return (channels.empty() || channels.contains(fields.ScannerChannel(record))) &&
+           (user_data.empty() || user_data.contains(fields.UserData(record)));
+  }
 };
 
 class LasClassCounts {

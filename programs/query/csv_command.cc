@@ -146,7 +146,7 @@ absl::Status LookAtPulses(const CsvOptions& options, const config::SurveySetting
   AddMissingOutput(options.files, ".csv", contact);
   std::optional<config::Sensor> sensor;
   bool closed = true;
-  if (settings.wants_total()) {
+  if (settings.sensor.name.has_value()) {
     ASSIGN_OR_RETURN(sensor, config::FindSensor(*settings.sensor.name));
     for (config::OpenDecision& decision :
          annotate::UndecidedOf(settings, annotate::ContextOf(settings, options.style.coverage))) {

@@ -197,7 +197,7 @@ absl::StatusOr<FirstContact> ContactOf(const LasOptions& options, const config::
   }
   annotate::FileOptions files = options.files;
   if (options.format.has_value()) files.output_extension = formats::Extension(*options.format);
-  AddMissingOutput(files, ".las", contact);
+  if (options.csv.empty()) AddMissingOutput(files, ".las", contact);
   if (!options.flags.survey.has_value()) contact.remedy = {"init", input};
   if (!look.units_message.empty() && !options.beams.metres_per_unit.has_value())
     contact.open.push_back({"units", look.units_message});

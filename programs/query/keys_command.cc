@@ -30,8 +30,9 @@ constexpr char kIntroduction[] = R"(# Keys of the survey file
 
 A survey file is TOML and says what is known of a survey beside its points: `albtpu-query las`, `csv`, `pulse`, `plan`
 and `sea` take it by `--survey FILE.toml`. A flag overrides the key of the same meaning. Paths count from the folder of
-the survey file. Waves are any number of tables `[[sea.waves]]`. This page is the output of `albtpu-query keys`; a test
-compares them.
+the survey file. Waves are any number of tables `[[sea.waves]]`, and so are the scanners of a LAS file with several,
+`[[sensor.channel]]`, each of which may have a table `[sensor.channel.sigma]`: the keys of `[sigma]` that sensor files
+have, too. This page is the output of `albtpu-query keys`; a test compares them.
 )";
 
 std::string TypeText(const ListedKey& key) {
@@ -42,7 +43,7 @@ std::string Markdown(const std::vector<ListedKey>& keys) {
   std::string page = kIntroduction, section;
   for (const ListedKey& key : keys) {
     if (key.section != section) {
-      const bool many = key.section == "sea.waves";
+      const bool many = config::IsOfMany(key.section);
       absl::StrAppend(&page, "\n## ", many ? "[[" : "[", key.section, many ? "]]" : "]",
                       "\n\n| key | type, unit | range | default | flag | meaning |\n|---|---|---|---|---|---|\n");
     }
@@ -85,7 +86,7 @@ std::string Manual(const std::vector<ListedKey>& keys) {
   std::string page = ManualHead("albtpu-survey", "5", std::string(Version()), "survey file of albtpu-query"), section;
   absl::StrAppend(&page, ".SH DESCRIPTION\n", Troff(kManualIntroduction));
   for (const ListedKey& key : keys) {
-    const bool many = key.section == "sea.waves";
+    const bool many = config::IsOfMany(key.section);
     if (key.section != section)
       absl::StrAppend(&page, ".SH \"", many ? "[[" : "[", key.section, many ? "]] (any number of tables)" : "]",
                       "\"\n");

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -45,14 +46,41 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
   return json;
 }
 
+// What was assumed: of several scanners once where it is the same, otherwise with the channel.
+std::vector<std::string> AssumedOf(const annotate::LasAnnotation& annotation) {
+  if (annotation.channels.empty()) return annotate::Assumptions(*annotation.total);
+  std::map<std::string, std::vector<std::string>> channels;
+  std::vector<std::string> lines, assumed;
+  for (const annotate::LasChannel& channel : annotation.channels) {
+    for (const std::string& line : annotate::Assumptions(channel.total)) {
+      if (!channels.contains(line)) lines.push_back(line);
+      channels[line].push_back(channel.label);
+    }
+  }
+  for (const std::string& line : lines) {
+    const bool of_all = channels[line].size() == annotation.channels.size();
+    assumed.push_back(of_all ? line : absl::StrCat(absl::StrJoin(channels[line], " and "), ": ", line));
+  }
+  return assumed;
+}
+
 // The contribution of the sea, and the total beside it.
 nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
   json = annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i) {
+    const annotate::LasChannel& channel = annotation.channels[i];
+    nlohmann::ordered_json of_channel = {{"name", channel.label}, {"points", annotated.points_by_channel[i]}};
+    of_channel["total"] = annotated.totals_by_channel[i].Json();
+    of_channel["total"]["assumed"] = annotate::Assumptions(channel.total);
+    json["channels"].push_back(std::move(of_channel));
+  }
+  if (!annotation.channels.empty()) json["total"]["assumed"] = AssumedOf(annotation);
   if (annotation.plan.dry_points) {
     json["dry"] = annotated.dry.Json();
     json["dry"]["submerged"] = annotated.submerged;
+    if (!annotation.channels.empty()) json["dry"]["no_channel"] = annotated.dry_without_channel;
   }
   return json;
 }
@@ -64,25 +92,33 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
                                   annotated.totals.Text(annotation.style.coverage, order));
   if (annotated.dry.count() > 0) absl::StrAppend(&text, "\n  ", annotated.dry.Text(annotation.style.coverage));
-  for (const std::string& assumed : annotate::Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
+  for (std::size_t i = 0; i < annotation.channels.size(); ++i)
+    absl::StrAppend(&text, "\n  ", annotation.channels[i].label, ": ", annotated.points_by_channel[i], " points, ",
+                    annotated.totals_by_channel[i].count(), " bathymetric with a total");
+  for (const std::string& assumed : AssumedOf(annotation)) absl::StrAppend(&text, "\n  ", assumed);
   return text;
 }
 
 class LasFiles {
  public:
+  // `many`: files of a folder, of which some may be dry land.
   LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation, std::optional<formats::LasKind> kind,
-           const annotate::AnswerSource& source)
-      : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
+           const annotate::AnswerSource& source, bool many)
+      : options_(options), annotation_(annotation), kind_(kind), source_(source), many_(many) {}
 
   absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job, annotate::FileProgress& progress) {
-    ASSIGN_OR_RETURN(annotate::AnnotatedLas annotated, annotate::AnnotateLas(job.input, job.output, options_.existing,
+    const bool alone = IsCsvAlone(options_);
+    const annotate::LasOutputs outputs = {.las = alone ? std::filesystem::path() : job.output,
+                                          .csv = alone ? job.output : job.csv};
+    ASSIGN_OR_RETURN(annotate::AnnotatedLas annotated, annotate::AnnotateLas(job.input, outputs, options_.existing,
                                                                              annotation_, source_, progress, kind_));
+    const std::string format = alone ? "CSV" : std::string(Name(annotated.output_kind));
+    const std::uint64_t csv_bytes = annotated.csv.has_value() ? annotated.csv->size() : 0;
     const std::uint64_t points = annotated.classes.points();
     const std::uint64_t bathymetric = annotated.summary.outcomes().total();
     const bool none = points > 0 && bathymetric == 0 && annotated.dry.count() == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
-    if (none && options_.files.output_folder.empty())
-      return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
+    if (none && !many_) return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
     if (none) annotate::Note(ClassHint(job, annotated) + "; all its points get no-data");
     if (!none && points > 0 && bathymetric == 0) annotate::Note(ClassHint(job, annotated) + "; all are taken as dry");
     if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
@@ -91,15 +127,16 @@ class LasFiles {
     numbered_ += bathymetric + annotated.dry.count();
     return annotate::AnnotatedFile{
         std::move(annotated.file),
-        annotate::Findings{
-            .input_bytes = annotated.input_bytes,
-            .input = annotate::JsonBox(InputJson(annotated)),
-            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", std::string(Name(annotated.output_kind))}}),
-            .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
-            .tally = annotated.summary.Tally()},
+        annotate::Findings{.input_bytes = annotated.input_bytes,
+                           .csv_bytes = csv_bytes,
+                           .input = annotate::JsonBox(InputJson(annotated)),
+                           .output = annotate::JsonBox(nlohmann::ordered_json{{"format", format}}),
+                           .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
+                           .tally = annotated.summary.Tally()},
         absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, annotated, source_.table()),
                      absl::StrJoin(annotated.notes, "",
-                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
+                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); })),
+        std::move(annotated.csv)};
   }
 
   bool found_none() const { return points_ > 0 && numbered_ == 0; }
@@ -117,6 +154,7 @@ class LasFiles {
   const annotate::LasAnnotation& annotation_;
   std::optional<formats::LasKind> kind_;  // Of the outputs.
   annotate::AnswerSource source_;
+  bool many_;
   bool resolution_noted_ = false;
   std::uint64_t points_ = 0, numbered_ = 0;
 };
@@ -151,25 +189,28 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options));
   const config::SeaSettings& sea = settings.sea;
   ASSIGN_OR_RETURN(const std::vector<config::OpenDecision> open, OpenDecisionsOf(options, settings));
-  if (!open.empty() && open.size() + (annotate::IsOutputMissing(options.files) ? 1 : 0) > 1) {
+  if (!open.empty() && open.size() + (annotate::IsOutputMissing(options.files) && options.csv.empty() ? 1 : 0) > 1) {
     ASSIGN_OR_RETURN(const FirstContact contact, ContactOf(options, settings, open, GivenArguments(command)));
     return Refuse(contact);
   }
   ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
-  annotate::FileOptions file_options = options.files;
-  if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
-  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), file_options));
+  ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, JobsOf(options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
+  for (annotate::LasChannel& channel : annotation.channels) {
+    channel.plan.trajectories = annotation.plan.trajectories;
+    channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
+  }
   ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
   annotation.seas = answerer.timeline();
   const annotate::AnswerSource source = answerer.source();
   if (annotation.total.has_value() && !sea.has_waves()) {
     annotation.total->wave_height = annotate::WaveHeightOfWind(annotation.plan.wind_speed, annotation.plan.fetch,
                                                                annotate::SpectrumOf(source.table()));
+    for (annotate::LasChannel& channel : annotation.channels) channel.total.wave_height = annotation.total->wave_height;
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
-  LasFiles files(options, annotation, kind, source);
+  LasFiles files(options, annotation, kind, source, !options.files.output_folder.empty() || jobs.size() > 1);
   std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
   const absl::Status status = annotate::AnnotateFiles(

@@ -1,10 +1,15 @@
 #include "programs/query/las_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
@@ -18,6 +23,8 @@
 
 namespace albtpu::programs {
 namespace {
+
+constexpr char kCsv[] = ".csv";
 
 absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settings, const annotate::BeamPlan& plan,
                                             bool is_divergence_given, Coverage coverage) {
@@ -34,11 +41,25 @@ absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settin
 
 // The divergence is that of the sensor where nothing else gives the size of the beam of a total.
 absl::StatusOr<BeamOptions> WithSensor(BeamOptions beams, const config::SurveySettings& settings) {
-  if (!settings.wants_total() || beams.divergence.has_value() ||
+  if (!settings.sensor.name.has_value() || beams.divergence.has_value() ||
       beams.fixed[annotate::PulseInput::kFootprint].has_value())
     return beams;
   ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(*settings.sensor.name));
   if (sensor.divergence.has_value()) beams.divergence = sensor.divergence->value;
+  return beams;
+}
+
+// The flags of the beams of one channel, which states what belongs to its scanner.
+BeamOptions OfChannel(BeamOptions beams, const config::ChannelSettings& channel) {
+  if (channel.footprint.has_value() || channel.divergence.has_value()) {
+    beams.fixed[annotate::PulseInput::kFootprint].reset();
+    beams.divergence = beams.aperture = std::nullopt;
+  }
+  if (channel.footprint.has_value())
+    beams.fixed[annotate::PulseInput::kFootprint] = static_cast<float>(*channel.footprint);
+  if (channel.divergence.has_value()) beams.divergence = channel.divergence;
+  if (channel.aperture.has_value()) beams.aperture = channel.aperture;
+  if (channel.incidence.has_value()) beams.incidence = channel.incidence;
   return beams;
 }
 
@@ -51,10 +72,48 @@ std::vector<config::OpenDecision> OpenOfBeams(const BeamOptions& beams, const co
   return open;
 }
 
+// The survey and the flags of each scanner.
+std::vector<std::pair<config::SurveySettings, BeamOptions>> ScannersOf(const LasOptions& options,
+                                                                       const config::SurveySettings& settings) {
+  if (settings.sensor.channels.empty()) return {{settings, options.beams}};
+  std::vector<std::pair<config::SurveySettings, BeamOptions>> scanners;
+  for (const config::ChannelSettings& channel : settings.sensor.channels)
+    scanners.emplace_back(settings.OfChannel(channel), OfChannel(options.beams, channel));
+  return scanners;
+}
+
+struct ScannerPlan {
+  annotate::BeamPlan beams;
+  std::optional<annotate::TotalPlan> total;
+};
+
+absl::StatusOr<ScannerPlan> PlanOf(const LasOptions& options, const BeamOptions& flags,
+                                   const config::SurveySettings& settings, const annotate::LasAnnotation& annotation) {
+  ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(flags, settings));
+  const std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
+  if (!open.empty()) return formats::UsageError(absl::StrCat("las: ", open.front().message));
+  const bool total = settings.wants_total();
+  ScannerPlan plan;
+  ASSIGN_OR_RETURN(plan.beams, MakePlan(beams, options.flags.settings, settings, annotation.details || total));
+  plan.beams.any_aircraft = total;
+  plan.beams.dry_points = settings.output.points.value_or(total ? "all" : "bathymetric") == "all";
+  if (!total) return plan;
+  ASSIGN_OR_RETURN(plan.total, TotalOf(settings, plan.beams, flags.divergence.has_value(), annotation.style.coverage));
+  return plan;
+}
+
 }  // namespace
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFileOptions(command, ".las", options.files, options.existing);
+  command
+      .add_option(
+          "--csv", options.csv,
+          "Write GPS time, x, y, z, THU, TVU and class of each point as CSV: a file, or an existing folder for a "
+          "file of each input. With OUT or --output-dir beside LAS or LAZ, otherwise alone")
+      ->type_name("OUT.csv|DIR")
+      ->check(NotEmpty("file or folder"))
+      ->group(group::kFiles);
   AddBeamOptions(command, options.beams, options.flags);
   AddSeaFlags(command, options.flags, kRareSeaFlags);
   AddTotalFlags(command, options.flags);
@@ -105,12 +164,17 @@ absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
 
 absl::StatusOr<std::vector<config::OpenDecision>> OpenDecisionsOf(const LasOptions& options,
                                                                   const config::SurveySettings& settings) {
-  ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(options.beams, settings));
-  std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
-  if (!settings.wants_total()) return open;
-  // The surface is among those of the beams.
-  for (config::OpenDecision& decision : annotate::UndecidedOf(settings, {.has_level = true}))
-    open.push_back(std::move(decision));
+  std::vector<config::OpenDecision> open;
+  const auto add = [&](const config::OpenDecision& decision) {  // Once, where several channels leave it open.
+    if (std::ranges::find(open, decision.message, &config::OpenDecision::message) == open.end())
+      open.push_back(decision);
+  };
+  for (const auto& [of_scanner, flags] : ScannersOf(options, settings)) {
+    ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(flags, of_scanner));
+    std::ranges::for_each(OpenOfBeams(beams, of_scanner), add);
+    // The surface is among those of the beams.
+    if (of_scanner.wants_total()) std::ranges::for_each(annotate::UndecidedOf(of_scanner, {.has_level = true}), add);
+  }
   return open;
 }
 
@@ -125,28 +189,70 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   if (!settings.output.classes.empty())
     annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
   const bool total = settings.wants_total();
-  ASSIGN_OR_RETURN(const BeamOptions beams, WithSensor(options.beams, settings));
-  const std::vector<config::OpenDecision> open = OpenOfBeams(beams, settings);
-  if (!open.empty()) return formats::UsageError(absl::StrCat("las: ", open.front().message));
-  ASSIGN_OR_RETURN(annotate::BeamPlan plan,
-                   MakePlan(beams, options.flags.settings, settings, annotation.details || total));
-  plan.any_aircraft = total;
-  plan.dry_points = settings.output.points.value_or(total ? "all" : "bathymetric") == "all";
-  if (plan.dry_points && !total)
-    return formats::UsageError("las: --points all needs a sensor: without one, only the sea adds to the uncertainty");
-  if (total) {
-    ASSIGN_OR_RETURN(annotation.total,
-                     TotalOf(settings, plan, options.beams.divergence.has_value(), annotation.style.coverage));
+  std::vector<ScannerPlan> plans;
+  for (const auto& [of_scanner, flags] : ScannersOf(options, settings)) {
+    ASSIGN_OR_RETURN(ScannerPlan plan, PlanOf(options, flags, of_scanner, annotation));
+    plans.push_back(std::move(plan));
   }
+  if (plans.front().beams.dry_points && !total)
+    return formats::UsageError("las: --points all needs a sensor: without one, only the sea adds to the uncertainty");
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
   for (const int point_class : annotation.ClassesOf(formats::kFirstModernFormat)) {
-    if (!plan.water_classes.contains(point_class)) continue;
+    if (!plans.front().beams.water_classes.contains(point_class)) continue;
     return formats::UsageError(absl::StrCat("las: class ", point_class,
                                             " is both a class of the water surface and of the bottom; name different "
                                             "classes by --water-classes and --classes"));
   }
-  annotation.plan = std::move(plan);
+  for (std::size_t i = 0; i < settings.sensor.channels.size(); ++i) {
+    const config::ChannelSettings& channel = settings.sensor.channels[i];
+    annotation.channels.push_back({.label = channel.label(),
+                                   .points = {{channel.scanner_channels.begin(), channel.scanner_channels.end()},
+                                              {channel.user_data.begin(), channel.user_data.end()}},
+                                   .plan = plans[i].beams,
+                                   .total = *plans[i].total});
+  }
+  annotation.plan = std::move(plans.front().beams);
+  annotation.total = std::move(plans.front().total);
   return annotation;
+}
+
+bool IsCsvAlone(const LasOptions& options) { return !options.csv.empty() && annotate::IsOutputMissing(options.files); }
+
+absl::StatusOr<std::vector<annotate::Job>> JobsOf(const LasOptions& options) {
+  annotate::FileOptions files = options.files;
+  if (options.format.has_value()) files.output_extension = formats::Extension(*options.format);
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(options.csv, ignored);
+  if (IsCsvAlone(options)) {
+    if (options.format.has_value())
+      return formats::UsageError("las: --format has no effect with --csv alone; leave it out");
+    files.output_extension = kCsv;
+    if (folder)
+      files.output_folder = options.csv;
+    else if (files.files.size() == 1)
+      files.files.push_back(options.csv);
+    else
+      return formats::UsageError(absl::StrCat("las: --csv ", options.csv, " is no folder, in which each of ",
+                                              files.files.size(), " inputs has a file; give one that exists"));
+  }
+  ASSIGN_OR_RETURN(std::vector<annotate::Job> jobs, annotate::FindJobs("las", LasExtensions(), files));
+  if (options.csv.empty() || IsCsvAlone(options)) return jobs;
+  if (!folder && jobs.size() > 1) {
+    return formats::UsageError(absl::StrCat("las: --csv ", options.csv, " is no folder, in which each of ", jobs.size(),
+                                            " inputs has a file; give one that exists"));
+  }
+  std::set<std::filesystem::path> names;
+  for (annotate::Job& job : jobs) {
+    const std::filesystem::path name =
+        files.output_folder.empty() ? job.output.filename() : job.output.lexically_relative(files.output_folder);
+    job.csv = folder ? (std::filesystem::path(options.csv) / name).replace_extension(kCsv)
+                     : std::filesystem::path(options.csv);
+    if (job.csv.lexically_normal() == job.output.lexically_normal() || !names.insert(job.csv).second) {
+      return formats::UsageError(absl::StrCat("las: two outputs would be called ", job.csv.string(),
+                                              "; give --csv another name, or annotate the inputs one at a time"));
+    }
+  }
+  return jobs;
 }
 
 absl::StatusOr<std::optional<formats::LasKind>> OutputKind(const LasOptions& options) {
@@ -176,7 +282,21 @@ nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, con
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));
   json.update(Parameters(annotation.style));
-  if (annotation.total.has_value()) json["total"] = Parameters(*annotation.total);
+  if (annotation.channels.empty()) {
+    if (annotation.total.has_value()) json["total"] = Parameters(*annotation.total);
+    return json;
+  }
+  for (const char* const of_scanner : {"incidence", "divergence", "aperture", "footprint", "lever_arm"})
+    json.erase(of_scanner);
+  for (const annotate::LasChannel& channel : annotation.channels) {
+    nlohmann::ordered_json of_channel = {{"scanner_channels", channel.points.channels},
+                                         {"user_data", channel.points.user_data}};
+    const nlohmann::ordered_json beams = Parameters(channel.plan);
+    for (const char* const of_scanner : {"incidence", "divergence", "aperture", "footprint", "lever_arm"})
+      if (beams.contains(of_scanner)) of_channel[of_scanner] = beams[of_scanner];
+    of_channel["total"] = Parameters(channel.total);
+    json["channels"].push_back(std::move(of_channel));
+  }
   return json;
 }
 

@@ -23,6 +23,7 @@ struct LasOptions {
   SurveyFlags flags;
   BeamOptions beams;
   bool replace = false;
+  std::string csv;                         // --csv; empty: none
   std::optional<formats::LasKind> format;  // --format
   Existing existing = Existing::kKeep;
   SourceOptions source;
@@ -44,6 +45,12 @@ absl::StatusOr<std::vector<config::OpenDecision>> OpenDecisionsOf(const LasOptio
 
 // IsUsageError if something needed is missing, is given in two ways or has no effect.
 absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings);
+
+// Whether the points are wanted as CSV only: neither OUT nor --output-dir says where LAS goes.
+bool IsCsvAlone(const LasOptions& options);
+
+// The files with their outputs; of a job of CSV alone, `output` is the CSV.
+absl::StatusOr<std::vector<annotate::Job>> JobsOf(const LasOptions& options);
 
 // The kind that --format or the name of a single output asks for; absent: that of each input. IsUsageError when the two
 // contradict each other.

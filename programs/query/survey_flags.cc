@@ -88,7 +88,7 @@ void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const
 void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without) {
   command
       .add_option("--survey", flags.survey,
-                  "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output "
+                  "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, extra, output "
                   "(albtpu-query keys)")
       ->type_name("FILE.toml")
       ->check(NotEmpty("file"))
@@ -134,6 +134,8 @@ absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& set
   for (const auto& [flag, is_given] : flags_of_total)
     if (is_given)
       return formats::UsageError(absl::StrCat(flag, " has no effect without --sensor; give both or none of them"));
+  if (config::IsAnyGiven(config::kExtraKeys, settings.extra))
+    return formats::UsageError("[extra] has no effect without a sensor; give [sensor] name, or --sensor");
   if (settings.sigma.any())
     return formats::UsageError("[sigma] has no effect without a sensor; give [sensor] name, or --sensor");
   return absl::OkStatus();

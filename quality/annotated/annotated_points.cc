@@ -37,7 +37,10 @@ constexpr char kRemedy[] = "; annotate its input again by albtpu-query las with 
 struct FloatOfPoint {
   std::string_view name;
   float AnnotatedPoint::*member;
+  bool may_lack = false;  // Only where the survey has it.
 };
+
+constexpr std::size_t kAbsent = 0;  // A record begins with its coordinates.
 
 constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
@@ -45,6 +48,7 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"thu_sea", &AnnotatedPoint::thu_sea},
                                 FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
                                 FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
+                                FloatOfPoint{"tvu_extra", &AnnotatedPoint::tvu_extra, true},
                                 FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
                                 FloatOfPoint{"tvu_line", &AnnotatedPoint::tvu_line},
                                 FloatOfPoint{"bias_along_beam", &AnnotatedPoint::bias_along_beam},
@@ -81,6 +85,13 @@ bool IsOurs(const Json& summary) {
   const Json& outcomes = summary["answers"]["outcomes"];
   return summary.value("program", Json()) == "albtpu-query" &&
          std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
+}
+
+std::set<int> NumbersOf(const Json& channel, const char* key) {
+  std::set<int> numbers;
+  for (const Json& number : channel.is_object() ? channel.value(key, Json::array()) : Json::array())
+    if (number.is_number_unsigned() && number <= 255) numbers.insert(number.get<int>());
+  return numbers;
 }
 
 // Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
@@ -150,6 +161,8 @@ absl::Status AnnotatedLasFile::ReadSummary() {
     classes_.insert(each.get<int>());
   }
   if (classes_.empty()) classes_ = formats::DefaultClasses(reader_.header().point_format);
+  for (const Json& channel : read["parameters"].value("channels", Json::array()))
+    channels_.push_back({NumbersOf(channel, "scanner_channels"), NumbersOf(channel, "user_data")});
   const Json unit = read["parameters"].value("metres_per_unit", Json());
   if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
@@ -165,9 +178,9 @@ absl::Status AnnotatedLasFile::FindFloats() {
   const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
   for (const FloatOfPoint& each : kFloats) {
     const auto found = offsets.find(each.name);
-    if (found == offsets.end())
+    if (found == offsets.end() && !each.may_lack)
       return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
-    offsets_.push_back(begin + found->second);
+    offsets_.push_back(found == offsets.end() ? kAbsent : begin + found->second);
   }
   return absl::OkStatus();
 }
@@ -246,13 +259,16 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
       point.z = fields.Z(record) * metres_per_height_unit_;
       if (fields.has_gps_time()) point.time = fields.GpsTime(record);
       point.line = fields.PointSourceId(record);
-      for (std::size_t k = 0; k < kFloats.size(); ++k) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      for (std::size_t k = 0; k < kFloats.size(); ++k)
+        if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
-      point.gap = GapOf(point, may_lack_surface_);
+      const auto is_its = [&](const formats::ScannerPoints& points) { return points.Has(fields, record); };
+      const bool scanned = channels_.empty() || point.has_number || std::ranges::any_of(channels_, is_its);
+      point.gap = scanned ? GapOf(point, may_lack_surface_) : Gap::kNoChannel;
       for (float AnnotatedPoint::*const length :
            {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
-            &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+            &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
         point.*length = KnownOrZero(point.*length, false);
       for (float AnnotatedPoint::*const bias :
            {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,

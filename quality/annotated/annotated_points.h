@@ -15,14 +15,16 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "annotate/run/file_progress.h"
+#include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {
 
 // Why a point has no number, in order of severity. kNoAnswer: outside the table, or no state of the sea or optics of
-// the water at it. kNoTrajectory: none at its time, or one that is too uncertain.
-enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory };
+// the water at it. kNoTrajectory: none at its time, or one that is too uncertain. kNoChannel: of a scanner that the
+// survey does not have.
+enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory, kNoChannel };
 
 // Points that take no part, and are counted apart.
 struct LeftOutPoints {
@@ -48,7 +50,7 @@ struct AnnotatedPoint {
   Gap gap = Gap::kNone;
   bool has_number = false;  // Otherwise only the members above are known.
   float thu = 0, tvu = 0;
-  float tvu_air = 0, tvu_sea = 0, tvu_water = 0;  // Contributions.
+  float tvu_air = 0, tvu_sea = 0, tvu_water = 0, tvu_extra = 0;  // Contributions.
   float tvu_pulse = 0,
         tvu_line = 0;  // The parts that are independent from pulse to pulse, and from line to line.
   float bias_along_beam = 0, bias_vertical = 0;
@@ -92,9 +94,10 @@ class AnnotatedLasFile {
   std::shared_ptr<const nlohmann::ordered_json> summary_;
   Coverage coverage_ = Coverage::kTwoSigma;
   std::set<int> classes_;
-  bool use_withheld_ = false;         // As --use-withheld of the annotation.
-  bool may_lack_surface_ = false;     // Of points whose beams are known by angles.
-  std::vector<std::size_t> offsets_;  // In a record, by kFloats of the implementation.
+  std::vector<formats::ScannerPoints> channels_;  // Empty: all points are of one scanner.
+  bool use_withheld_ = false;                     // As --use-withheld of the annotation.
+  bool may_lack_surface_ = false;                 // Of points whose beams are known by angles.
+  std::vector<std::size_t> offsets_;              // In a record, by kFloats of the implementation.
   std::string crs_name_ = "not stated", crs_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
 };

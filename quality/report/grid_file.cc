@@ -124,7 +124,8 @@ constexpr std::array kLayers = {
     Layer{"share_air", "share of the air side in the vertical variance", "1", ShareOf<0>},
     Layer{"share_sea", "share of the sea surface in the vertical variance", "1", ShareOf<1>},
     Layer{"share_water", "share of the water column in the vertical variance", "1", ShareOf<2>},
-    Layer{"share_datum", "share of the vertical datum in the vertical variance", "1", ShareOf<3>}};
+    Layer{"share_datum", "share of the vertical datum in the vertical variance", "1", ShareOf<3>},
+    Layer{"share_extra", "share of what the surveyor added in the vertical variance", "1", ShareOf<4>}};
 
 std::uint8_t DominantShare(const GridCell& cell) {
   return static_cast<std::uint8_t>(std::ranges::max_element(cell.shares) - cell.shares.begin() + 1);
@@ -229,9 +230,10 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
   const int order = codes("order_met", "order of IHO S-44 that every point with a number meets", 6,
                           "exclusive special order_1a order_1b order_2 none");
   const int dominant = codes("dominant_share", "largest share of the vertical variance",
-                             static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum");
-  const int gap = codes("gap", "why points have no uncertainty, the most severe reason", 4,
-                        "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
+                             static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum extra");
+  const int gap =
+      codes("gap", "why points have no uncertainty, the most severe reason", 5,
+            "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory no_channel");
   file.EndDefinitions();
   file.Put(ys, Centres(grid.first_row(), rows, grid.cell(), true));
   file.Put(xs, Centres(grid.first_column(), columns, grid.cell(), false));

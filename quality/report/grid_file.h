@@ -19,7 +19,7 @@ struct GridFileFacts {
 // Writes `grid`, which has points, to `path`, which must be new. Rows begin in the north. Variables of (y, x):
 //
 //   depth thu tvu                               float, m, means of the points with a number
-//   share_air share_sea share_water share_datum float, of the vertical variance, 0 to 1
+//   share_air share_sea share_water share_datum share_extra float, of the vertical variance, 0 to 1
 //   points points_without_number                int
 //   order_met                                   byte, S-44: the least strict order among the best ones of the points
 //   dominant_share                              byte

@@ -64,10 +64,11 @@ std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
   return met;
 }
 
-std::array<double, 4> VerticalShares(const AnnotatedPoint& point, Coverage coverage) {
+std::array<double, kVerticalShareNames.size()> VerticalShares(const AnnotatedPoint& point, Coverage coverage) {
   const auto variance = [factor = VerticalFactor(coverage)](float tvu) { return std::pow(tvu / factor, 2); };
   const double air = variance(point.tvu_air), sea = variance(point.tvu_sea), water = variance(point.tvu_water);
-  return {air, sea, water, std::max(point.variance_z - air - sea - water, 0.0)};
+  const double extra = variance(point.tvu_extra);
+  return {air, sea, water, std::max(point.variance_z - air - sea - water - extra, 0.0), extra};
 }
 
 void PointTally::Add(const AnnotatedPoint& point, std::uint64_t met, Coverage coverage) {
@@ -75,7 +76,7 @@ void PointTally::Add(const AnnotatedPoint& point, std::uint64_t met, Coverage co
   if (!point.has_number) return;
   thu_.Add(point.thu);
   tvu_.Add(point.tvu);
-  const std::array<double, 4> shares = VerticalShares(point, coverage);
+  const auto shares = VerticalShares(point, coverage);
   for (std::size_t i = 0; i < shares.size(); ++i) shares_[i] += shares[i];
   const double factor = VerticalFactor(coverage);
   pulse_ += std::pow(point.tvu_pulse / factor, 2);
@@ -185,7 +186,7 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   take(point.depth, cell.depth);
   take(point.thu, cell.thu);
   take(point.tvu, cell.tvu);
-  const std::array<double, 4> shares = VerticalShares(point, coverage_);
+  const auto shares = VerticalShares(point, coverage_);
   for (std::size_t i = 0; i < shares.size(); ++i) take(shares[i], cell.shares[i]);
   constexpr std::uint8_t kNone = kS44Orders.size() + 1;
   cell.worst_order = std::max<std::uint32_t>(cell.worst_order, best_order == 0 ? kNone : best_order);

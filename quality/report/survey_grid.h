@@ -38,11 +38,11 @@ class ClassJudge {
 };
 
 // The contributions to the vertical variance of points.
-enum class VerticalShare : std::uint8_t { kAir, kSea, kWater, kDatum };
-inline constexpr std::array<const char*, 4> kVerticalShareNames = {"air", "sea", "water", "datum"};
+enum class VerticalShare : std::uint8_t { kAir, kSea, kWater, kDatum, kExtra };
+inline constexpr std::array<const char*, 5> kVerticalShareNames = {"air", "sea", "water", "datum", "extra"};
 
 // m^2 at 1 sigma, by VerticalShare; the datum is the rest of the total. `point` has a number.
-std::array<double, 4> VerticalShares(const AnnotatedPoint& point, Coverage coverage);
+std::array<double, kVerticalShareNames.size()> VerticalShares(const AnnotatedPoint& point, Coverage coverage);
 
 class PointTally {
  public:
@@ -80,7 +80,7 @@ class DepthTallies {
   std::vector<PointTally> bins_ = std::vector<PointTally>(kBins);
 };
 
-// The points of a cell, and means over those with a number. 36 bytes: a survey has tens of millions of cells.
+// The points of a cell, and means over those with a number. 40 bytes: a survey has tens of millions of cells.
 struct GridCell {
   std::uint32_t gap : 3 = 0;  // The most severe Gap of its points.
   std::uint32_t points : 29 = 0;
@@ -90,7 +90,7 @@ struct GridCell {
   float depth = 0, thu = 0, tvu = 0;                          // m
   std::array<float, kVerticalShareNames.size()> shares = {};  // m^2, of the vertical variance.
 };
-static_assert(sizeof(GridCell) == 36);
+static_assert(sizeof(GridCell) == 40);
 
 class SurveyGrid {
  public:

@@ -125,7 +125,7 @@ class Reporter {
   }
 
   void AddFailing(const AnnotatedPoint& point) {
-    const std::array<double, 4> shares = VerticalShares(point, first_.coverage());
+    const auto shares = VerticalShares(point, first_.coverage());
     ++failing_.points;
     for (std::size_t i = 0; i < shares.size(); ++i) failing_.shares[i] += shares[i];
     ++failing_.largest[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
@@ -220,10 +220,24 @@ class Reporter {
     return list;
   }
 
+  // By name; of several scanners in one file with the channel: "scan, scanner channel 1".
   static Json NumbersOf(const Json& summary) {
-    const Json total = summary["parameters"].value("total", Json());
-    const Json numbers = total.is_object() ? total.value("numbers", Json()) : Json();
-    return numbers.is_object() ? numbers : Json::object();
+    const auto of_total = [](const Json& in) {
+      const Json total = in.is_object() ? in.value("total", Json()) : Json();
+      const Json numbers = total.is_object() ? total.value("numbers", Json()) : Json();
+      return numbers.is_object() ? numbers : Json::object();
+    };
+    const Json& parameters = summary["parameters"];
+    if (!parameters.contains("channels") || !parameters["channels"].is_array()) return of_total(parameters);
+    const Json names = summary["answers"].value("channels", Json());
+    Json all = Json::object();
+    for (std::size_t i = 0; i < parameters["channels"].size(); ++i) {
+      const Json name = i < names.size() && names[i].is_object() ? names[i].value("name", Json()) : Json();
+      const std::string channel = name.is_string() ? name.get<std::string>() : absl::StrCat("channel ", i + 1);
+      const Json numbers = of_total(parameters["channels"][i]);
+      for (const auto& [key, number] : numbers.items()) all[absl::StrCat(key, ", ", channel)] = number;
+    }
+    return all;
   }
 
   // Every number with its source, of all files: where they differ, one each.

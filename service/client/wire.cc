@@ -96,6 +96,8 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
   *message.mutable_lever_arm() = ForwardRightDown(options.lever_arm);
   message.set_refractive_index(options.index);
   message.set_datum(options.datum);
+  message.set_extra_horizontal(options.extra_horizontal);
+  message.set_extra_vertical(options.extra_vertical);
   if (pulses.sea_axis.has_value()) message.set_sea_axis(*pulses.sea_axis);
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i)
     if (Wants(wanted, static_cast<BudgetQuantity>(i))) request.add_quantities(ToWire(static_cast<BudgetQuantity>(i)));

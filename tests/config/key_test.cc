@@ -63,7 +63,7 @@ std::vector<Written> WrongValues(const ValueFacts& values) {
 }
 
 std::string Section(const ListedKey& key) {
-  return key.section == "sea.waves" ? "[[sea.waves]]\n" : absl::StrCat("[", key.section, "]\n");
+  return IsOfMany(key.section) ? absl::StrCat("[[", key.section, "]]\n") : absl::StrCat("[", key.section, "]\n");
 }
 
 std::string ErrorOf(const ListedKey& key, const std::string& value) {

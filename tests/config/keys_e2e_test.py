@@ -45,7 +45,9 @@ class EachKey(programs.Test):
 
     def test_is_refused_in_the_file_by_all_commands_alike(self):
         for number, key in enumerate(self.keys):
-            head = "[[sea.waves]]" if key["section"] == "sea.waves" else f"[{key['section']}]"
+            head = f"[{key['section']}]"
+            if key["section"] in ("sea.waves", "sensor.channel"):
+                head = f"[{head}]"
             name = f"'{key['section']}.{key['key']}' "
             survey = self.folder / f"{number}.toml"
             survey.write_text(f"{head}\n{key['key']} = 2020-06-08\n")  # No key takes a date.

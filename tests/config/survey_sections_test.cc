@@ -32,6 +32,10 @@ index = 1.3397
 [datum]
 sigma = 0.08
 geoid_separation = -25.1
+region = "Delaware - Delaware Bay"
+[extra]
+horizontal = 0.2
+vertical = 0.05
 [sigma]
 position = [0.02, 0.02, 0.06]
 attitude = [0.005, 0, 0.008]
@@ -79,6 +83,10 @@ TEST(SurveySections, SayAllOfASurvey) {
   EXPECT_EQ(survey.water.index, 1.3397);
   EXPECT_FALSE(survey.water.without_column());
   EXPECT_EQ(survey.datum.sigma, 0.08);
+  EXPECT_EQ(survey.datum.standard_deviation(), 0.08);
+  EXPECT_EQ(survey.datum.region, "Delaware - Delaware Bay");
+  EXPECT_EQ(survey.extra.horizontal, 0.2);
+  EXPECT_EQ(survey.extra.vertical, 0.05);
   EXPECT_EQ(survey.datum.geoid_separation, -25.1);
   const config::StatedErrors& sigma = survey.sigma;
   EXPECT_THAT(sigma.values.position, ElementsAre(0.02, 0.02, 0.06));
@@ -94,7 +102,8 @@ TEST(SurveySections, SayAllOfASurvey) {
 }
 
 TEST(SurveySections, MayEachBeAbsentOrEmpty) {
-  for (const char* text : {"", "[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n"}) {
+  for (const char* text :
+       {"", "[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[extra]\n[sigma]\n[output]\n"}) {
     const SurveySettings survey = Survey(text);
     ForEachSection([&](const char* name, const auto& keys, const auto& section) {
       EXPECT_FALSE(IsAnyGiven(keys, section(survey))) << name;
@@ -126,7 +135,7 @@ TEST(SurveySections, RefuseWrongKeysAndContradictionsWithOneClearMessage) {
   for (const WrongKey& wrong :
        {WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'", "3 numbers"},
         WrongKey{"[sensor]\nscan = 0.02\n", "line 2: 'sensor.scan' is no key of a survey file",
-                 "there are lever_arm, name"},
+                 "there are channel, lever_arm, name"},
         WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'", "begin it with [sensor]"},
         WrongKey{"[trajectory]\nfiles = ['a', 5]\n", "line 2: 'trajectory.files' has 5", "path"},
         WrongKey{"[trajectory]\nfiles = [\n'a',\n'a']\n", "line 4: 'trajectory.files' has 'a' twice", "once"},
@@ -142,6 +151,11 @@ TEST(SurveySections, RefuseWrongKeysAndContradictionsWithOneClearMessage) {
         WrongKey{"[surface]\nlevel = 'level.csv'\nlocated = 'local'\n", "line 2: 'surface.level' contradicts located",
                  "\"local\""},
         WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is 'corrected'", "did you mean \"correct\"?"},
+        WrongKey{"[datum]\nmcu = 0.1\nconfidence = '1sigma'\nsigma = 0.1\n",
+                 "line 2: 'datum.mcu' is given beside sigma", "count twice"},
+        WrongKey{"[datum]\nmcu = 0.1\n", "line 2: 'datum.mcu' has no confidence", "\"95%\""},
+        WrongKey{"[datum]\nsigma = 0.1\nconfidence = '95%'\n", "line 3: 'datum.confidence' contradicts sigma", "mcu"},
+        WrongKey{"[datum]\nmcu = 11.8\n", "line 2: 'datum.mcu' is 11.8 (expected 0.001 to 2 m)", "give it in m"},
         WrongKey{"[datum]\nsigma = 8\nsigma_95 = 5\n", "line 3: 'datum.sigma_95' is no key", "sigma"},
         WrongKey{"[output]\ndetails = 'true'\n", "line 2: 'output.details' is 'true'", "without quotes"},
         WrongKey{"[outputs]\n", "line 1: 'outputs' is no key of a survey file", "did you mean output?"}}) {
@@ -151,6 +165,19 @@ TEST(SurveySections, RefuseWrongKeysAndContradictionsWithOneClearMessage) {
     EXPECT_THAT(error, HasSubstr("; "));
     EXPECT_EQ(error.find('\n'), std::string::npos);
   }
+}
+
+TEST(SurveySections, GiveTheDatumAtItsConfidence) {
+  const auto sigma = [](const std::string& datum) { return Survey("[datum]\n" + datum).datum.standard_deviation(); };
+  EXPECT_EQ(sigma(""), std::nullopt);
+  EXPECT_EQ(sigma("sigma = 0\n"), 0);
+  EXPECT_EQ(sigma("mcu = 0.118\nconfidence = '1sigma'\n"), 0.118);
+  EXPECT_NEAR(sigma("mcu = 0.2\nconfidence = '95%'\n").value(), 0.2 / 1.959963984540054, 1e-15);
+  SurveySettings flags;
+  flags.datum.sigma = 0.3;
+  const SurveySettings both = Merge(flags, Survey("[datum]\nmcu = 0.2\nconfidence = '95%'\nregion = 'x'\n"));
+  EXPECT_EQ(both.datum.standard_deviation(), 0.3);
+  EXPECT_EQ(both.datum.region, std::nullopt);
 }
 
 TEST(SurveySections, TakeEachSourceOfErrorUpToItsEnd) {

@@ -135,7 +135,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   const WaterHeights water = {.surface = prescan->surface.has_value() ? &*prescan->surface : nullptr,
                               .level = annotation.plan.water_level};
   CheckFittedTrack(*prescan, water);
-  const BeamGeometry beams(annotation.plan, LocalFrame(), water, &sensor);
+  const std::vector<BeamGeometry> beams = {{annotation.plan, LocalFrame(), water, &sensor}};
   LasChunkWork::Chunk chunk((AnswerStyle()));
   chunk.records = file.substr(header.offset_to_points, header.point_count * header.record_length);
   chunk.own = header.point_count;

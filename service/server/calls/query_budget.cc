@@ -27,6 +27,8 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
                      .located = located,
                      .lever_arm = Read(options.lever_arm()),
                      .datum = options.datum(),
+                     .extra_horizontal = options.extra_horizontal(),
+                     .extra_vertical = options.extra_vertical(),
                      .coverage = coverage};
   if (options.has_refractive_index()) read.index = options.refractive_index();
   FieldViolations violations;

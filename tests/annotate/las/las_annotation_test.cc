@@ -55,7 +55,7 @@ class LasAnnotationTest : public ::testing::Test {
     const std::filesystem::path input = folder_.Write("in.las", file);
     const std::filesystem::path output = folder_ / "out.las";
     absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(input, output, Existing::kReplace, annotation_, source_, progress_);
+        AnnotateLas(input, {.las = output, .csv = {}}, Existing::kReplace, annotation_, source_, progress_);
     if (!annotated.ok()) {
       EXPECT_EQ(folder_.file_count(), 1u) << "something was left behind";
       return std::string(annotated.status().message());
@@ -241,7 +241,8 @@ TEST_F(LasAnnotationTest, RejectsAnInputThatIsModifiedWhileItIsRead) {
       std::ofstream(input, std::ios::binary) << changed;
     });
     const auto status =
-        AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
+        AnnotateLas(input, {.las = folder_ / "out.las", .csv = {}}, Existing::kKeep, annotation_, source, progress_)
+            .status();
     EXPECT_THAT(std::string(status.message()), HasSubstr("in.las: changed while it was read"));
     EXPECT_EQ(folder_.file_count(), 1u);
   }
@@ -251,7 +252,9 @@ TEST_F(LasAnnotationTest, LeavesNothingBehindWhenTheSourceFails) {
   const std::filesystem::path input = folder_.Write("in.las", BuildLas(Spec(4, 6)));
   albtpu::testing::DisturbedSource source(
       source_, [] {}, absl::UnavailableError("gone"));
-  const auto status = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
+  const auto status =
+      AnnotateLas(input, {.las = folder_ / "out.las", .csv = {}}, Existing::kKeep, annotation_, source, progress_)
+          .status();
   EXPECT_EQ(status, absl::UnavailableError("gone"));
   EXPECT_EQ(folder_.file_count(), 1u);
 }
@@ -261,7 +264,8 @@ TEST_F(LasAnnotationTest, DoesNotOverwriteItsInput) {
   const std::filesystem::path input = folder_.Write("in.las", file);
   std::filesystem::create_symlink(input, folder_ / "out.las");
   const auto status =
-      AnnotateLas(input, folder_ / "out.las", Existing::kReplace, annotation_, source_, progress_).status();
+      AnnotateLas(input, {.las = folder_ / "out.las", .csv = {}}, Existing::kReplace, annotation_, source_, progress_)
+          .status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
   EXPECT_EQ(ReadFile(input), file);
 }

@@ -87,7 +87,7 @@ class LasChunkTest : public ::testing::Test {
     const formats::LasHeader& header = reader->header();
     const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation_);
     EXPECT_TRUE(beams.ok() && (*beams)->has_surface_returns());
-    const LasChunkWork work(header, annotation_, {}, (*beams)->geometry(), 0, true, source_);
+    const LasChunkWork work(header, annotation_, {}, (*beams)->geometries(), 0, true, source_);
     LasChunkWork::Chunk chunk(annotation_.style);  // Used again for each part.
     Result result;
     UncertaintySummary summary(annotation_.style);
@@ -117,8 +117,8 @@ class LasChunkTest : public ::testing::Test {
   std::string AnnotateFile(const std::string& file) {
     const std::filesystem::path output = folder_ / "out.las";
     FileProgress progress("points", 1, 0);
-    absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(folder_.Write("in.las", file), output, Existing::kReplace, annotation_, source_, progress);
+    absl::StatusOr<AnnotatedLas> annotated = AnnotateLas(folder_.Write("in.las", file), {.las = output, .csv = {}},
+                                                         Existing::kReplace, annotation_, source_, progress);
     EXPECT_TRUE(annotated->file.Commit().ok());
     const std::string bytes = albtpu::testing::ReadFile(output);
     return bytes.substr(Load<std::uint32_t>(bytes, 96));

@@ -63,7 +63,7 @@ class LazAnnotation : public ::testing::Test {
   std::string Annotate(const std::string& file, std::optional<formats::LasKind> kind = std::nullopt) {
     const std::filesystem::path input = folder_.Write("in", file), output = folder_ / "out";
     absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(input, output, Existing::kReplace, annotation_, source_, progress_, kind);
+        AnnotateLas(input, {.las = output, .csv = {}}, Existing::kReplace, annotation_, source_, progress_, kind);
     if (!annotated.ok()) {
       EXPECT_EQ(folder_.file_count(), 1u) << "something was left behind";
       return std::string(annotated.status().message());

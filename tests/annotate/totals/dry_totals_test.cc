@@ -58,6 +58,8 @@ TotalPlan Plan() {
                          .index = 0.1};
   plan.options.located = SurfaceLocation::kLevel;
   plan.options.datum = 0.03;
+  plan.options.extra_horizontal = 0.06;
+  plan.options.extra_vertical = 0.04;
   plan.hard_range = 0.025;
   return plan;
 }
@@ -66,6 +68,7 @@ std::vector<Vector3d> DrawnErrors(const Flight& flight, const TotalPlan& plan, i
   const AirErrors& errors = plan.options.errors;
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
   const auto three = [&](const std::array<double, 3>& sigma) {
     return Vector3d(sigma[0] * normal(engine), sigma[1] * normal(engine), sigma[2] * normal(engine));
   };
@@ -91,7 +94,11 @@ std::vector<Vector3d> DrawnErrors(const Flight& flight, const TotalPlan& plan, i
         SmallTurn(time * flight.rates);
     const Vector3d in_body = SmallTurn(boresight) * (body.transpose() * seen);
     Vector3d point = position + time * flight.velocity + turned * flight.lever + lever + ranged * (turned * in_body);
-    point.z() += plan.options.datum * normal(engine);
+    point.z() += plan.options.datum * normal(engine) + plan.options.extra_vertical * normal(engine);
+    // In any direction, by a distance whose mean square is the square of what was added.
+    const double distance = plan.options.extra_horizontal * std::sqrt(-std::log1p(-uniform(engine)));
+    const double direction = 2 * std::numbers::pi * uniform(engine);
+    point += distance * Vector3d(std::cos(direction), std::sin(direction), 0);
     drawn.push_back(point - truth);
   }
   return drawn;

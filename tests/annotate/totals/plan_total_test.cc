@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "annotate/run/file_progress.h"
 #include "config/survey_draft.h"
@@ -125,6 +127,43 @@ TEST(PlanTotal, CallsNothingTotalBeforeDatumAndWaterAreDecided) {
   EXPECT_THAT(ProblemOf(sensor + "[datum]\nsigma = 0\n"), HasSubstr("the water column is not decided"));
   EXPECT_THAT(ProblemOf(sensor + "[datum]\nsigma = 0\n[water]\nkd = 0.1\n"), HasSubstr("column = \"none\""));
   EXPECT_TRUE(formats::IsUsageError(PlanTotal(Survey(sensor), {.has_level = true}).status()));
+}
+
+TEST(PlanTotal, TakesTheCumulativeUncertaintyOfADatumAtItsConfidence) {
+  const auto plan = [](const std::string& datum) {
+    std::string text = Decided();
+    text.replace(text.find("sigma = 0.08"), 12, datum);
+    const absl::StatusOr<TotalPlan> made = PlanTotal(Survey(text), {.has_level = true});
+    EXPECT_TRUE(made.ok()) << made.status();
+    return made.value_or(TotalPlan());
+  };
+  const TotalPlan at_sigma = plan("mcu = 0.115\nconfidence = \"1sigma\"\nregion = \"Delaware Bay\"");
+  EXPECT_EQ(at_sigma.options.datum, 0.115);
+  EXPECT_EQ(Number(at_sigma, "datum").value, "0.115 m");
+  EXPECT_EQ(Number(at_sigma, "datum").source, "[datum] mcu 0.115 m at 1sigma, VDatum region Delaware Bay");
+  const TotalPlan at_95 = plan("mcu = 0.2\nconfidence = \"95%\"");
+  EXPECT_EQ(Number(at_95, "datum").source, "[datum] mcu 0.2 m at 95%");
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> error(0, at_95.options.datum);
+  constexpr int kDraws = 400'000;
+  int within = 0;
+  for (int i = 0; i < kDraws; ++i) within += std::abs(error(random)) <= 0.2;
+  EXPECT_NEAR(within, 0.95 * kDraws, 4 * std::sqrt(0.95 * 0.05 * kDraws));
+  EXPECT_EQ(Number(plan("sigma = 0.08\nregion = \"x\""), "datum").source, "[datum], VDatum region x");
+}
+
+TEST(PlanTotal, AddsWhatTheSurveyorAdds) {
+  const absl::StatusOr<TotalPlan> none = PlanTotal(Survey(Decided()), {.has_level = true});
+  ASSERT_TRUE(none.ok()) << none.status();
+  EXPECT_FALSE(none->has_extra());
+  const absl::StatusOr<TotalPlan> plan =
+      PlanTotal(Survey(Decided() + "[extra]\nhorizontal = 0.3\nvertical = 0.05\n"), {.has_level = true});
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_TRUE(plan->has_extra());
+  EXPECT_EQ(plan->options.extra_horizontal, 0.3);
+  EXPECT_EQ(Number(*plan, "extra_horizontal").value, "0.3 m");
+  EXPECT_EQ(Number(*plan, "extra_horizontal").source, "[extra], radial");
+  EXPECT_EQ(Number(*plan, "extra_vertical").value, "0.05 m");
 }
 
 TEST(PlanTotal, NeverAssumesWhatOnlyTheSensorKnows) {

@@ -40,6 +40,8 @@ TotalPlan Plan() {
   TotalPlan plan;
   plan.options.errors = {.position = {0.02, 0.03, 0.06}, .attitude = {0.005, 0.005, 0.008}, .bottom_range = 0.025};
   plan.options.datum = 0.05;
+  plan.options.extra_horizontal = 0.04;
+  plan.options.extra_vertical = 0.03;
   plan.sea_axis = 70;
   return plan;
 }
@@ -56,9 +58,11 @@ TEST(ComputeTotals, AddsTheShares) {
   TotalBatch totals;
   ComputeTotals(Plan(), Pulses(), Sea(), aircraft, totals);
   for (std::size_t i = 0; i < kPulses; ++i) {
-    const double vertical = totals.air[2][i] + totals.sea[2][i] + 0.05 * 0.05;
+    const double vertical = totals.air[2][i] + totals.sea[2][i] + 0.05 * 0.05 + 0.03 * 0.03;
     EXPECT_NEAR(totals.tvu[i], 2 * std::sqrt(vertical), 1e-6);
-    EXPECT_NEAR(totals.thu[i], std::hypot(totals.thu_air[i], totals.thu_sea[i]), 1e-6);
+    EXPECT_NEAR(totals.thu[i], std::hypot(totals.thu_air[i], totals.thu_sea[i], 2 * 0.04), 1e-6);
+    EXPECT_NEAR(totals.extra.thu, 2 * 0.04, 1e-6);
+    EXPECT_NEAR(totals.extra.tvu, 2 * 0.03, 1e-6);
     EXPECT_NEAR(totals.thu_sea[i], 0.1 * static_cast<double>(i + 1), 1e-6);
   }
 }
@@ -120,6 +124,12 @@ TEST(TotalSummary, StatesSharesThatAddUp) {
     for (const auto& share : json["all"][axis]) sum += share.get<double>();
     EXPECT_NEAR(sum, 1, 1e-6) << axis;
   }
+  double vertical = 0;
+  for (std::size_t i = 0; i < kPulses; ++i) vertical += std::pow(totals.tvu[i] / 2, 2);
+  const auto& shares = json["all"]["shares_vertical"];
+  EXPECT_NEAR(shares["extra"].get<double>(), 3 * 0.03 * 0.03 / vertical, 1e-6);
+  EXPECT_NEAR(shares["datum"].get<double>(), 3 * 0.05 * 0.05 / vertical, 1e-6);
+  EXPECT_NE(all.Text(Coverage::kTwoSigma, S44Order::k1b).find("extra"), std::string::npos);
   EXPECT_NEAR(json["all"]["mean_bias_vertical"].get<double>(), -0.01, 1e-6);
   EXPECT_EQ(json["all"]["s44_met"]["2"], 3);
 }

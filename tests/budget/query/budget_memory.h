@@ -62,6 +62,8 @@ inline BudgetOptions UsualOptions() {
           .located = SurfaceLocation::kLocal,
           .lever_arm = {0.3, -0.2, 0.5},
           .datum = 0.08,
+          .extra_horizontal = 0.04,
+          .extra_vertical = 0.03,
           .coverage = Coverage::kP95};
 }
 

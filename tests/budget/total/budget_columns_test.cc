@@ -106,7 +106,12 @@ void ExpectSame(const Matrix3d& ours, const Matrix3d& twin, const char* what) {
 TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
   const TotalInputs pulses = RandomPulses(1003, 1);
   for (const SurfaceLocation located : {SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel}) {
-    const BudgetOptions options = {.errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5}, .datum = 0.08};
+    const BudgetOptions options = {.errors = kErrors,
+                                   .located = located,
+                                   .lever_arm = {0.3, -0.2, 0.5},
+                                   .datum = 0.08,
+                                   .extra_horizontal = 0.05,
+                                   .extra_vertical = 0.03};
     TotalMemory answers(1003);
     ComputeBudget(pulses.inputs(), options, answers.outputs());
     for (std::size_t i = 0; i < 1003; ++i) {
@@ -115,7 +120,7 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
         groups[static_cast<std::size_t>(source.group)] += source.Covariance();
       const Matrix3d air = groups[0] + groups[1] + groups[2], sea = SeaContribution(pulses, i, options);
       groups[0] += sea;
-      groups[2](2, 2) += 0.08 * 0.08;
+      groups[2] += Vector3d(0.05 * 0.05 / 2, 0.05 * 0.05 / 2, 0.08 * 0.08 + 0.03 * 0.03).asDiagonal();
       Matrix3d total = groups[0] + groups[1] + groups[2];
       ExpectSame(answers.Covariance(testing::kAirPart, i), air, "air");
       ExpectSame(answers.Covariance(testing::kSeaPart, i), sea, "sea");
@@ -135,6 +140,34 @@ TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
                              pulses.at(BudgetInput::kBiasVertical, i), pulses.at(BudgetInput::kDepth, i)));
     }
   }
+}
+
+// Errors that are drawn in any direction lie within what is stated of them as often as it says.
+TEST(ExtraOf, HoldsDraws) {
+  constexpr int kDraws = 200'000;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  BudgetOptions options = {.extra_horizontal = 0.3, .extra_vertical = 0.2, .coverage = Coverage::kP95};
+  const ExtraUncertainty p95 = ExtraOf(options);
+  options.coverage = Coverage::kOneSigma;
+  const ExtraUncertainty one = ExtraOf(options);
+  int within_thu = 0, within_tvu = 0;
+  double squares = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double distance = 0.3 * std::sqrt(-std::log1p(-uniform(random)));
+    squares += distance * distance;
+    within_thu += distance <= p95.thu;
+    within_tvu += std::abs(0.2 * normal(random)) <= p95.tvu;
+  }
+  // Four standard errors: of a share of 0.95, and of the root of a mean square whose squares are exponential.
+  const double share = 4 * std::sqrt(0.95 * 0.05 / kDraws);
+  EXPECT_NEAR(within_thu, 0.95 * kDraws, share * kDraws);
+  EXPECT_NEAR(within_tvu, 0.95 * kDraws, share * kDraws);
+  EXPECT_NEAR(one.thu, std::sqrt(squares / kDraws), 4 * 0.3 / 2 / std::sqrt(kDraws));
+  EXPECT_FLOAT_EQ(one.tvu, 0.2f);
+  options.coverage = Coverage::kTwoSigma;
+  EXPECT_FLOAT_EQ(ExtraOf(options).thu, 2 * one.thu);
 }
 
 TEST(ComputeBudget, StatesTheRadiusOf95PercentByTheTrueEllipse) {

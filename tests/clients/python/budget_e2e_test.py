@@ -25,7 +25,7 @@ def pulses(count=PULSES, **columns):
 
     return dict(wind_speed=draw(3, 10), incidence=draw(0, 25), azimuth=draw(-180, 180), footprint=draw(0.3, 2),
                 depth=draw(0, 20), altitude=draw(100, 800), beam_azimuth=draw(0, 360), located="local", errors=ERRORS,
-                lever_arm=(0.3, -0.2, 0.5), datum=0.08, sea_axis=250,
+                lever_arm=(0.3, -0.2, 0.5), datum=0.08, extra_horizontal=0.05, extra_vertical=0.04, sea_axis=250,
                 aircraft=dict(roll=draw(-20, 20), heading=draw(0, 360), velocity_north=draw(-80, 80),
                               heading_sigma=draw(0, 0.1), wave_height=0.25)) | columns
 
@@ -59,6 +59,15 @@ class Budget(Served):
         file = albtpu.open_table(self.folder / "synthetic.h5")
         for source in (self.service, file):
             np.testing.assert_array_equal(2 * source.query(**sea, coverage="1sigma").thu, source.query(**sea).thu)
+
+    def test_adds_what_is_added_to_every_pulse(self):
+        entries = ("covariance_total", "covariance_survey")
+        with_extra = self.service.query_budget(**pulses(quantities=entries))
+        without = self.service.query_budget(**pulses(quantities=entries, extra_horizontal=0, extra_vertical=0))
+        for entry in entries:
+            more = with_extra.values[entry] - without.values[entry]
+            for axis, variance in enumerate((0.05**2 / 2, 0.05**2 / 2, 0.04**2, 0, 0, 0)):
+                np.testing.assert_allclose(more[axis], variance, atol=1e-6 * with_extra.values[entry][axis].max())
 
     def test_keeps_the_shape_and_gives_a_bad_pulse_its_own_outcome(self):
         budget = self.service.query_budget(**pulses(1, depth=np.array([[4, 1000, 4], [4, np.nan, 4]]),

@@ -73,6 +73,7 @@ ARGUMENTS = {
     "numbers": [
         (SERVICE.query_budget, FLOWN | dict(errors=dict(position=1)), "three numbers: north, east, down"),
         (SERVICE.query_budget, FLOWN | dict(datum="x"), "datum is 'x': it should be a number"),
+        (SERVICE.query_budget, FLOWN | dict(extra_vertical="x"), "extra_vertical is 'x': it should be a number"),
         (geometry.beams, POINT | dict(index=0.75), "index is 0.75"),
         (geometry.beams, POINT | dict(index=np.nan), "index is nan"),
         (geometry.beams, POINT | dict(index="water"), "index is 'water'"),

@@ -42,6 +42,17 @@ class Numbers(Report):
         met = sum(each["answers"]["total"]["all"]["s44_met"]["special"] for each in summaries)
         self.assertLess(abs(special["meeting"] - met), 5)
 
+    def test_tell_the_datum_from_what_the_surveyor_adds(self):
+        answered = self.points["total_tvu"] >= 0
+        np.testing.assert_allclose(self.points["tvu_extra"][answered], 1.959964 * 0.04, rtol=1e-6)
+        vertical = self.points["VarianceZ"][answered].sum(dtype=float)
+        for name, sigma in (("extra", 0.04), ("datum", 0.05)):
+            expected = sigma**2 * answered.sum() / vertical
+            self.assertAlmostEqual(self.json["all"]["shares_vertical"][name], expected, delta=1e-4, msg=name)
+        page = (self.made / "report.html").read_text()
+        self.assertIn("<th>extra</th>", page)
+        self.assertIn("extra_vertical", [each["name"] for each in self.json["numbers"]])
+
     def test_have_the_assumptions_with_their_sources(self):
         numbers = {each["name"]: each for each in self.json["numbers"]}
         self.assertTrue(numbers["boresight"]["assumed"])
@@ -74,8 +85,9 @@ class Grid(Report):
             gap = np.ma.filled(grid["gap"][:], 0)
             np.testing.assert_array_equal(gap > 0, counts > with_number)
             self.assertEqual(grid["gap"].flag_meanings.split()[2], "no_water_surface")
-            shares = sum(grid[f"share_{name}"][:] for name in ("air", "sea", "water", "datum"))
+            shares = sum(grid[f"share_{name}"][:] for name in ("air", "sea", "water", "datum", "extra"))
             np.testing.assert_allclose(shares.compressed(), 1, atol=1e-5)
+            self.assertEqual(grid["dominant_share"].flag_meanings, "air sea water datum extra")
 
     def test_is_opened_by_gdal(self):
         info = json.loads(subprocess.run(["gdalinfo", "-json", f"NETCDF:{self.made / 'grid.nc'}:tvu"], check=True,

@@ -28,6 +28,9 @@ wind_from = 250
 column = "none"
 [datum]
 sigma = {datum}
+[extra]
+horizontal = 0.06
+vertical = 0.04
 [output]
 classes = [40]
 coverage = "{coverage}"

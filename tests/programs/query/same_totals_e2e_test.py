@@ -23,6 +23,11 @@ SETTINGS = {
        for located, text in (("pulse", PULSE), ("local", LOCAL), ("level", LEVEL)) for name, value in SOURCES.items()
        if (located, name) != ("level", "surface_range")},
     "no datum": PULSE.replace("sigma = 0.08", "sigma = 0"),
+    "mcu": PULSE.replace("sigma = 0.08", "mcu = 0.115\nconfidence = '1sigma'\nregion = 'Delaware Bay'"),
+    "mcu at 95 %": PULSE.replace("sigma = 0.08", "mcu = 0.2\nconfidence = '95%'"),
+    "extra": PULSE + "[extra]\nhorizontal = 0.25\nvertical = 0.1\n",
+    "extra of a level": LEVEL + "[extra]\nvertical = 0.1\n",
+    "extra at p95": PULSE + "[extra]\nhorizontal = 0.25\n[output]\ncoverage = 'p95'\n",
     "no lever arm": PULSE.replace("lever_arm = [0.3, -0.2, 0.5]", ""),
     "another index": PULSE.replace("column", "index = 1.338\ncolumn"),
     "the index by the state of the water": PULSE.replace("column", "temperature = 15\nsalinity = 35\ncolumn"),
@@ -32,6 +37,10 @@ SETTINGS = {
 # What is refused, and a part of the message.
 REFUSED = {
     "datum": (PULSE.replace("[datum]\nsigma = 0.08\n", ""), "the vertical datum is not decided"),
+    "datum twice": (PULSE.replace("[datum]", "[datum]\nmcu = 0.1\nconfidence = '1sigma'"), "given beside sigma"),
+    "confidence": (PULSE.replace("sigma = 0.08", "mcu = 0.2"), "'datum.mcu' has no confidence"),
+    "centimetres": (PULSE.replace("sigma = 0.08", "mcu = 11.8\nconfidence = '1sigma'"), "expected 0.001 to 2 m"),
+    "extra without a sensor": ("[extra]\nvertical = 0.1\n" + SEA, "[extra] has no effect without a sensor"),
     "water column": (PULSE.replace("column = 'none'", "kd = 0.1"), "the water column is not decided"),
     "both decisions": (PULSE.replace("column", "bias = 'none'\ncolumn"), "contradicts column"),
     "receiver": (PULSE.replace("column = 'none'", "bias = 'none'"), "lacks detector"),
@@ -43,6 +52,9 @@ REFUSED = {
     "radians": (PULSE + "[sigma]\nscan = 1.7e-5\n", "looks like radians"),
     "out of range": (PULSE + "[sigma]\nindex = 0.2\n", "'sigma.index' is 0.2 (expected 0 to 0.1)"),
     "unknown": (PULSE + "[sigma]\nscann = 0.2\n", "did you mean scan?")}
+# Standard deviations of the datum, of which the total states six digits.
+OF_MCU = {"mcu at 95 %": 0.2 / 1.959963984540054}
+CONSTANTS = ("datum", "extra_horizontal", "extra_vertical", "refractive_index", "lever_arm_vector")
 MOTION = {"roll": 3, "pitch": 4, "heading": 30, "velocity_north": 60, "velocity_east": 35, "velocity_down": 1,
           "roll_rate": 0.5, "pitch_rate": 1, "yaw_rate": 2}
 NUMBERS = ("thu", "tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea")
@@ -82,20 +94,19 @@ class SameTotals(programs.Test):
     def numbers_of_csv(self, columns):
         return {name: np.array(columns[f"total_{name}" if len(name) == 3 else name], np.float32) for name in NUMBERS}
 
-    def budget_of_server(self, service, total):
+    def budget_of_server(self, service, total, name):
         """The total by the numbers that `pulse` states."""
-        stated = {name: [float(part.split(" ")[0]) for part in number["value"].split(", ")]
-                  for name, number in total["plan"]["numbers"].items()
-                  if name in SOURCES or name in ("datum", "refractive_index", "lever_arm_vector")}
-        errors = {name: stated[name] if len(stated[name]) > 1 else stated[name][0]
-                  for name in SOURCES if name in stated}
+        stated = {key: [float(part.split(" ")[0]) for part in number["value"].split(", ")]
+                  for key, number in total["plan"]["numbers"].items() if key in (*SOURCES, *CONSTANTS)}
+        added = {key: stated[key][0] for key in ("extra_horizontal", "extra_vertical") if key in stated}
+        errors = {key: stated[key] if len(stated[key]) > 1 else stated[key][0] for key in SOURCES if key in stated}
         return service.query_budget(
             wind_speed=6.5, incidence=20, azimuth=90 - 280, footprint=0.5, depth=10, altitude=400, beam_azimuth=90,
             sea_axis=280, located=total["plan"]["located"], coverage=total["coverage"], aircraft=MOTION,
             errors=errors,
-            lever_arm=stated["lever_arm_vector"], datum=stated["datum"][0],
+            lever_arm=stated["lever_arm_vector"], datum=OF_MCU.get(name, stated["datum"][0]), **added,
             refractive_index=stated["refractive_index"][0],
-            quantities=[f"total_{name}" if len(name) == 3 else name for name in NUMBERS])
+            quantities=[f"total_{key}" if len(key) == 3 else key for key in NUMBERS])
 
     def test_the_same_settings_give_the_same_total(self):
         with programs.server(self.folder) as address, albtpu.connect(address) as service:
@@ -114,7 +125,7 @@ class SameTotals(programs.Test):
                         self.assertEqual(found, expected)
                         self.assertEqual({name: np.float32(columns[name][0]) for name in total_alone}, total_alone)
                         self.assertEqual(columns["s44_order_met"][0], total["s44_order_met"])
-                    budget = self.budget_of_server(service, total)
+                    budget = self.budget_of_server(service, total, name)
                     # The height of the waves that a location does not see is not among the stated numbers.
                     same = NUMBERS if total["plan"]["located"] == "pulse" else ("thu_air", "tvu_air")
                     if "state" not in name:  # Of which the index is stated to six digits.
@@ -124,7 +135,8 @@ class SameTotals(programs.Test):
 
     def test_points_have_the_totals_of_their_pulses(self):
         programs.make_flight(self.folder / "line.las")
-        settings = {"level": LEVEL, "local": LOCAL, "pulse": PULSE, "index": LEVEL + "[sigma]\nindex = 0.01\n",
+        settings = {"level": LEVEL, "local": LOCAL, "pulse": PULSE, "extra": SETTINGS["extra at p95"],
+                    "index": LEVEL + "[sigma]\nindex = 0.01\n",
                     "p95": LEVEL + "[output]\ncoverage = 'p95'\n"}
         for name, text in settings.items():
             with self.subTest(name):

@@ -113,6 +113,44 @@ class TotalsTest(programs.Test):
             query(*arguments[:3], *arguments[5:], again, "--server", address, check=0)
         self.assertEqual(again.read_bytes(), out.read_bytes())
 
+    def test_las_and_csv_name_what_the_surveyor_adds(self):
+        flight = SimulatedSurvey(self.folder / "flight").folder
+        text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + WIND + DECIDED +
+                "[output]\nclasses = [40]\ndetails = true\n")
+        extra = "[extra]\nhorizontal = 0.3\nvertical = 0.05\n"
+
+        def annotate(name, text):
+            query("las", flight / "flight.las", self.folder / name, "--survey", self.toml(text), "--table", self.table,
+                  check=0)
+            summary = json.loads((self.folder / f"{name}.json").read_text())
+            return LasFile(self.folder / name).columns(), summary
+
+        plain, _ = annotate("plain.las", text)
+        added, summary = annotate("added.las", text + extra)
+        self.assertEqual(sorted(set(added) - set(plain)), ["thu_extra", "tvu_extra"])
+        has = plain["total_thu"] >= 0
+        self.assertTrue((added["thu_extra"][~has] == -1).all())
+        np.testing.assert_allclose(added["thu_extra"][has], 0.6, rtol=1e-6)
+        np.testing.assert_allclose(added["tvu_extra"][has], 0.1, rtol=1e-6)
+        np.testing.assert_allclose(added["total_thu"][has], np.hypot(plain["total_thu"][has], 0.6), rtol=1e-5)
+        np.testing.assert_allclose(added["total_tvu"][has], np.hypot(plain["total_tvu"][has], 0.1), rtol=1e-5)
+        numbers = summary["parameters"]["total"]["numbers"]
+        self.assertEqual(numbers["extra_horizontal"], {"value": "0.3 m", "source": "[extra], radial", "assumed": False})
+        shares = summary["answers"]["total"]["all"]["shares_vertical"]
+        wet = has & (plain["water_depth"] >= 0)
+        expected = 0.05**2 * wet.sum() / added["VarianceZ"][wet].sum(dtype=float)
+        self.assertAlmostEqual(shares["extra"], expected, delta=1e-5)
+        self.assertAlmostEqual(sum(shares.values()), 1, delta=1e-6)
+        # One pulse names it among its sources, a CSV file as a contribution.
+        answer = query("pulse", "--survey", self.toml(text + extra), "--table", self.table, "--json", "--incidence", 20,
+                       "--beam-azimuth", 90, "--depth", 10, "--altitude", 400, check=0)
+        self.assertEqual(json.loads(answer.stdout)["sources"]["extra"],
+                         {"horizontal": 0.09, "vertical": 0.0025000000000000005, "group": "survey"})
+        _, lines = self.csv("incidence,beam_azimuth,depth,altitude\n20,90,10,400\n", "--details", text=text + extra)
+        of_csv = dict(zip(*lines))
+        for name, value in (("thu_extra", 0.6), ("tvu_extra", 0.1)):
+            self.assertEqual(np.float32(of_csv[name]), np.float32(value))
+
     def test_replaces_the_numbers_of_an_earlier_run(self):
         flight = SimulatedSurvey(self.folder / "flight").folder
         text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + DECIDED +

@@ -30,6 +30,7 @@ AnnotatedPoint RandomPoint(std::mt19937& random) {
   point.tvu_air = static_cast<float>(between(0, 1));
   point.tvu_sea = static_cast<float>(between(0, 1));
   point.tvu_water = static_cast<float>(between(0, 1));
+  point.tvu_extra = static_cast<float>(between(0, 0.5));
   return point;
 }
 
@@ -69,7 +70,9 @@ TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
         depth += point.depth;
         thu += point.thu;
         air += std::pow(point.tvu_air / 2, 2);
-        datum += 1 - (std::pow(point.tvu_air, 2) + std::pow(point.tvu_sea, 2) + std::pow(point.tvu_water, 2)) / 4;
+        datum += 1 - (std::pow(point.tvu_air, 2) + std::pow(point.tvu_sea, 2) + std::pow(point.tvu_water, 2) +
+                      std::pow(point.tvu_extra, 2)) /
+                         4;
       }
       ASSERT_EQ(cell.with_number, count);
       if (count == 0) continue;

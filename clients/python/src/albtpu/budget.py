@@ -60,7 +60,8 @@ class BudgetQuery:
 
 def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[str, ArrayLike], *,
                       located: str, errors: Mapping[str, Any] | None, lever_arm: Sequence[float],
-                      refractive_index: float, datum: float, sea_axis: float | None,
+                      refractive_index: float, datum: float, extra_horizontal: float, extra_vertical: float,
+                      sea_axis: float | None,
                       quantities: Iterable[str], coverage: str, table: str | None, sea: Sea | None) -> BudgetQuery:
     """Checks the arguments of a query of the budget. Raises ArgumentError."""
     for name in aircraft:
@@ -72,6 +73,8 @@ def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[
         table=table, coverage=COVERAGES[coverage], errors=_read_errors(errors or {}),
         located=LOCATIONS.index(located) + 1, lever_arm=read_vector("lever_arm", lever_arm, _ERRORS["boresight"]),
         refractive_index=read_number("refractive_index", refractive_index), datum=read_number("datum", datum),
+        extra_horizontal=read_number("extra_horizontal", extra_horizontal),
+        extra_vertical=read_number("extra_vertical", extra_vertical),
         sea_axis=read_optional("sea_axis", sea_axis))
     if query.size == 0:
         raise ArgumentError("there are no pulses: give at least one")

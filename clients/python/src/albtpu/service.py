@@ -87,7 +87,8 @@ class Service(UncertaintySource):
                      fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None, sea: Sea | None = None,
                      aircraft: Mapping[str, ArrayLike] | None = None, errors: Mapping[str, Any] | None = None,
                      lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float = 1.34,
-                     datum: float = 0.0, sea_axis: float | None = None, table: str | None = None,
+                     datum: float = 0.0, extra_horizontal: float = 0.0, extra_vertical: float = 0.0,
+                     sea_axis: float | None = None, table: str | None = None,
                      coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
                      progress: bool = False) -> Budget:
         """The whole uncertainty of each pulse: of air side, sea surface, water column and vertical datum.
@@ -110,6 +111,8 @@ class Service(UncertaintySource):
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
         refractive_index: of the water.
         datum:        m, standard deviation of the height of the vertical datum.
+        extra_horizontal, extra_vertical: m, standard deviations that are added to all points, the horizontal one
+                      radial: the root of the sum of the variances along north and east.
         sea_axis:     degrees clockwise from true north, where the wind blows to. Omitted: not known. Not used with the
                       table of a sea, which has its own axis.
         coverage:     "2sigma", "1sigma" or "p95".
@@ -126,7 +129,8 @@ class Service(UncertaintySource):
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth, footprint=footprint,
                  depth=depth), {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth},
             located=located, errors=errors, lever_arm=lever_arm, refractive_index=refractive_index, datum=datum,
-            sea_axis=sea_axis, quantities=quantities, coverage=coverage, table=table, sea=sea)
+            extra_horizontal=extra_horizontal, extra_vertical=extra_vertical, sea_axis=sea_axis, quantities=quantities,
+            coverage=coverage, table=table, sea=sea)
         with show_progress(asked.query.size if progress else 0) as shown:
             calls = BudgetCalls(self._target, self._stub, asked, shown, self._timeout)
             return calls.budget(self._retries())

@@ -135,6 +135,8 @@ TEST_F(InvalidQueries, OfOptionsOutOfRangeAreRefusedByTheirPath) {
   of_budget([](auto& o) { o.set_refractive_index(2.1); }, "options.refractive_index");
   of_budget([](auto& o) { o.set_refractive_index(0); }, "options.refractive_index");
   of_budget([](auto& o) { o.set_datum(-1); }, "options.datum");
+  of_budget([](auto& o) { o.set_extra_horizontal(-1); }, "options.extra_horizontal");
+  of_budget([](auto& o) { o.set_extra_vertical(NAN); }, "options.extra_vertical");
   of_budget([](auto& o) { o.set_sea_axis(NAN); }, "options.sea_axis");
   of_budget([](auto& o) { o.set_sea_axis(1e300); }, "options.sea_axis");
 }

@@ -21,9 +21,9 @@ from .verdict import COVERAGES, Report
 
 ORDERS = S44_ORDERS[1:]
 SIGMAS = {"p95": 2 * FACTOR_95, "2sigma": 2.0, "1sigma": 1.0}  # Of one dimension.
-SHARES = ("air", "sea", "water", "datum")
+SHARES = ("air", "sea", "water", "datum", "extra")
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#777777"
-SHARE_COLOURS = (ORANGE, BLUE, GREEN, GREY)
+SHARE_COLOURS = (ORANGE, BLUE, GREEN, GREY, PURPLE)
 MOST_BARS = 50  # Of a histogram.
 
 
@@ -33,6 +33,12 @@ def image(figure: Figure, words: str) -> str:
     figure.savefig(buffer, format="png", dpi=110, bbox_inches="tight", metadata={"Software": None})
     data = base64.b64encode(buffer.getvalue()).decode()
     return f'<img alt="{html.escape(words)}" src="data:image/png;base64,{data}">'
+
+
+def shares_of(report: Report) -> tuple[str, ...]:
+    """The shares that a report shows: what the surveyor added only where there is something."""
+    added = report["all"].get("shares_vertical", {}).get("extra", 0) > 0
+    return SHARES if added else SHARES[:-1]
 
 
 def chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
@@ -101,12 +107,12 @@ def shares_against_depth(report: Report) -> str:
     figure, axes = chart("shares of the vertical variance", "depth [m]", "%")
     depth = [each["from"] + 0.5 for each in bins]
     below = np.zeros(len(bins))
-    for share, colour in zip(SHARES, SHARE_COLOURS):
+    for share, colour in zip(shares_of(report), SHARE_COLOURS):
         values = 100 * np.array([each["shares_vertical"][share] for each in bins])
         axes.bar(depth, values, width=1, bottom=below, color=colour, label=share, edgecolor="white", linewidth=0.3)
         below += values
     axes.set_ylim(0, 100)
-    axes.legend(fontsize=8, ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
+    axes.legend(fontsize=8, ncols=5, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
     return image(figure, "chart: shares of the vertical variance against depth")
 
 

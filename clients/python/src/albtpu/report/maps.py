@@ -21,7 +21,8 @@ LARGEST_SIDE = 640  # Cells of a picture.
 # The names and colours of the codes of a layer, from 1.
 CODES = {"order_met": ((*ORDERS, "none"), ("#00204d", "#31446b", "#666970", "#958f78", "#cbba69", RED)),
          "dominant_share": (SHARES, SHARE_COLOURS),
-         "gap": (("above water", "no answer", "no surface", "no trajectory"), (BLUE, ORANGE, GREEN, PURPLE))}
+         "gap": (("above water", "no answer", "no surface", "no trajectory", "no channel"),
+                 (BLUE, ORANGE, GREEN, PURPLE, RED))}
 
 
 @dataclass

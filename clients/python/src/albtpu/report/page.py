@@ -72,14 +72,15 @@ def _curves(report: Report) -> str:
 def _bands(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
+    shares = charts.shares_of(report)
     for band in report["depth_bands"]:
         met = band["meeting"][wanted] / band["with_number"]
         rows.append([_band_name(band), f"{band['with_number']:,}", f"{band['tvu']['median']:.3f}",
                      f"{band['tvu']['p95']:.3f}", f"{band['thu']['median']:.3f}", f"{band['thu']['p95']:.3f}",
-                     *(f"{100 * band['shares_vertical'][share]:.0f} %" for share in charts.SHARES),
+                     *(f"{100 * band['shares_vertical'][share]:.0f} %" for share in shares),
                      _judged(met, report)])
     head = ["depth [m]", "points", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
-            *charts.SHARES, f"meet {text(verdict.asked(report))}"]
+            *shares, f"meet {text(verdict.asked(report))}"]
     return ("<h2>By depth</h2><p class='soft'>Shares are of the vertical variance. Points without a number have no"
             " depth and are not in this table.</p>" + table(head, rows))
 

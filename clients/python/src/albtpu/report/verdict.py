@@ -14,6 +14,7 @@ OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "NO_SEA": "no state of the sea at their time",
             "ABOVE_WATER": "they lie above the water",
             "DRY": "they lie above the water",
+            "NO_CHANNEL": "of a scanner that [[sensor.channel]] does not map",
             "NO_WATER": "outside the table of the water column",
             "UNKNOWN": "a reason that the summaries do not name",
             "INVALID": "invalid numbers"}
@@ -22,7 +23,8 @@ REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration):
                    " lower flight",
             "sea": "the sea surface: a calmer sea, or smaller incidence",
             "water": "the water column: a measured attenuation, or bias = \"correct\"",
-            "datum": "the vertical datum: a better separation model, or delivery above the ellipsoid"}
+            "datum": "the vertical datum: a better separation model, or delivery above the ellipsoid",
+            "extra": "what [extra] of the survey file adds: a smaller number, where it can be shown"}
 
 
 def asked(report: Report) -> str:

@@ -145,10 +145,12 @@ class BudgetColumns(_message.Message):
     def __init__(self, total_thu: _Optional[bytes] = ..., total_tvu: _Optional[bytes] = ..., thu_air: _Optional[bytes] = ..., tvu_air: _Optional[bytes] = ..., thu_sea: _Optional[bytes] = ..., tvu_sea: _Optional[bytes] = ..., bias_along_beam: _Optional[bytes] = ..., bias_vertical: _Optional[bytes] = ..., covariance_total: _Optional[bytes] = ..., covariance_air: _Optional[bytes] = ..., covariance_sea: _Optional[bytes] = ..., covariance_pulse: _Optional[bytes] = ..., covariance_line: _Optional[bytes] = ..., covariance_survey: _Optional[bytes] = ..., best_s44_orders: _Optional[bytes] = ..., thu_water: _Optional[bytes] = ..., tvu_water: _Optional[bytes] = ...) -> None: ...
 
 class BudgetOptions(_message.Message):
-    __slots__ = ["coverage", "datum", "errors", "lever_arm", "located", "refractive_index", "sea_axis", "table"]
+    __slots__ = ["coverage", "datum", "errors", "extra_horizontal", "extra_vertical", "lever_arm", "located", "refractive_index", "sea_axis", "table"]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
     DATUM_FIELD_NUMBER: _ClassVar[int]
     ERRORS_FIELD_NUMBER: _ClassVar[int]
+    EXTRA_HORIZONTAL_FIELD_NUMBER: _ClassVar[int]
+    EXTRA_VERTICAL_FIELD_NUMBER: _ClassVar[int]
     LEVER_ARM_FIELD_NUMBER: _ClassVar[int]
     LOCATED_FIELD_NUMBER: _ClassVar[int]
     REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
@@ -157,12 +159,14 @@ class BudgetOptions(_message.Message):
     coverage: _uncertainty_pb2.Coverage
     datum: float
     errors: AirErrors
+    extra_horizontal: float
+    extra_vertical: float
     lever_arm: ForwardRightDown
     located: SurfaceLocation
     refractive_index: float
     sea_axis: float
     table: str
-    def __init__(self, table: _Optional[str] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., errors: _Optional[_Union[AirErrors, _Mapping]] = ..., located: _Optional[_Union[SurfaceLocation, str]] = ..., lever_arm: _Optional[_Union[ForwardRightDown, _Mapping]] = ..., refractive_index: _Optional[float] = ..., datum: _Optional[float] = ..., sea_axis: _Optional[float] = ...) -> None: ...
+    def __init__(self, table: _Optional[str] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., errors: _Optional[_Union[AirErrors, _Mapping]] = ..., located: _Optional[_Union[SurfaceLocation, str]] = ..., lever_arm: _Optional[_Union[ForwardRightDown, _Mapping]] = ..., refractive_index: _Optional[float] = ..., datum: _Optional[float] = ..., sea_axis: _Optional[float] = ..., extra_horizontal: _Optional[float] = ..., extra_vertical: _Optional[float] = ...) -> None: ...
 
 class ForwardRightDown(_message.Message):
     __slots__ = ["down", "forward", "right"]
