@@ -29,8 +29,8 @@ constexpr int kLastUnclassified = 1;  // ASPRS: 0 and 1 are points that nobody c
 }  // namespace
 
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
-                           const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
-                           bool pulse_surface, const AnswerSource& source)
+                           const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams,
+                           const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source)
     : fields_(header),
       record_length_(header.record_length),
       plan_(annotation.plan),
@@ -69,7 +69,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   MakePulses(plan_, chunk.beams, chunk.rows, chunk.pulses);
   if (seas_ != nullptr) {
     chunk.pulses.times.clear();
-    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(chunk.points.times[row] + utc_);
+    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(utc_(chunk.points.times[row]));
   }
   RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers));
   if (total_ != nullptr) {
@@ -149,7 +149,7 @@ void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
 void LasChunkWork::FindSeas(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
     std::optional<NoPulse>& why = chunk.beams.why_not[i];
-    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(chunk.points.times[i] + utc_).has_value())
+    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(utc_(chunk.points.times[i])).has_value())
       why = NoPulse::kNoSea;
   }
 }

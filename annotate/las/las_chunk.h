@@ -20,6 +20,7 @@
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
+#include "formats/trajectories/dated_clock.h"
 
 namespace albtpu::annotate {
 
@@ -50,8 +51,8 @@ class LasChunkWork {
   // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where
   // the sea goes by time. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
   LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
-               const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
-               bool pulse_surface, const AnswerSource& source);
+               const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams,
+               const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source);
 
   // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
   // searched for returns of the same pulse.
@@ -113,7 +114,7 @@ class LasChunkWork {
   const BeamPlan& plan_;
   const BeamGeometry& beams_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
-  double utc_;
+  formats::UtcClock utc_;
   bool pulse_surface_, use_withheld_;
   formats::Appended appended_;
   std::vector<formats::AppendedFloat> numbers_;  // What is appended or replaces: floats, and a byte at the end.
