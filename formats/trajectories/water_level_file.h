@@ -26,9 +26,9 @@ namespace albtpu::formats {
 
 // What a file of levels does not state, by the user.
 struct LevelReference {
-  std::optional<std::string> datum;      // "MLLW", by name.
-  double offset = 0;                     // Added to levels, from that datum to that of the points, in their unit.
-  std::optional<double> hours_from_utc;  // Of times that state no zone: local time - UTC.
+  std::optional<std::string> datum = {};      // "MLLW", by name.
+  double offset = 0;                          // Added to levels, from that datum to that of the points, in their unit.
+  std::optional<double> hours_from_utc = {};  // Of times that state no zone: local time - UTC.
 };
 
 class WaterLevelSeries {

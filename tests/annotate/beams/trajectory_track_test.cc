@@ -249,7 +249,7 @@ TEST_F(TrackFromFilesTest, TakesTheTrajectoryOfItsWeek) {
     const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
     ASSERT_TRUE(found.ok()) << found.status();
     EXPECT_THAT(found->notes.back(), HasSubstr("a.sbet is not of this flight and left out"));
-    EXPECT_EQ(Ask(*found->track, {flight_.start + 50}).first[0].x, expected[0].x);
+    EXPECT_EQ(Ask(*found->track, {flight_.start + 50}).positions[0].x, expected[0].x);
   }
   // Without returns under water, nothing says which of two heights is right.
   file_.rays.clear();
