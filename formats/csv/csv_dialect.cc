@@ -48,10 +48,14 @@ std::string CsvDialect::Text() const {
 absl::StatusOr<char> SeparatorOf(std::string_view name, std::string_view header) {
   std::array<std::size_t, kSeparators.size()> counts = {};
   bool quoted = false;
+  char before = '\0';
   for (const char character : header) {
     if (character == '"') quoted = !quoted;
     const auto* const found = std::find(kSeparators.begin(), kSeparators.end(), character);
-    if (!quoted && found != kSeparators.end()) ++counts[static_cast<std::size_t>(found - kSeparators.begin())];
+    const bool is_blank = character == '\t' && (before == ',' || before == ';');  // "depth,<tab>incidence"
+    if (!quoted && !is_blank && found != kSeparators.end())
+      ++counts[static_cast<std::size_t>(found - kSeparators.begin())];
+    before = character;
   }
   const auto most = std::max_element(counts.begin(), counts.end());
   const char separator = kSeparators[static_cast<std::size_t>(most - counts.begin())];
@@ -84,7 +88,9 @@ absl::StatusOr<std::optional<char>> DecimalOf(std::string_view name, std::string
     begin = i + 1;
     if (i < text.size() && text[i] == '\n') ++line;
   }
-  if (with_comma.has_value() && with_point.has_value()) {
+  const bool both = with_comma.has_value() && with_point.has_value();
+  if (both && separator == ',') return '.';  // A quoted cell such as "4,5" is a text then.
+  if (both) {
     return absl::InvalidArgumentError(absl::StrCat(std::string(name), ": has a number with a comma in line ",
                                                    *with_comma, " and one with a point in line ", *with_point,
                                                    ", so that a comma may be a decimal mark or not; write one mark"));

@@ -32,7 +32,8 @@ std::string_view FirstRecordOf(std::string_view text);
 absl::StatusOr<char> SeparatorOf(std::string_view name, std::string_view header);
 
 // The decimal mark of the numbers in `text`, complete records: a comma if cells such as 4,5 have one; nullopt where no
-// number has a fraction. Fails where both marks occur, because 4,500 may be more than four thousand then. `line` is the
+// number has a fraction. Fails where both marks occur, because 4,500 may be more than four thousand then; where commas
+// separate cells, it is a point then. `line` is the
 // first one of the text.
 absl::StatusOr<std::optional<char>> DecimalOf(std::string_view name, std::string_view text, std::size_t line,
                                               char separator);

@@ -29,6 +29,8 @@ TEST(CsvDialect, IsThatOfHeaderAndNumbers) {
       {"a\tb\r\n-1,5e3\t2\r\n", '\t', ','},
       {"a\tb\n1.5\t2\n", '\t', '.'},
       {"a,b\n\"1,5\",2\n", ',', ','},
+      {"place,b\n\"1,5\",2.5\n", ',', '.'},
+      {"a,\tb\n1.5,\t2\n", ',', '.'},
       {"\"a,b\";\"c\"\n,5;2\n", ';', ','},
       {"depth;wind, at 10 m;x\n1;2;3,25\n", ';', ','},
       {"time;level\n2016-05-11T14:00:00.5Z;1,5\n", ';', ','},  // A date is no number.
