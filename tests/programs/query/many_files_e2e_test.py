@@ -11,6 +11,7 @@ import subprocess
 import numpy as np
 
 import programs
+import short_files
 from las_file import LasFile
 from programs import FLAGS, make_flight, make_table, query
 from simulated_survey import SimulatedSurvey
@@ -196,25 +197,12 @@ class ManyTrajectoriesTest(programs.Test):
 
     def make(self, count):
         survey = SimulatedSurvey(self.folder, "--seconds", 4, "--seed", 3, "--start", 1000, "--sbet-rate", 50)
-        las, records = LasFile(survey.las), survey.records()
-        rows = las.records[len(las.records) // 2:][:1000].copy()
-        head = bytearray(las.bytes[:las.offset_to_points])
-        struct.pack_into("<QIQ", head, 235, 0, 0, len(rows))
-        times = rows[:, 22:30].copy().view("<f8")
-        of_week = (times + 1e9) % 604800
-        records = records[(records[:, 0] > of_week.min() - 1) & (records[:, 0] < of_week.max() + 1)]
-        for name in ("las", "sbet", "out"):
-            (self.folder / name).mkdir(exist_ok=True)
-        for i in range(count):
-            rows[:, 22:30] = (times + 60 * i).view(np.uint8)
-            (self.folder / "las" / f"{i:04}.las").write_bytes(bytes(head) + rows.tobytes())
-            moved = records.copy()
-            moved[:, 0] += 60 * i
-            moved.tofile(self.folder / "sbet" / f"{i:04}.sbet")
+        files = short_files.make(survey.las, self.folder, count)
+        (self.folder / "out").mkdir()
         self.flags = ("--output-dir", self.folder / "out", "--trajectory", self.folder / "sbet", "--lever-arm",
                       "0.3,-0.2,0.5", "--water-level", survey.water_level, "--classes", 40, "--divergence", 1,
                       "--wind-speed", 6, "--table", self.table, "--details")
-        return [self.folder / "las" / f"{i:04}.las" for i in range(count)]
+        return files
 
     def annotate(self, files, *flags):
         before = reads()
@@ -229,11 +217,11 @@ class ManyTrajectoriesTest(programs.Test):
         of_sixty, _ = self.annotate(files, "--overwrite")
         self.assertLess(of_thirty - of_one, 29 * 20)
         self.assertEqual(of_sixty - of_thirty, round((of_thirty - of_one) / 29) * 30)
-        first = LasFile(self.folder / "out" / "0000.las").records[:, -28:]
+        first = LasFile(self.folder / "out" / "00000.las").records[:, -28:]
         self.assertGreater(first.any(axis=1).mean(), 0.5)
         for i in (1, 29, 59):
-            columns = LasFile(self.folder / "out" / f"{i:04}.las").columns()
-            right = LasFile(self.folder / "out" / "0000.las").columns()
+            columns = LasFile(self.folder / "out" / f"{i:05}.las").columns()
+            right = LasFile(self.folder / "out" / "00000.las").columns()
             for name in ("incidence", "sea_thu", "slant_range"):
                 # Times that are 60 s later have other last bits: 0.1 us of 60 m/s.
                 np.testing.assert_allclose(columns[name], right[name], rtol=1e-5, atol=1e-5)
@@ -245,7 +233,7 @@ class ManyTrajectoriesTest(programs.Test):
         self.assertEqual(result.stderr.count("is already complete"), 10)
         _, result = self.annotate(files, "--resume")
         self.assertEqual(result.stderr.count("is already complete"), 20)
-        os.utime(self.folder / "sbet" / "0007.sbet", (2e9, 2e9))
+        os.utime(self.folder / "sbet" / "00007.sbet", (2e9, 2e9))
         _, result = self.annotate(files, "--resume", "--overwrite")
         self.assertNotIn("is already complete", result.stderr)
 
