@@ -10,8 +10,10 @@ MOST = 10_000  # The times of a week.
 
 
 def make(survey, folder, count):
-    """Writes `count` files into the folders las and sbet of `folder`, from the middle of `survey`, the LAS of a
-    simulated survey of point format 6 and adjusted times beside its sbet.out, and returns the paths of the LAS files."""
+    """Writes `count` files into the folders las and sbet of `folder`, and returns the paths of the LAS files.
+
+    `survey` is the LAS of a simulated survey, of point format 6 and adjusted times, beside its sbet.out.
+    """
     assert count <= MOST
     data = survey.read_bytes()
     offset, = struct.unpack_from("<I", data, 96)

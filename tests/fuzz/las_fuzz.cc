@@ -158,15 +158,16 @@ void CheckAnnotated(std::string_view file, const LasReader& reader, const std::s
 }
 
 // What is said of a file to people who have yet to describe it: all points are of some class.
-void CheckContents(const LasReader& reader) {
+void CheckContents(const LasReader& reader, std::string_view input) {
   const absl::StatusOr<LasContents> contents = ReadContents(reader);
   if (!contents.ok()) return MustExplain(contents.status());
   ALBTPU_MUST(contents->points == reader.header().point_count);
   std::uint64_t points = 0;
   for (const LasClassContents& of_class : contents->classes) points += of_class.points;
   ALBTPU_MUST(points == contents->points);
-  ALBTPU_MUST(!contents->has_times() || std::isfinite(contents->last_time - contents->first_time));
+  ALBTPU_MUST(!contents->has_times() || (std::isfinite(contents->first_time) && std::isfinite(contents->last_time)));
   contents->scan_pattern();
+  if (!IsOneIn(64, input)) return;  // PROJ takes long.
   const absl::StatusOr<LasCrs> crs = CrsOf(reader, "");
   ALBTPU_MUST(!crs.ok() || crs->map != nullptr);
 }
@@ -180,7 +181,7 @@ void LasTarget(std::string_view file) {
   if (!reader.ok()) return MustExplain(reader.status());
   ALBTPU_MUST(FindFeet(*reader).ok());
   ALBTPU_MUST(DescribeCrs(*reader).ok());
-  CheckContents(*reader);
+  CheckContents(*reader, file);
   if (reader->kind() == LasKind::kLaz) return;  // Its points are not in the file as they are.
   absl::StatusOr<LasHead> head = AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
   if (!head.ok()) return MustExplain(head.status());

@@ -93,7 +93,10 @@ void ClocksTarget(std::string_view input) {
   }
   const TimeSpan utc = {UtcOfGps(known.first + kAdjustedGpsOffset), UtcOfGps(known.last + kAdjustedGpsOffset)};
   const absl::StatusOr<UtcClock> clock = FindUtcClock("file", points, format, utc, "known", note);
-  if (!clock.ok()) return ALBTPU_MUST(absl::StartsWith(clock.status().message(), "file: "));
+  if (!clock.ok()) {
+    ALBTPU_MUST(absl::StartsWith(clock.status().message(), "file: "));
+    return;
+  }
   const TimeSpan span = {(*clock)(points.span.first), (*clock)(points.span.last)};
   ALBTPU_MUST(Overlap(span, utc) >= -20);  // Leap seconds may lie between the points and what is known.
 }
