@@ -94,7 +94,7 @@ void ReadMore(TomlKeys&, const fs::path&, Settings&) {}
 // Keys that contradict each other.
 void CheckTogether(TomlKeys& keys, const TrajectorySettings& trajectory) {
   if (!trajectory.from_returns.value_or(false)) return;
-  for (const std::string_view key : {"files", "errors", "time", "time_format", "velocity_axes"})
+  for (const std::string_view key : {"files", "errors", "time", "velocity_axes"})
     if (keys.Has(key)) keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
 }
 void CheckTogether(TomlKeys& keys, const SurfaceSettings& surface) {

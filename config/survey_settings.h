@@ -40,6 +40,10 @@ struct SurfaceSettings {               // [surface]
   std::vector<int> classes;            // Of returns from the surface.
   std::optional<std::string> located;  // kWaysToLocate
   std::optional<Level> level;          // In the unit and datum of the points.
+  // Of a file of levels, what it does not state: the name of its datum, what is added for that of the points in their
+  // unit, and the time zone of its dates.
+  std::optional<std::string> level_datum;
+  std::optional<double> level_offset, level_hours_from_utc;
 };
 
 // A bias of the water column that was measured against what is known of the bottom.
@@ -121,6 +125,9 @@ inline constexpr WholeNumbers kClasses = {0, 255};
 // From the Dead Sea to the highest lakes (6400 m), in metres or in feet.
 inline constexpr NumberOrPath kLevel = {
     {-2000, 25000, "1"}, "a height, or the path of a file of heights", "Z|FILE.csv"};
+// The geoid lies up to 106 m from the ellipsoid, in metres or in feet, and tides of 16 m about it.
+inline constexpr Number kLevelOffset = {-500, 500, "1"};
+inline constexpr Number kHoursFromUtc = {-12, 14, "h"};
 // Fresh water at 30 degrees and 1064 nm has 1.32, cold sea water at 355 nm 1.36.
 inline constexpr Number kWaterIndex = {1.3, 1.4, "1"};
 
@@ -142,8 +149,8 @@ inline constexpr std::array<Key<TrajectorySettings>, 6> kTrajectoryKeys = {{
     {{"time", "--trajectory-time", Word{kTrajectoryTimes}, "gps", "Time scale of the trajectory"},
      &TrajectorySettings::time},
     {{"time_format", "--time-format", Word{kTimeFormats}, "auto",
-      "GPS times of the points: auto takes what the file states, or else the only one by which the trajectory lies at "
-      "the points; adjusted is GPS seconds less 1e9, gps is GPS seconds since 1980"},
+      "GPS times of the points: auto takes what the file states, or else the only one by which trajectory, water "
+      "levels or sea lie at the points; adjusted is GPS seconds less 1e9, gps is GPS seconds since 1980"},
      &TrajectorySettings::time_format},
     {{"velocity_axes", "--velocity-axes", Word{kVelocityAxes}, "auto",
       "Axes of an SBET's velocities: auto takes those of the body where these alone agree with its positions"},
@@ -152,7 +159,7 @@ inline constexpr std::array<Key<TrajectorySettings>, 6> kTrajectoryKeys = {{
       "Find the trajectory from pulses with two returns under water"},
      &TrajectorySettings::from_returns},
 }};
-inline constexpr std::array<Key<SurfaceSettings>, 3> kSurfaceKeys = {{
+inline constexpr std::array<Key<SurfaceSettings>, 6> kSurfaceKeys = {{
     {{"classes", "--water-classes", kClasses, "",
       "The classes of returns from the water surface; they come before its level where there are any"},
      &SurfaceSettings::classes},
@@ -163,6 +170,15 @@ inline constexpr std::array<Key<SurfaceSettings>, 3> kSurfaceKeys = {{
     {{"level", "--water-level", kLevel, "",
       "Height of the water surface, in the unit and datum of the points' heights, or a CSV file of heights by time"},
      &SurfaceSettings::level},
+    {{"level_datum", "--level-datum", Text{"the name of a vertical datum", "NAME"}, "that of the points' heights",
+      "The datum of a file of water levels that does not state it, as those of CO-OPS: MLLW, NAVD"},
+     &SurfaceSettings::level_datum},
+    {{"level_offset", "--level-offset", kLevelOffset, "0",
+      "Added to the levels of a file, for the datum of the points' heights and in their unit"},
+     &SurfaceSettings::level_offset},
+    {{"level_hours_from_utc", "--level-hours-from-utc", kHoursFromUtc, "0",
+      "Local time less UTC, of a file of water levels that does not state its time zone, as those of CO-OPS"},
+     &SurfaceSettings::level_hours_from_utc},
 }};
 // Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
 // and the salt of the ocean 45 at most; it freezes above -2.

@@ -182,7 +182,6 @@ ordered_json Parameters(const BeamPlan& plan) {
     json["trajectory"] = plan.trajectories != nullptr ? NamesAndSizes(*plan.trajectories) : ordered_json();
     json["trajectory_errors"] = NamesAndSizes(plan.trajectory_errors);
     json["trajectory_time"] = files->utc ? "utc" : "gps";
-    if (files->time_format != formats::TimeFormat::kAuto) json["time_format"] = formats::NameOf(files->time_format);
     if (files->velocity_axes != formats::VelocityAxes::kAuto)
       json["velocity_axes"] = std::string(formats::kVelocityAxesNames[static_cast<std::size_t>(files->velocity_axes)]);
     json["geoid_separation"] = or_null(files->geoid_separation);
@@ -191,10 +190,15 @@ ordered_json Parameters(const BeamPlan& plan) {
   } else {
     json["crs"] = or_null(std::get<TrajectoryFromReturns>(plan.source).crs);
   }
+  if (plan.time_format != formats::TimeFormat::kAuto) json["time_format"] = formats::NameOf(plan.time_format);
   json["water_index"] = plan.has_track() ? ordered_json(plan.refractive_index) : ordered_json();
   json["water_level"] = or_null(plan.water_level);
   json["water_level_file"] = nullptr;
   if (plan.water_level_file.has_value()) json["water_level_file"] = NameAndSize(*plan.water_level_file);
+  if (plan.level_reference.datum.has_value()) json["level_datum"] = *plan.level_reference.datum;
+  if (plan.level_reference.offset != 0) json["level_offset"] = plan.level_reference.offset;
+  if (plan.level_reference.hours_from_utc.has_value())
+    json["level_hours_from_utc"] = *plan.level_reference.hours_from_utc;
   json["water_classes"] = plan.water_classes;
   json["metres_per_unit"] = or_null(plan.metres_per_unit);  // Null: as the coordinate system states.
   json["wind_speed"] = plan.any_sea ? ordered_json() : formats::JsonNumber(plan.wind_speed);

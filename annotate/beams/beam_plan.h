@@ -22,6 +22,7 @@
 #include "formats/trajectories/sbet_record.h"
 #include "formats/trajectories/span_index.h"
 #include "formats/trajectories/trajectory_timeline.h"
+#include "formats/trajectories/water_level_file.h"
 
 namespace albtpu::annotate {
 
@@ -83,7 +84,6 @@ struct TrajectoryFromFiles {
   std::vector<std::string> paths;                                      // Files and folders.
   std::vector<std::string> errors;                                     // Error files of these, and folders of them.
   bool utc = false;                                                    // Times are UTC, not GPS.
-  formats::TimeFormat time_format = formats::TimeFormat::kAuto;        // Of the points.
   formats::VelocityAxes velocity_axes = formats::VelocityAxes::kAuto;  // Of SBETs.
   std::optional<double> geoid_separation;                              // m
   std::array<double, 3> lever_arm = {};                                // m; forward, right, down
@@ -113,15 +113,16 @@ struct DivergingBeam {
 
 struct BeamPlan {
   BeamSource source = ConstantIncidence();
-  std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
-  bool any_aircraft = false;                     // Also compute the motion of the aircraft.
-  bool dry_points = false;                       // Bottom above the water is dry, not without a beam.
-  bool any_sea = false;                          // Not a table of winds: azimuths count from north.
-  std::optional<float> azimuth;                  // degree from downwind, of all beams.
-  std::optional<double> wind_from;               // degree, true
-  float wind_speed = 0;                          // m/s at 10 m
-  std::optional<float> fetch;                    // m; absent: fully developed sea.
-  double refractive_index = kSeaWaterIndex;      // Of the water.
+  std::variant<float, DivergingBeam> footprint;                  // m, or computed for each pulse.
+  formats::TimeFormat time_format = formats::TimeFormat::kAuto;  // Of the points.
+  bool any_aircraft = false;                                     // Also compute the motion of the aircraft.
+  bool dry_points = false;                                       // Bottom above the water is dry, not without a beam.
+  bool any_sea = false;                                          // Not a table of winds: azimuths count from north.
+  std::optional<float> azimuth;                                  // degree from downwind, of all beams.
+  std::optional<double> wind_from;                               // degree, true
+  float wind_speed = 0;                                          // m/s at 10 m
+  std::optional<float> fetch;                                    // m; absent: fully developed sea.
+  double refractive_index = kSeaWaterIndex;                      // Of the water.
 
   // The files of TrajectoryFromFiles, opened and checked.
   std::shared_ptr<const formats::TrajectoryFiles> trajectories;
@@ -130,6 +131,7 @@ struct BeamPlan {
   // The source of the water surface: at least one of the three.
   std::optional<double> water_level;            // In the vertical unit and datum of the points.
   std::optional<std::string> water_level_file;  // Levels by time.
+  formats::LevelReference level_reference;      // Of this file.
   std::set<int> water_classes;                  // Of returns from the surface.
   std::optional<double> metres_per_unit;        // Of heights; absent: as the coordinate system states.
 

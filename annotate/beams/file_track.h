@@ -51,16 +51,17 @@ struct TrackedFile {
 struct FileTrack {
   std::unique_ptr<const SensorTrack> track;
   std::unique_ptr<const SensorMotions> motions;  // Of the aircraft, along the track.
+  double seconds = 1;                            // Of a unit of the points' times.
   JsonBox json;                                  // For a summary.
   std::vector<std::string> notes;                // For the user, a line each.
 };
 
-// From the trajectory files of the plan that overlap the points in time and lie near them. Fails when they do not, and
-// when the rays disagree with the track; the message names the cause as far as it can be found.
-absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan);
+// The file with times as a clock gives them, without rays that have no time.
+TrackedFile ByClock(const TrackedFile& stated, const formats::PointClock& clock);
 
 // From the rays, of water of index `index`. Fails when they are too few to determine the position of the sensor.
-absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index);
+// `seconds`: of a unit of the points' times.
+absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index, double seconds = 1);
 
 // The track that was fitted to the returns of a file, in the coordinates of its points.
 

@@ -69,10 +69,10 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
       count(SurfaceFrom::kPulse);
       continue;
     }
-    const std::optional<double> local =
-        surface == nullptr
-            ? std::nullopt
-            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]), points.times.empty() ? 0 : points.times[i]);
+    const std::optional<double> local = surface == nullptr
+                                            ? std::nullopt
+                                            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
+                                                                points.times.empty() ? 0 : seconds * points.times[i]);
     if (local.has_value()) {
       heights[i] = *local;
       count(SurfaceFrom::kLocal);

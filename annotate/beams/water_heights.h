@@ -61,6 +61,7 @@ struct WaterHeights {
   const LocalWaterSurface* surface = nullptr;         // m, in the local frame.
   const formats::WaterLevelSeries* levels = nullptr;  // In the vertical unit of the points.
   std::optional<double> level;                        // In the vertical unit of the points.
+  double seconds = 1;                                 // Of a unit of the points' times, for `surface`.
 
   // Fills `heights` with the surface at each point, m in the vertical datum of the points; NaN where none is known. Dry
   // points are not counted.

@@ -114,10 +114,17 @@ class BlockWork {
     return absl::OkStatus();
   }
 
-  void AppendTotal(const AnswerBatch& answers, const TotalBatch& totals, std::size_t i, std::string& to) const {
-    const auto number = [&to](float value) {
-      to += ',';
-      if (std::isfinite(value)) formats::AppendFloat(value, to);
+  static void AppendNumber(const formats::CsvDialect& dialect, float value, std::string& to) {
+    const std::size_t begin = to.size();
+    formats::AppendFloat(value, to);
+    formats::ToDialect(dialect, begin, to);
+  }
+
+  void AppendTotal(const formats::CsvDialect& dialect, const AnswerBatch& answers, const TotalBatch& totals,
+                   std::size_t i, std::string& to) const {
+    const auto number = [&](float value) {
+      to += dialect.separator;
+      if (std::isfinite(value)) AppendNumber(dialect, value, to);
     };
     number(totals.thu[i]);
     number(totals.tvu[i]);
@@ -135,15 +142,16 @@ class BlockWork {
     }
     number(answers[Quantity::kBiasAlongBeam][i]);
     number(answers[Quantity::kBiasVertical][i]);
-    (to += ',') += OutcomeName(answers, i);
+    (to += dialect.separator) += OutcomeName(answers, i);
     if (!style_.s44_order.has_value()) return;
-    to += ',';
+    to += dialect.separator;
     if (totals.best_orders[i] > 0) to += Name(kS44Orders[totals.best_orders[i] - 1]);
   }
 
   void Encode(Chunk& chunk) const {
     std::string_view rest = chunk.block.text;
     std::string& to = chunk.annotated;
+    const formats::CsvDialect& dialect = chunk.block.dialect;
     to.clear();
     std::size_t with = 0, without = 0;
     for (const Chunk::Row& row : chunk.rows) {
@@ -152,15 +160,15 @@ class BlockWork {
         const Chunk::Half& half = chunk.halves[row.has_azimuth];
         const std::size_t i = row.has_azimuth ? with++ : without++;
         if (total_ != nullptr) {
-          AppendTotal(half.answers, half.totals, i, to);
+          AppendTotal(dialect, half.answers, half.totals, i, to);
         } else {
           cells_.Visit(
               half.answers, i,
-              [&to](float number) {
-                to += ',';
-                formats::AppendFloat(number, to);
+              [&](float number) {
+                to += dialect.separator;
+                AppendNumber(dialect, number, to);
               },
-              [&to](std::string_view text) { (to += ',') += text; }, [&to] { to += ','; });
+              [&](std::string_view text) { (to += dialect.separator) += text; }, [&] { to += dialect.separator; });
         }
       }
       const std::string_view ending = rest.substr(row.text_size, row.ending_size);
@@ -183,7 +191,7 @@ class BlockWork {
 std::string AnnotatedHeader(const formats::CsvRecord& header, const std::string& ending,
                             const std::vector<std::string>& names) {
   std::string text(header.text);
-  for (const std::string& name : names) absl::StrAppend(&text, ",", name);
+  for (const std::string& name : names) absl::StrAppend(&text, std::string(1, header.dialect.separator), name);
   return text + ending;
 }
 
@@ -264,6 +272,7 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, con
                          .summary = UncertaintySummary(style),
                          .totals = {},
                          .took_divergence = took_divergence,
+                         .dialect = {},
                          .file = std::move(file)};
   FileProgress::File file_progress(progress, input.filename().string());
   const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);
@@ -272,6 +281,7 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input, con
   if (status.ok()) status = AnnotateRecords(reader, work, style, file_progress, annotated);
   RETURN_IF_ERROR(reader.CheckUnchanged());
   if (!status.ok()) return status;
+  annotated.dialect = reader.dialect();
   return annotated;
 }
 

@@ -21,6 +21,7 @@ struct AnnotatedCsv {
   UncertaintySummary summary;
   TotalSummary totals;           // Empty without a total.
   bool took_divergence = false;  // of CsvTotal
+  formats::CsvDialect dialect;   // Of input and output.
   OutputFile file;               // Complete; Commit() gives it its name.
 };
 
@@ -39,9 +40,10 @@ FixedInputs OfTotal(FixedInputs fixed, std::optional<double> divergence, const f
 
 // Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns
 // are ignored. Every record is copied byte for byte, including line ending, quotes and byte order mark, and followed by
-// the columns of `AnswerCells`, or with `total` those of TotalCells; a last line without a line ending gets that of the
-// header. Blank lines are copied. An empty cell in `fetch` means a fully developed sea, in `azimuth`, `beam_azimuth` or
-// `wind_from` no azimuth. Reading, querying and writing overlap; memory does not grow with the file.
+// the columns of `AnswerCells`, or with `total` those of TotalCells, in the dialect of the file; a last line without a
+// line ending gets that of the header. Blank lines are copied. An empty cell in `fetch` means a fully developed sea, in
+// `azimuth`, `beam_azimuth` or `wind_from` no azimuth. Reading, querying and writing overlap; memory does not grow with
+// the file.
 //
 // Fails and writes nothing when a column is missing and has no fixed number, occurs twice, also has a fixed number
 // (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be

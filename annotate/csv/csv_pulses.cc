@@ -60,7 +60,6 @@ std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
 
 absl::Status MissingColumns(const std::string& file, const std::vector<AxisId>& axes,
                             const std::vector<std::string>& names, const InputOrigins& origins) {
-  const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
   const auto list = [&](const char* separator, const auto& text_of) {
     return absl::StrJoin(axes, separator, [&](std::string* text, AxisId axis) { text->append(text_of(axis)); });
   };
@@ -69,10 +68,8 @@ absl::Status MissingColumns(const std::string& file, const std::vector<AxisId>& 
       file, " line 1: no column", one ? " " : "s ",
       list(", ", [](AxisId axis) { return absl::StrCat("'", std::string(Describe(axis).name), "'"); }),
       " (columns found: ", absl::StrJoin(names, ", "), "); ",
-      other_separator
-          ? std::string("separate the columns by commas")
-          : absl::StrCat("add ", one ? "it" : "them", ", or give one value for all pulses by ",
-                         list(" and ", [&](AxisId axis) { return FlagName(axis) + MissingAdvice(axis, origins); }))));
+      absl::StrCat("add ", one ? "it" : "them", ", or give one value for all pulses by ",
+                   list(" and ", [&](AxisId axis) { return FlagName(axis) + MissingAdvice(axis, origins); }))));
 }
 
 // Where the inputs of pulses come from. A column comes before a flag; with both, Bind() fails.
@@ -202,19 +199,23 @@ absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const for
   const absl::string_view cell =
       absl::StripAsciiWhitespace(quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
   if (cell.empty() && may_be_empty) return std::nullopt;
-  const std::optional<float> value = formats::ParseFloat(std::string_view(cell.data(), cell.size()));
+  std::string buffer;
+  const std::optional<std::string_view> text =
+      formats::WithPoint(std::string_view(cell.data(), cell.size()), record.dialect, buffer);
+  const std::optional<float> value = text.has_value() ? formats::ParseFloat(*text) : std::nullopt;
   if (value.has_value()) return value;
-  return absl::InvalidArgumentError(
-      absl::StrCat(file, " line ", record.line, ", column '", std::string(column),
-                   "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-                   "; write a number in ", std::string(units), ", such as 12.5"));
+  return absl::InvalidArgumentError(absl::StrCat(
+      file, " line ", record.line, ", column '", std::string(column),
+      "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
+      "; write a number in ", std::string(units), ", such as ", record.dialect.decimal == ',' ? "12,5" : "12.5",
+      record.dialect.is_usual() ? "" : absl::StrCat(" (", record.dialect.Text(), ")")));
 }
 
 absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPulseBatches& batches) const {
   if (record.cell_count() != column_count_) {
     return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": ", record.cell_count(),
-                                                   " cells, but the header has ", column_count_,
-                                                   "; write one cell for each column"));
+                                                   " cells, but the header has ", column_count_, " (",
+                                                   record.dialect.Text(), "); write one cell for each column"));
   }
   bool has_azimuth = may_have_azimuth_;
   PulseNumbers numbers = fixed_;

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "annotate/beams/trajectory_track.h"
 #include "annotate/beams/water_heights.h"
 #include "formats/las/las_points.h"
 #include "formats/trajectories/trajectory_time.h"
@@ -19,7 +20,8 @@ bool GoesByTime(const LasAnnotation& annotation) { return annotation.seas != nul
 formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
   return {.span = {prescan.first_time, prescan.last_time},
           .form = reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
-                                                    : formats::PointTimeForm::kWeekSeconds};
+                                                    : formats::PointTimeForm::kWeekSeconds,
+          .created = formats::GpsTimeOfDay(reader.header().creation_year, reader.header().creation_day)};
 }
 
 // Times are needed to find the position of the sensor or the water level at a point.
@@ -51,7 +53,8 @@ absl::Status CheckChannels(const formats::LasReader& reader, const LasAnnotation
   return absl::OkStatus();
 }
 
-constexpr double kRoundedBounds = 1;  // m; programs round the bounds of a header.
+constexpr double kMillisecond = 1e-3;  // s, exact.
+constexpr double kRoundedBounds = 1;   // m; programs round the bounds of a header.
 
 // "x 0 to 8 instead of 3 to 8": the bounds of the header that are not those of the points. Empty without points.
 std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box& box, const LocalFrame& frame) {
@@ -113,7 +116,8 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
 }  // namespace
 
 absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
-                                                           const WaterHeights& water) {
+                                                           const WaterHeights& water, double& found_seconds) {
+  found_seconds = seconds_;
   if (prescan_.numbered == 0) return nullptr;  // No point needs a position.
   const auto* const files = std::get_if<TrajectoryFromFiles>(&plan.source);
   const std::array<double, 3> lever_arm = files != nullptr ? files->lever_arm : std::array<double, 3>{};
@@ -126,8 +130,9 @@ absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasRea
         ": the GPS times of its points are all 0 or no numbers, so that no position of the sensor belongs to them; "
         "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
   }
-  ASSIGN_OR_RETURN(FileTrack track,
-                   files != nullptr ? TrackFromFiles(file, plan) : TrackFromReturns(file, plan.refractive_index));
+  ASSIGN_OR_RETURN(FileTrack track, files != nullptr ? TrackFromFiles(file, plan)
+                                                     : TrackFromReturns(file, plan.refractive_index, seconds_));
+  found_seconds = track.seconds;
   tracks_.emplace_back(new Track{lever_arm, std::move(track.track), std::move(track.motions)});
   if (tracks_.size() > 1) return tracks_.back().get();  // That of another lever arm says nothing else of the file.
   (*json_)["trajectory"] = std::move(*track.json);
@@ -140,15 +145,39 @@ absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasRea
   return tracks_.back().get();
 }
 
-absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimeline& seas) {
+void LasBeams::AddNote(const std::string& note) {
+  if (!note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+}
+
+absl::Status LasBeams::FindLevels(const formats::LasReader& reader, const BeamPlan& plan) {
+  if (!plan.water_level_file.has_value()) return absl::OkStatus();
+  const formats::PointTimes times = TimesOf(reader, prescan_);
+  if (!(times.span.first <= times.span.last)) {  // No point needs a level, or none has a time.
+    ASSIGN_OR_RETURN(levels_,
+                     formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard,
+                                              plan.level_reference));
+    return absl::OkStatus();
+  }
+  std::string note;
+  ASSIGN_OR_RETURN(
+      levels_, formats::FindWaterLevels(*plan.water_level_file, times, plan.time_format, plan.level_reference, note));
+  levels_->TakeUnit(place_.frame.metres_per_z);
+  AddNote(levels_->description());
+  AddNote(note);
+  return absl::OkStatus();
+}
+
+absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const BeamPlan& plan, const SeaTimeline& seas) {
   if (!seas.by_time()) {
     records_ = {seas.fixed().first, seas.fixed().second};
     return absl::OkStatus();
   }
   if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a sea.
-  ASSIGN_OR_RETURN(utc_, formats::UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()},
-                                            *seas.settings().file));
-  records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
+  std::string note;
+  ASSIGN_OR_RETURN(utc_, formats::FindUtcClock(reader.name(), TimesOf(reader, prescan_), plan.time_format,
+                                               {seas.start(), seas.end()}, *seas.settings().file, note));
+  AddNote(note);
+  records_ = seas.RecordsWithin(utc_(prescan_.first_time), utc_(prescan_.last_time));
   return absl::OkStatus();
 }
 
@@ -160,6 +189,28 @@ void LasBeams::NoteLevel() {
                       "%.2f; check the level, its unit and its vertical datum, or give --water-classes",
                       prescan_.off_level, prescan_.level_returns, kLevelTolerance,
                       prescan_.off_level_height / place_.frame.metres_per_z));
+}
+
+absl::Status LasBeams::Scan(const formats::LasReader& reader, const LasAnnotation& annotation) {
+  const BeamPlan& plan = annotation.plan;
+  const int format = reader.header().point_format;
+  ASSIGN_OR_RETURN(prescan_, Prescan(reader, place_.frame,
+                                     {.classes = annotation.ClassesOf(format),
+                                      .water_classes = plan.water_classes,
+                                      .pairs = plan.has_track(),
+                                      .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
+                                      .level_classes = formats::UsualSurfaceClasses(format),
+                                      .use_withheld = annotation.use_withheld,
+                                      .dry_points = plan.dry_points,
+                                      .seconds = seconds_}));
+  return absl::OkStatus();
+}
+
+absl::Status LasBeams::TakeUnitOfTime(double seconds, const formats::LasReader& reader,
+                                      const LasAnnotation& annotation) {
+  if (seconds == seconds_) return absl::OkStatus();
+  seconds_ = seconds;
+  return prescan_.surface.has_value() ? Scan(reader, annotation) : absl::OkStatus();
 }
 
 absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation) {
@@ -174,20 +225,8 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   }
   if (!place.ok()) return place.status();
   place_ = *std::move(place);
-  const int format = reader.header().point_format;
-  const auto scan = [&]() -> absl::Status {
-    ASSIGN_OR_RETURN(prescan_, Prescan(reader, place_.frame,
-                                       {.classes = annotation.ClassesOf(format),
-                                        .water_classes = plan.water_classes,
-                                        .pairs = plan.has_track(),
-                                        .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
-                                        .level_classes = formats::UsualSurfaceClasses(format),
-                                        .use_withheld = annotation.use_withheld,
-                                        .dry_points = plan.dry_points}));
-    return absl::OkStatus();
-  };
-  if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
-    RETURN_IF_ERROR(scan());
+  if (plan.has_track() || !plan.water_classes.empty() || plan.water_level_file.has_value() || GoesByTime(annotation)) {
+    RETURN_IF_ERROR(Scan(reader, annotation));
     if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_.frame); !axis.empty()) {
       return absl::FailedPreconditionError(absl::StrCat(
           reader.name(),
@@ -203,7 +242,7 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
       ASSIGN_OR_RETURN(
           place_,
           PlaceOf(reader, plan, formats::MapPosition{(least[0] + greatest[0]) / 2, (least[1] + greatest[1]) / 2}));
-      RETURN_IF_ERROR(scan());
+      RETURN_IF_ERROR(Scan(reader, annotation));
     }
     if (prescan_.synthetic_surface > 0)
       notes_.push_back(absl::StrCat(prescan_.synthetic_surface, " of ", prescan_.surface_returns,
@@ -213,30 +252,41 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   return absl::OkStatus();
 }
 
+WaterHeights LasBeams::Water(const BeamPlan& plan) const {
+  return {.surface = prescan_.surface.has_value() ? &*prescan_.surface : nullptr,
+          .levels = levels_.has_value() ? &*levels_ : nullptr,
+          .level = plan.water_level,
+          .seconds = seconds_};
+}
+
 absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReader& reader,
                                                          const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
   RETURN_IF_ERROR(CheckTimes(reader, annotation));
   RETURN_IF_ERROR(CheckChannels(reader, annotation));
   std::unique_ptr<LasBeams> beams(new LasBeams());
-  if (plan.water_level_file.has_value()) {
-    ASSIGN_OR_RETURN(beams->levels_,
-                     formats::ReadWaterLevels(*plan.water_level_file, reader.header().adjusted_gps_time
-                                                                          ? formats::PointTimeForm::kAdjustedStandard
-                                                                          : formats::PointTimeForm::kWeekSeconds));
-  }
+  if (plan.time_format == formats::TimeFormat::kMilliseconds) beams->seconds_ = kMillisecond;
   RETURN_IF_ERROR(beams->FindPlace(reader, annotation));
   beams->NoteLevel();
-  if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, *annotation.seas));
-  const WaterHeights water = {.surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
-                              .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
-                              .level = plan.water_level};
+  RETURN_IF_ERROR(beams->FindLevels(reader, plan));
+  if (beams->levels_.has_value() && beams->levels_->seconds() != 1)
+    RETURN_IF_ERROR(beams->TakeUnitOfTime(beams->levels_->seconds(), reader, annotation));
+  if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, plan, *annotation.seas));
+  if (beams->utc_.scale != 1) RETURN_IF_ERROR(beams->TakeUnitOfTime(beams->utc_.scale, reader, annotation));
   const auto add = [&](const BeamPlan& of_scanner) -> absl::Status {
     const Track* track = nullptr;
     if (of_scanner.has_track()) {
-      ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, water));
+      const std::size_t notes = beams->notes_.size();
+      double seconds = 1;
+      ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, beams->Water(plan), seconds));
+      if (seconds != beams->seconds_) {  // Of the first track: those of other lever arms have its clock.
+        RETURN_IF_ERROR(beams->TakeUnitOfTime(seconds, reader, annotation));
+        beams->notes_.resize(notes);
+        beams->tracks_.clear();
+        ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, beams->Water(plan), seconds));
+      }
     }
-    beams->geometries_.emplace_back(of_scanner, beams->place_.frame, water,
+    beams->geometries_.emplace_back(of_scanner, beams->place_.frame, beams->Water(plan),
                                     track != nullptr ? track->track.get() : nullptr,
                                     track != nullptr ? track->motions.get() : nullptr);
     return absl::OkStatus();

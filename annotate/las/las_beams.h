@@ -13,12 +13,14 @@
 #include "annotate/beams/beam_plan.h"
 #include "annotate/beams/file_track.h"
 #include "annotate/beams/point_beams.h"
+#include "annotate/beams/water_heights.h"
 #include "annotate/las/las_chunk.h"
 #include "annotate/las/las_place.h"
 #include "annotate/las/las_prescan.h"
 #include "budget/beams/track_spline.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_reader.h"
+#include "formats/trajectories/dated_clock.h"
 
 namespace albtpu::annotate {
 
@@ -32,8 +34,8 @@ class LasBeams {
   const std::vector<BeamGeometry>& geometries() const { return geometries_; }
   const LasPlace& place() const { return place_; }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
-  // UTC [s since 1970] = time of a point + it; where the sea goes by time.
-  double utc() const { return utc_; }
+  // Of the points' times, where the sea goes by time.
+  const formats::UtcClock& utc() const { return utc_; }
   // The first and the last record of the sea between which the chosen points lie; where there is a sea.
   const std::pair<std::size_t, std::size_t>& records() const { return records_; }
 
@@ -42,7 +44,8 @@ class LasBeams {
 
  private:
   void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
-  absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
+  absl::Status FindLevels(const formats::LasReader& reader, const BeamPlan& plan);
+  absl::Status FindSeas(const formats::LasReader& reader, const BeamPlan& plan, const SeaTimeline& seas);
   // Place and first pass, again if the points show that the header had put the place elsewhere.
   absl::Status FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation);
   // The track of the sensor at its lever arm, which scanners with equal ones share.
@@ -51,16 +54,22 @@ class LasBeams {
     std::unique_ptr<const SensorTrack> track;
     std::unique_ptr<const SensorMotions> motions;
   };
-  // Null where no point needs a position.
+  absl::Status Scan(const formats::LasReader& reader, const LasAnnotation& annotation);
+  // The first pass again where times turned out to be in another unit than it took them in.
+  absl::Status TakeUnitOfTime(double seconds, const formats::LasReader& reader, const LasAnnotation& annotation);
+  WaterHeights Water(const BeamPlan& plan) const;
+  // Null where no point needs a position. `found_seconds`: of a unit of the points' times, as the track says.
   absl::StatusOr<const Track*> FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
-                                         const WaterHeights& water);
+                                         const WaterHeights& water, double& found_seconds);
+  void AddNote(const std::string& note);
 
   LasPlace place_;
   LasPrescan prescan_;
   std::optional<formats::WaterLevelSeries> levels_;
   std::vector<std::unique_ptr<const Track>> tracks_;
   std::vector<BeamGeometry> geometries_;
-  double utc_ = 0;
+  formats::UtcClock utc_;
+  double seconds_ = 1;  // Of a unit of the points' times.
   std::pair<std::size_t, std::size_t> records_;
   JsonBox json_ = JsonBox::Object();
   std::vector<std::string> notes_;

@@ -30,7 +30,7 @@ constexpr int kLastUnclassified = 1;  // ASPRS: 0 and 1 are points that nobody c
 
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
                            const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams,
-                           double utc, bool pulse_surface, const AnswerSource& source)
+                           const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source)
     : fields_(header),
       record_length_(header.record_length),
       seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
@@ -85,7 +85,7 @@ absl::Status LasChunkWork::Annotate(const Scanner& scanner, Chunk& chunk) const 
   MakePulses(*scanner.plan, chunk.beams, chunk.rows, chunk.pulses);
   if (seas_ != nullptr) {
     chunk.pulses.times.clear();
-    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(chunk.points.times[row] + utc_);
+    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(utc_(chunk.points.times[row]));
   }
   RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers));
   if (scanner.total != nullptr) {
@@ -206,7 +206,7 @@ void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const 
 void LasChunkWork::FindSeas(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
     std::optional<NoPulse>& why = chunk.beams.why_not[i];
-    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(chunk.points.times[i] + utc_).has_value())
+    if (!why.has_value() && chunk.beams.dry[i] == 0 && !seas_->At(utc_(chunk.points.times[i])).has_value())
       why = NoPulse::kNoSea;
   }
 }

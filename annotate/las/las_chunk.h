@@ -21,6 +21,7 @@
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
+#include "formats/trajectories/dated_clock.h"
 
 namespace albtpu::annotate {
 
@@ -61,11 +62,11 @@ struct LasAnnotation {
 class LasChunkWork {
  public:
   // `replaced`: as AnnotatedHead says. `beams` has those of each scanner, and must outlive it. `utc`: UTC [s since
-  // 1970] = time of a point + it, where the sea goes by time. `pulse_surface`: the water surface at a point may come
+  // 1970] of the time of a point, where the sea goes by time. `pulse_surface`: the water surface at a point may come
   // from a return of the same pulse.
   LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
-               const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams, double utc,
-               bool pulse_surface, const AnswerSource& source);
+               const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams,
+               const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source);
 
   // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
   // searched for returns of the same pulse.
@@ -150,7 +151,7 @@ class LasChunkWork {
   std::size_t record_length_;
   std::vector<Scanner> scanners_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
-  double utc_;
+  formats::UtcClock utc_;
   bool pulse_surface_, use_withheld_, dry_points_;
   formats::Appended appended_;
   std::vector<formats::AppendedFloat> numbers_;  // What is appended or replaces: floats, and a byte at the end.

@@ -61,6 +61,7 @@ class PrescanWork {
         length_(reader.header().record_length),
         frame_(frame),
         use_withheld_(options.use_withheld),
+        seconds_(options.seconds),
         pairs_(options.pairs && fields_.has_gps_time()),
         highest_(options.water_level.has_value() ? frame.Z(*options.water_level)
                                                  : std::numeric_limits<double>::infinity()) {
@@ -136,7 +137,7 @@ class PrescanWork {
 
   void AddSurface(Part& part, std::size_t i) const {
     const Eigen::Vector3d at = PositionOf(Record(part, i));
-    part.surface.Add(at.x(), at.y(), part.times[i], at.z());
+    part.surface.Add(at.x(), at.y(), seconds_ * part.times[i], at.z());
     ++part.surface_returns;
     part.synthetic_surface += fields_.IsSynthetic(Record(part, i));
   }
@@ -197,6 +198,7 @@ class PrescanWork {
   std::size_t length_;
   LocalFrame frame_;
   bool use_withheld_;
+  double seconds_;
   bool pairs_;
   double highest_;  // m; where the upper return of a pair may lie: the water level, if it is given.
   std::array<std::uint8_t, formats::kClassCount> roles_;  // By class: bits of Role.

@@ -25,6 +25,7 @@ struct LasPrescanOptions {
   std::set<int> level_classes = {};   // Of returns that should lie at the water level.
   bool use_withheld = false;          // Points with this flag count as any other.
   bool dry_points = false;            // Points that may be dry (MayBeDry) get a number, too.
+  double seconds = 1;                 // Of a unit of the times, for `surface`.
 };
 
 // Records in a file in order of time that belong to one pulse lie at most this far apart.

@@ -32,7 +32,7 @@ class Run {
  public:
   Run(const AnnotationRun& run, const client::TableSummary& table, const std::vector<Job>& jobs)
       : run_(run),
-        settings_{run.command, run.parameters, table, run.files},
+        settings_{run.command, run.parameters, table, run.resume ? NewestOf(run.files) : std::nullopt},
         jobs_(jobs),
         progress_(run.records, jobs.size(), TotalSize(jobs)),
         verdict_(run.cause, run.record) {}

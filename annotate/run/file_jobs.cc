@@ -194,12 +194,23 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   if (!job.csv.empty()) here["output"]["csv"] = {{"name", job.csv.filename().string()}, {"bytes", SizeOf(job.csv)}};
   const std::string difference = Difference(json, here, "");
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
-  std::vector<fs::path> read = {job.input};
-  read.insert(read.end(), settings.files.begin(), settings.files.end());
-  for (const fs::path& file : read)
-    if (fs::last_write_time(file, error) > fs::last_write_time(job.output, error) || error)
-      return differs(absl::StrCat(file.string(), " is newer"));
+  const fs::file_time_type made = fs::last_write_time(job.output, error);
+  const auto is_newer = [&](fs::file_time_type time) { return error || time > made; };
+  if (is_newer(fs::last_write_time(job.input, error))) return differs(absl::StrCat(job.input.string(), " is newer"));
+  const std::optional<NewestFile>& newest = settings.newest;
+  if (newest.has_value() && is_newer(newest->time)) return differs(absl::StrCat(newest->path.string(), " is newer"));
   return absl::OkStatus();
+}
+
+std::optional<NewestFile> NewestOf(const std::vector<fs::path>& files) {
+  std::optional<NewestFile> newest;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    fs::file_time_type time = fs::last_write_time(file, error);
+    if (error) time = fs::file_time_type::max();
+    if (!newest.has_value() || time > newest->time) newest = NewestFile{file, time};
+  }
+  return newest;
 }
 
 ordered_json ReadSummary(const fs::path& path) {

@@ -59,12 +59,20 @@ std::uint64_t SizeOf(const std::filesystem::path& path);
 // OUT.las.json
 std::filesystem::path SummaryPath(const std::filesystem::path& output);
 
+// Of files that are read beside the input, such as trajectories: the one that was modified last, or that cannot be
+// found.
+struct NewestFile {
+  std::filesystem::path path;
+  std::filesystem::file_time_type time;
+};
+std::optional<NewestFile> NewestOf(const std::vector<std::filesystem::path>& files);
+
 // Everything that determines the output, apart from the input.
 struct OutputSettings {
   std::string command;  // "las"
   JsonBox parameters;   // The flags, including defaults.
   client::TableSummary table;
-  std::vector<std::filesystem::path> files = {};  // Read beside the input, such as trajectories.
+  std::optional<NewestFile> newest = {};
 };
 
 // The results of a run over one file.

@@ -24,6 +24,8 @@ constexpr double kReferenceFootprint = 0.6;  // m
 
 bool IsComplete(const SeaRecord& record) { return std::holds_alternative<WholeSea>(record.waves); }
 
+bool IsOfWindAlone(const SeaRecord& record) { return std::holds_alternative<WindAlone>(record.waves); }
+
 double PeakOfBins(const BinnedSpectrum& bins) {
   std::size_t peak = 0;
   for (std::size_t i = 1; i < bins.size(); ++i)
@@ -57,7 +59,9 @@ double PeakOfSpectrum(const HarmonicSpectrum& spectrum, double depth) {
   return period;
 }
 
-double PeakPeriod(const SeaRecord& record, double depth) {
+double PeakPeriod(const SeaRecord& record, const DescribedSea& sea) {
+  const double depth = sea.water_depth;
+  if (IsOfWindAlone(record)) return PeakOfSpectrum(sea.spectrum, depth);
   if (const auto* bins = std::get_if<BinnedWaves>(&record.waves)) return PeakOfBins(**bins);
   if (const auto* waves = std::get_if<WaveComponents>(&record.waves)) return PeakOfComponents(**waves, depth);
   return PeakOfSpectrum(*std::get<WholeSea>(record.waves), depth);
@@ -112,8 +116,9 @@ SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
   const auto* components = std::get_if<WaveComponents>(&state.waves);
   facts.significant_wave_height = components != nullptr
                                       ? JonswapSpectrum(**components, facts.sea.water_depth).significant_wave_height()
-                                      : state.significant_wave_height();
-  facts.peak_period = PeakPeriod(state, facts.sea.water_depth);
+                                  : IsOfWindAlone(state) ? SignificantWaveHeight(facts.sea.spectrum)
+                                                         : state.significant_wave_height();
+  facts.peak_period = PeakPeriod(state, facts.sea);
   facts.axis = Axis(facts.sea);
   facts.wind_speed_of = settings.wind_speed.has_value()           ? "user"
                         : state.wind_speed_10m.has_value()        ? "file"
@@ -123,7 +128,7 @@ SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
                             : settings.wind_from.has_value() ? "user"
                             : state.wind_from.has_value()    ? "file"
                                                              : "waves";
-  const bool joined = !IsComplete(state) && facts.sea.wind_speed_10m > 0;
+  const bool joined = !IsComplete(state) && !IsOfWindAlone(state) && facts.sea.wind_speed_10m > 0;
   facts.tail = joined ? settings.tail.value_or("relax") : "none";
   facts.share_measured = ShareMeasured(facts.sea);
   if (!IsComplete(state))
@@ -190,7 +195,7 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
                                 DegreesOfRadians(beams[i].refraction_along_wind()),
                                 DegreesOfRadians(beams[i].refraction_cross_wind())});
   }
-  if (IsComplete(seas.record(record)) || !(sea.wind_speed_10m > 0)) return facts;
+  if (IsComplete(seas.record(record)) || IsOfWindAlone(seas.record(record)) || !(sea.wind_speed_10m > 0)) return facts;
   config::SeaSettings settings = seas.settings();
   for (const std::string_view rule : config::kTailRules) {
     settings.tail = rule;

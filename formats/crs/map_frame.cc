@@ -2,6 +2,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -41,6 +43,12 @@ struct Found {
 };
 
 absl::StatusOr<Found> FromGeoKeys(ProjContext& context, const CrsDescription& description) {
+  if (description.projected == 0 && description.own.has_projection()) {
+    const double metres = MetresOfUnit(context, description.linear_unit).value_or(1);
+    ASSIGN_OR_RETURN(const std::string wkt, WktOf(context, description.own, metres));
+    ASSIGN_OR_RETURN(ProjCrs crs, ReadUsable(context, wkt));
+    return Found{std::move(crs), "", std::nullopt};
+  }
   const int code = description.projected != 0 ? description.projected : description.geographic;
   ASSIGN_OR_RETURN(ProjCrs crs, ReadUsable(context, absl::StrCat("EPSG:", code)));
   Found found = {std::move(crs), "", std::nullopt};
@@ -50,7 +58,7 @@ absl::StatusOr<Found> FromGeoKeys(ProjContext& context, const CrsDescription& de
 }
 
 absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name, const CrsDescription& description) {
-  const bool has_keys = description.projected != 0 || description.geographic != 0;
+  const bool has_keys = description.has_keys();
   if (description.wkt.empty()) {
     absl::StatusOr<Found> found = FromGeoKeys(context, description);
     if (!found.ok()) return Unusable(name, absl::StrCat("its GeoTIFF codes: ", found.status().message()));
@@ -80,8 +88,10 @@ absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name, co
   if (has_keys) {
     absl::StatusOr<Found> by_keys = FromGeoKeys(context, description);
     if (by_keys.ok()) {
-      by_keys->remark = absl::StrCat(name, ": its well-known text is faulty (", why,
-                                     "); its GeoTIFF code, EPSG:", by_keys->crs.code, ", is used");
+      by_keys->remark = absl::StrCat(name, ": its well-known text is faulty (", why, "); its GeoTIFF ",
+                                     by_keys->crs.code.empty() ? absl::StrCat("keys, ", by_keys->crs.name, ",")
+                                                               : absl::StrCat("code, EPSG:", by_keys->crs.code, ","),
+                                     " is used");
       return by_keys;
     }
   }
@@ -138,13 +148,59 @@ class MapFrame::Transformers {
 MapFrame::MapFrame() : transformers_(std::make_unique<Transformers>()) {}
 MapFrame::~MapFrame() = default;
 
+namespace {
+
+// The frames that were made, by their description and the database that the environment names. Those with a remark
+// name their file and are not kept.
+class KnownFrames {
+ public:
+  using Frame = std::shared_ptr<const MapFrame>;
+
+  static KnownFrames& Get() {
+    static KnownFrames* const known = new KnownFrames();  // Lives as long as the threads that use it.
+    return *known;
+  }
+  static std::string KeyOf(const CrsDescription& description) {
+    const auto variable = [](const char* name) {
+      const char* const value = std::getenv(name);
+      return absl::StrCat(value == nullptr ? "" : value, "\n");
+    };
+    return absl::StrCat(description.user, "\n", description.wkt, "\n", description.projected, ",",
+                        description.geographic, ",", description.linear_unit, ",", description.vertical, ",",
+                        description.vertical_unit, "\n", description.own.Key(), "\n", variable("PROJ_DATA"),
+                        variable("PROJ_LIB"));
+  }
+
+  Frame Find(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = frames_.find(key);
+    return found == frames_.end() ? nullptr : found->second;
+  }
+  void Keep(const std::string& key, const Frame& frame) {
+    constexpr std::size_t kMost = 64;  // A survey has a few.
+    if (!frame->remark().empty()) return;
+    const std::lock_guard lock(mutex_);
+    if (frames_.size() >= kMost) frames_.clear();
+    frames_.emplace(key, frame);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Frame> frames_;
+};
+
+}  // namespace
+
 absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::string& name,
                                                                  const CrsDescription& description) {
+  const std::string key = KnownFrames::KeyOf(description);
+  if (KnownFrames::Frame known = KnownFrames::Get().Find(key); known != nullptr) return known;
   ProjContext context;
   RETURN_IF_ERROR(context.CheckDatabase());
   absl::StatusOr<std::shared_ptr<const MapFrame>> frame = CreateIn(context, name, description);
   // What PROJ says of a system is no help where it cannot read its database.
   if (!frame.ok() && !description.empty()) RETURN_IF_ERROR(context.CheckLayout());
+  if (frame.ok()) KnownFrames::Get().Keep(key, *frame);
   return frame;
 }
 

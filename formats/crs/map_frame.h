@@ -14,6 +14,7 @@
 
 #include "absl/status/statusor.h"
 #include "formats/crs/proj_crs.h"
+#include "formats/crs/user_projection.h"
 
 namespace albtpu::formats {
 
@@ -27,7 +28,10 @@ struct CrsDescription {
   int vertical = 0;       // GeoTIFF key 4096, an EPSG code.
   int vertical_unit = 0;  // GeoTIFF key 4099, an EPSG code.
 
-  bool empty() const { return user.empty() && wkt.empty() && projected == 0 && geographic == 0; }
+  UserProjection own = {};  // GeoTIFF keys of a projection without code.
+
+  bool has_keys() const { return projected != 0 || geographic != 0 || own.has_projection(); }
+  bool empty() const { return user.empty() && wkt.empty() && !has_keys(); }
 };
 
 struct GeographicPosition {
@@ -49,7 +53,8 @@ class MapFrame {
  public:
   // Tries the user's text, the well-known text, the EPSG code that the text ends with, and the GeoTIFF codes, in this
   // order. A text of a user that PROJ does not read is an error; so is a file of which nothing can be used. `name` is
-  // the LAS file. FailedPrecondition where PROJ's database is the reason (CheckProjDatabase).
+  // the LAS file. FailedPrecondition where PROJ's database is the reason (CheckProjDatabase). Equal descriptions share
+  // one frame, so that the files of a survey open PROJ's database once.
   static absl::StatusOr<std::shared_ptr<const MapFrame>> Create(const std::string& name,
                                                                 const CrsDescription& description);
   ~MapFrame();

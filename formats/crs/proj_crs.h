@@ -1,5 +1,5 @@
-// A coordinate system of PROJ with the properties that MapFrame needs, and lengths on its ellipsoid. Only this file and
-// map_frame.cc use PROJ.
+// A coordinate system of PROJ with the properties that MapFrame needs, and lengths on its ellipsoid. Only this file,
+// user_projection.cc and map_frame.cc use PROJ.
 #pragma once
 
 #include <proj.h>

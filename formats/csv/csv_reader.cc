@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
@@ -28,7 +29,7 @@ struct RecordEnd {
 
 // Calls `cell_begins(offset)` for each cell except the first.
 template <typename CellBegins>
-RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cell_begins) {
+RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, char separator, CellBegins cell_begins) {
   enum class State { kCellStart, kPlain, kQuoted, kQuoteInQuoted, kReturnAfterQuote };
   State state = State::kCellStart;
   for (std::size_t i = begin; i < text.size(); ++i) {
@@ -42,7 +43,7 @@ RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cel
       return {.text_size = i - carriage_return, .size = i + 1};
     }
     if (state == State::kReturnAfterQuote) return {.size = i, .text_after_quote = true};
-    if (character == ',') {
+    if (character == separator) {
       state = State::kCellStart;
       cell_begins(i + 1);
     } else if (state == State::kQuoteInQuoted) {
@@ -65,10 +66,10 @@ std::size_t AfterByteOrderMark(std::string_view text, std::size_t line) {
 
 // The size of the complete records at the beginning of a text. The whole text if a record is malformed: CsvRecords
 // reports the error.
-std::size_t SizeOfWholeRecords(std::string_view text) {
+std::size_t SizeOfWholeRecords(std::string_view text, char separator) {
   if (text.find('"') == std::string_view::npos) return text.rfind('\n') + 1;
   for (std::size_t size = 0;;) {
-    const RecordEnd end = FindRecordEnd(text.substr(size), 0, [](std::size_t) {});
+    const RecordEnd end = FindRecordEnd(text.substr(size), 0, separator, [](std::size_t) {});
     if (end.text_after_quote) return text.size();
     if (end.open) return size;
     size += end.size;
@@ -103,7 +104,9 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   const std::size_t begin = AfterByteOrderMark(rest_, line_);
   record.line = line_;
   record.cell_begins.assign(1, begin);
-  const RecordEnd end = FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
+  record.dialect = dialect_;
+  const RecordEnd end =
+      FindRecordEnd(rest_, begin, dialect_.separator, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
   if (end.text_after_quote || end.open_return) {
     return absl::InvalidArgumentError(
         absl::StrCat(std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
@@ -156,6 +159,7 @@ absl::StatusOr<std::size_t> CsvReader::Fill(std::size_t size) {
 void CsvReader::Take(std::size_t size, CsvBlock& block) {
   block.text.assign(rest_, 0, size);
   block.first_line = line_;
+  block.dialect = dialect_;
   rest_.erase(0, size);
   line_ += CountLines(block.text);
   bytes_read_ += size;
@@ -171,7 +175,8 @@ absl::StatusOr<CsvBlock> CsvReader::ReadHeader() {
   do {
     if (rest_.size() > kLongestRecord) return EndlessRecord();
     if (const auto count = Fill(1 << 16); !count.ok()) return count.status();
-    end = FindRecordEnd(rest_, AfterByteOrderMark(rest_, line_), [](std::size_t) {});
+    ASSIGN_OR_RETURN(dialect_.separator, SeparatorOf(name_, FirstRecordOf(rest_)));
+    end = FindRecordEnd(rest_, AfterByteOrderMark(rest_, line_), dialect_.separator, [](std::size_t) {});
   } while (end.open && !at_end_);
   CsvBlock header;
   Take(end.text_after_quote ? rest_.size() : end.size, header);
@@ -183,12 +188,18 @@ absl::StatusOr<bool> CsvReader::Read(CsvBlock& block) {
   while (!at_end_ && whole == 0) {
     while (!at_end_ && rest_.size() < kBlockSize)
       if (const auto count = Fill(kBlockSize); !count.ok()) return count.status();
-    whole = SizeOfWholeRecords(rest_);
+    whole = SizeOfWholeRecords(rest_, dialect_.separator);
     if (whole > 0 || at_end_) break;
     if (rest_.size() > kLongestRecord) return EndlessRecord();
     if (const auto count = Fill(kBlockSize); !count.ok()) return count.status();
   }
   Take(at_end_ ? rest_.size() : whole, block);
+  if (!is_decimal_known_) {
+    ASSIGN_OR_RETURN(const std::optional<char> decimal,
+                     DecimalOf(name_, block.text, block.first_line, dialect_.separator));
+    is_decimal_known_ = true;
+    block.dialect.decimal = dialect_.decimal = decimal.value_or('.');
+  }
   return !block.text.empty();
 }
 

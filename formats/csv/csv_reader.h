@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/csv/csv_dialect.h"
 #include "formats/files/file_access.h"
 
 namespace albtpu::formats {
@@ -21,6 +22,7 @@ struct CsvRecord {
   std::string_view line_ending;          // "\n", "\r\n", or empty at the end of a file.
   std::size_t line = 0;                  // Of its first character, counted from 1.
   std::vector<std::size_t> cell_begins;  // Offsets into `text`.
+  CsvDialect dialect;
 
   std::size_t cell_count() const { return cell_begins.size(); }
   std::string_view RawCell(std::size_t cell) const;  // As written, with quotes.
@@ -32,6 +34,7 @@ struct CsvRecord {
 struct CsvBlock {
   std::string text;
   std::size_t first_line = 1;
+  CsvDialect dialect = {};
 };
 
 // The byte order mark with which some programs begin UTF-8 files.
@@ -41,7 +44,8 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // part of the text of the first record, but not of its first cell.
 class CsvRecords {
  public:
-  CsvRecords(std::string_view name, const CsvBlock& block) : name_(name), rest_(block.text), line_(block.first_line) {}
+  CsvRecords(std::string_view name, const CsvBlock& block)
+      : name_(name), rest_(block.text), line_(block.first_line), dialect_(block.dialect) {}
 
   // Reads the next record into `record` and reuses its memory. False at the end of the block.
   absl::StatusOr<bool> Next(CsvRecord& record);
@@ -50,6 +54,7 @@ class CsvRecords {
   std::string_view name_;
   std::string_view rest_;
   std::size_t line_;
+  CsvDialect dialect_;
 };
 
 class CsvReader {
@@ -60,13 +65,16 @@ class CsvReader {
   static absl::StatusOr<CsvReader> Open(const std::filesystem::path& path);
 
   // The first record alone, as soon as it has arrived: through a pipe the next one may come much later. Empty if the
-  // file is empty.
+  // file is empty. Its dialect has the separator.
   absl::StatusOr<CsvBlock> ReadHeader();
 
-  // Reads the next records into `block` and reuses its memory. False at the end of the file.
+  // Reads the next records into `block` and reuses its memory. False at the end of the file. The first of
+  // them, a megabyte, show the decimal mark of the file.
   absl::StatusOr<bool> Read(CsvBlock& block);
 
   const std::string& name() const { return name_; }
+  // As far as it was read.
+  const CsvDialect& dialect() const { return dialect_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t file_size() const { return stamp_.size(); }  // 0 for a pipe.
 
@@ -87,6 +95,8 @@ class CsvReader {
   FileStamp stamp_;
   std::string rest_;  // Bytes read but not yet returned.
   bool at_end_ = false;
+  CsvDialect dialect_;
+  bool is_decimal_known_ = false;
   std::size_t line_ = 1;
   std::uint64_t bytes_read_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <vector>
@@ -39,17 +40,29 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
   bool read_all = false;
   absl::Status result;
   std::atomic<bool> failed = false;
+  // Reads the next chunk; null at the end.
+  const auto read_next = [&]() -> Slot* {
+    if (read_all) return nullptr;
+    // Slots are released in order, so the next one in the ring is free.
+    Slot& slot = slots[next++ % slots.size()];
+    const absl::StatusOr<bool> more = read(slot.chunk);
+    slot.status = more.status();
+    read_all = !more.ok() || !*more;
+    return !more.ok() || *more ? &slot : nullptr;
+  };
+  // Starting threads takes as long as the work on a small file, which one chunk holds.
+  std::array<Slot*, 2> first = {read_next(), read_next()};
+  if (first[1] == nullptr) {
+    if (first[0] == nullptr) return absl::OkStatus();
+    absl::Status status = first[0]->status;
+    if (status.ok()) status = work(first[0]->chunk);
+    return status.ok() ? write(first[0]->chunk) : status;
+  }
+  std::size_t taken = 0;  // Of `first`.
   const auto read_slot = [&](oneapi::tbb::flow_control& flow) -> Slot* {
-    if (!read_all && !failed) {
-      // Slots are released in order, so the next one in the ring is free.
-      Slot& slot = slots[next++ % slots.size()];
-      const absl::StatusOr<bool> more = read(slot.chunk);
-      slot.status = more.status();
-      read_all = !more.ok();
-      if (!more.ok() || *more) return &slot;
-    }
-    flow.stop();
-    return nullptr;
+    Slot* const slot = taken < first.size() ? first[taken++] : failed ? nullptr : read_next();
+    if (slot == nullptr) flow.stop();
+    return slot;
   };
   const auto work_on_slot = [&](Slot* slot) {
     if (slot->status.ok() && !failed) slot->status = work(slot->chunk);

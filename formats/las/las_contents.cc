@@ -5,6 +5,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kRunBytes = 4 << 20;
 
 // The texts of the header, padded with zeros: ASPRS LAS 1.4 R15, table 3.
-constexpr std::size_t kSystemIdentifier = 26, kGeneratingSoftware = 58, kTextSize = 32;
+constexpr std::size_t kSystemIdentifier = 26, kGeneratingSoftware = 58, kSoftwareSize = 32;
 
 constexpr double kBinsOfADegree = 4;
 
@@ -33,7 +34,7 @@ void Add(const LasPointFields& fields, std::string_view record, LasContents& con
   of_class.lowest = std::min(of_class.lowest, height);
   of_class.highest = std::max(of_class.highest, height);
   of_class.sum += height;
-  if (const double time = fields.has_gps_time() ? fields.GpsTime(record) : NAN; std::isfinite(time)) {
+  if (const double time = fields.has_gps_time() ? fields.GpsTime(record) : NAN; !IsNoTime(time)) {
     contents.first_time = std::min(contents.first_time, time);
     contents.last_time = std::max(contents.last_time, time);
   }
@@ -60,7 +61,7 @@ bool IsPair(const LasPointFields& fields, std::string_view a, std::string_view b
 }
 
 std::string TextAt(std::string_view head, std::size_t begin) {
-  std::string text(head.substr(begin, kTextSize));
+  std::string text(head.substr(begin, kSoftwareSize));
   text.resize(std::min(text.size(), text.find('\0')));
   absl::StripAsciiWhitespace(&text);
   return text;

@@ -35,7 +35,7 @@ struct LasContents {
   // Neighbouring points of one pulse that differ by 1 or more in height, the lower one of a class that the bottom
   // usually has, the other neither noise nor of a class of the water surface.
   std::uint64_t pairs = 0;
-  // GPS times (LasPointFields::GpsTime), those that are finite; meaningless where the file has none.
+  // GPS times (LasPointFields::GpsTime), those that are times (IsNoTime); meaningless where the file has none.
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
   double least_angle = 0, greatest_angle = 0;    // Scan angles, degree.
   std::array<std::uint64_t, 721> by_angle = {};  // Points by the quarters of a degree of |scan angle|.

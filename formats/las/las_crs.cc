@@ -21,7 +21,7 @@ using laz::Load;
 
 constexpr std::string_view kProjectionUser = "LASF_Projection";
 constexpr std::uint16_t kWktRecord = 2112;
-constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735;
+constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735, kGeoDoubleParamsRecord = 34736;
 constexpr std::size_t kLongestWkt = 1 << 20;  // Bytes; real ones have a few thousand.
 
 // Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these limits, in
@@ -37,8 +37,19 @@ constexpr std::uint16_t kVerticalUnits = 4099;
 constexpr std::uint16_t kGeographic = 2048;
 constexpr std::uint16_t kProjected = 3072;
 constexpr std::uint16_t kVertical = 4096;
+constexpr std::uint16_t kEllipsoid = 2056;
 constexpr std::uint16_t kUndefined = 0;
 constexpr std::uint16_t kUserDefined = 32767;
+
+// GeoTIFF 1.0: keys of a projection without code, and of its ellipsoid.
+constexpr std::uint16_t kAngularUnits = 2054, kSemiMajor = 2057, kSemiMinor = 2058, kInverseFlattening = 2059;
+constexpr std::uint16_t kPrimeMeridian = 2061;
+constexpr std::uint16_t kProjection = 3074, kTransformation = 3075;
+constexpr std::uint16_t kOriginLongitude = 3080, kOriginLatitude = 3081, kFalseEasting = 3082, kFalseNorthing = 3083;
+constexpr std::uint16_t kScaleAtOrigin = 3092;
+constexpr std::uint16_t kDegrees = 9102, kMethodTransverseMercator = 1;
+// Codes of projections: 16000 and the zone for UTM on the northern hemisphere, 16100 and the zone on the southern.
+constexpr std::uint16_t kUtmNorth = 16000, kUtmSouth = 16100, kUtmZones = 60;
 
 // EPSG codes of feet: 9002 international, 9003 US survey, 9005 Clarke, 9041, 9051 and 9070 British, 9080-9083 Indian,
 // 9094 Gold Coast, 9095 British 1936; GeoTIFF 1.0 also had 9004 (modified American) and 9006 (Indian).
@@ -51,8 +62,24 @@ bool IsFoot(std::uint16_t unit) {
 struct GeoKey {
   std::uint16_t key = 0, value = 0;
 };
+
+// An entry has four u16: key, location of the value (0: in the entry), count, value. The first entry is a header.
+
+// The real number of a key, by its place in the record of real numbers.
+std::optional<double> RealOf(std::uint16_t key, std::string_view directory, std::string_view reals) {
+  constexpr std::size_t kEntry = 8;
+  for (std::size_t begin = kEntry; begin + kEntry <= directory.size(); begin += kEntry) {
+    if (Load<std::uint16_t>(directory, begin) != key) continue;
+    if (Load<std::uint16_t>(directory, begin + 2) != kGeoDoubleParamsRecord) continue;
+    const std::size_t at = sizeof(double) * Load<std::uint16_t>(directory, begin + 6);
+    if (at + sizeof(double) > reals.size()) return std::nullopt;
+    const double value = Load<double>(reals, at);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 std::vector<GeoKey> ListGeoKeys(std::string_view directory) {
-  // An entry has four u16: key, location of the value (0: in the entry), count, value. The first entry is a header.
   constexpr std::size_t kEntry = 8;
   std::vector<GeoKey> keys;
   for (std::size_t begin = kEntry; begin + kEntry <= directory.size(); begin += kEntry) {
@@ -97,7 +124,46 @@ std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory)
   return std::nullopt;
 }
 
-CrsDescription DescribeGeoKeys(std::string_view geo_key_directory) {
+namespace {
+
+// A projection of the file's own, if all that it needs is stated. Angles in another unit than degrees are not read.
+UserProjection OwnProjection(std::string_view directory, std::string_view reals, int geographic) {
+  UserProjection own;
+  bool is_transverse_mercator = false;
+  for (const GeoKey& entry : ListGeoKeys(directory)) {
+    const int zone = entry.value % 100;
+    const bool has_zone = zone >= 1 && zone <= kUtmZones;
+    if (entry.key == kAngularUnits && entry.value != kDegrees) return {};
+    if (entry.key == kProjection && has_zone && entry.value - zone == kUtmNorth) own.utm_zone = zone;
+    if (entry.key == kProjection && has_zone && entry.value - zone == kUtmSouth) own.utm_zone = -zone;
+    if (entry.key == kTransformation) is_transverse_mercator = entry.value == kMethodTransverseMercator;
+    if (entry.key == kEllipsoid && entry.value != kUndefined && entry.value != kUserDefined)
+      own.ellipsoid = entry.value;
+  }
+  const auto real = [&](std::uint16_t key) { return RealOf(key, directory, reals); };
+  const std::optional<double> longitude = real(kOriginLongitude), latitude = real(kOriginLatitude),
+                              scale = real(kScaleAtOrigin), east = real(kFalseEasting), north = real(kFalseNorthing);
+  if (own.utm_zone == 0 && is_transverse_mercator && longitude && latitude && scale && east && north) {
+    own.transverse_mercator = {.latitude = *latitude,
+                               .longitude = *longitude,
+                               .scale = *scale,
+                               .false_easting = *east,
+                               .false_northing = *north};
+  }
+  if (!own.has_projection()) return {};
+  own.geographic = geographic;
+  own.semi_major = real(kSemiMajor);
+  own.inverse_flattening = real(kInverseFlattening);
+  if (const auto minor = real(kSemiMinor);
+      minor && own.semi_major && !own.inverse_flattening && *minor < *own.semi_major)
+    own.inverse_flattening = *own.semi_major / (*own.semi_major - *minor);
+  own.prime_meridian = real(kPrimeMeridian).value_or(0);
+  return own;
+}
+
+}  // namespace
+
+CrsDescription DescribeGeoKeys(std::string_view geo_key_directory, std::string_view reals) {
   CrsDescription description;
   for (const GeoKey& entry : ListGeoKeys(geo_key_directory)) {
     if (entry.value == kUndefined || entry.value == kUserDefined) continue;
@@ -121,8 +187,22 @@ CrsDescription DescribeGeoKeys(std::string_view geo_key_directory) {
         break;
     }
   }
+  if (description.projected == 0) description.own = OwnProjection(geo_key_directory, reals, description.geographic);
   return description;
 }
+
+namespace {
+
+// The GeoTIFF record of real numbers; empty if there is none.
+absl::StatusOr<std::string> RealNumbers(const LasReader& reader) {
+  for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()})
+    for (const VlrEntry& entry : *entries)
+      if (entry.Is(kProjectionUser, kGeoDoubleParamsRecord))
+        return reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
+  return std::string();
+}
+
+}  // namespace
 
 absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader, CrsRecords records) {
   CrsDescription description;
@@ -136,7 +216,8 @@ absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader, CrsRecords r
                        reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt)));
       if (keys) {
         std::string text = std::move(description.wkt);
-        description = DescribeGeoKeys(data);
+        ASSIGN_OR_RETURN(const std::string reals, RealNumbers(reader));
+        description = DescribeGeoKeys(data, reals);
         description.wkt = std::move(text);
         has_keys = true;
       } else {
@@ -182,8 +263,7 @@ std::string NameOf(const CrsRecords& records) { return records.wkt ? "well-known
 
 absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, const MapPosition& middle) {
   ASSIGN_OR_RETURN(CrsDescription both, DescribeCrs(reader));
-  const bool has_keys = both.projected != 0 || both.geographic != 0;
-  const bool choose = user.empty() && !both.wkt.empty() && has_keys;
+  const bool choose = user.empty() && !both.wkt.empty() && both.has_keys();
   CrsRecords named, other;
   if (choose) named = other = {.wkt = reader.header().crs_is_wkt, .keys = !reader.header().crs_is_wkt};
   if (choose) std::swap(other.wkt, other.keys);
@@ -203,7 +283,7 @@ absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, c
   if (choose && !(named.wkt && named.keys)) {
     ASSIGN_OR_RETURN(const CrsDescription second, DescribeCrs(reader, other));
     const absl::StatusOr<std::shared_ptr<const MapFrame>> more = MapFrame::Create(reader.name(), second);
-    // Keys with a projection of the user's own state no more than the datum.
+    // Keys with a projection of the file's own that is not read state no more than the datum.
     const bool same = more.ok() && (*more)->is_geographic() && !crs.map->is_geographic() && second.wkt.empty();
     const double apart = same ? 0 : more.ok() ? Apart(*crs.map, **more, middle) : HUGE_VAL;
     const std::optional<double> unit = more.ok() ? (*more)->metres_per_height_unit() : std::nullopt;

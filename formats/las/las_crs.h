@@ -25,8 +25,9 @@ struct CrsRecords {
 // Searches these records in VLRs and EVLRs.
 absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader, CrsRecords records = {});
 
-// The codes of a GeoTIFF key directory; 0 where a key is missing or user-defined.
-CrsDescription DescribeGeoKeys(std::string_view geo_key_directory);
+// The codes of a GeoTIFF key directory; 0 where a key is missing or user-defined. A projection of the file's own is
+// read where it is UTM or transverse Mercator with all parameters, of which `reals`, the record 34736, has some.
+CrsDescription DescribeGeoKeys(std::string_view geo_key_directory, std::string_view reals = "");
 
 // The first well-known text and the first GeoTIFF keys, in VLRs and then in EVLRs. Empty where there are none; a user's
 // text is not set. MapFrame::Create makes a projection of it.

@@ -174,6 +174,8 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   const std::size_t min_header = kHeaderSizes[header.version_minor];
   if (bytes.size() < min_header)
     return Truncated(name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
+  header.creation_day = Load<std::uint16_t>(bytes, las_field::kCreationDay);
+  header.creation_year = Load<std::uint16_t>(bytes, las_field::kCreationYear);
   header.header_size = Load<std::uint16_t>(bytes, las_field::kHeaderSize);
   header.offset_to_points = Load<std::uint32_t>(bytes, las_field::kOffsetToPoints);
   header.vlr_count = Load<std::uint32_t>(bytes, las_field::kVlrCount);

@@ -18,6 +18,8 @@ namespace las_field {
 inline constexpr std::size_t kGlobalEncoding = 6;           // u16, from 1.2
 inline constexpr std::size_t kVersionMajor = 24;            // u8
 inline constexpr std::size_t kVersionMinor = 25;            // u8
+inline constexpr std::size_t kCreationDay = 90;             // u16, of the year, from 1
+inline constexpr std::size_t kCreationYear = 92;            // u16
 inline constexpr std::size_t kHeaderSize = 94;              // u16
 inline constexpr std::size_t kOffsetToPoints = 96;          // u32
 inline constexpr std::size_t kVlrCount = 100;               // u32
@@ -40,7 +42,8 @@ inline constexpr int kLargestPointFormat = 10;
 
 struct LasHeader {
   int version_minor = 4;
-  std::uint16_t header_size = 0;  // May be larger than the version requires; the rest is kept.
+  std::uint16_t header_size = 0;                      // May be larger than the version requires; the rest is kept.
+  std::uint16_t creation_day = 0, creation_year = 0;  // The day counts from 1 in its year; 0: not stated.
   std::uint32_t offset_to_points = 0;
   std::uint32_t vlr_count = 0;
   int point_format = 0;

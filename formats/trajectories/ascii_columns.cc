@@ -62,12 +62,14 @@ constexpr std::array<AsciiColumn, 20> kPosExport = {{
     {kSigmaHeading, "heading SD", "degree", 0, 180, "|heading sd|"},
 }};
 
-// Names of columns, separated by commas if there are any (they may consist of several words then), else by blanks.
+// Names of columns, separated by semicolons, tabs or commas if there are any (they may consist of several words then),
+// else by blanks.
 std::vector<std::string> Names(std::string_view line) {
   const absl::string_view text(line.data(), line.size());
   std::vector<std::string> names;
-  if (absl::StrContains(text, ","))
-    for (const absl::string_view name : absl::StrSplit(text, ','))
+  const char separator = absl::StrContains(text, ";") ? ';' : absl::StrContains(text, "\t") ? '\t' : ',';
+  if (absl::StrContains(text, absl::string_view(&separator, 1)))
+    for (const absl::string_view name : absl::StrSplit(text, separator))
       names.push_back(absl::AsciiStrToLower(absl::StripAsciiWhitespace(name)));
   else
     for (const absl::string_view name : absl::StrSplit(text, absl::ByAnyChar(" \t\r"), absl::SkipEmpty()))

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/csv/csv_reader.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_columns.h"
 #include "formats/trajectories/trajectory_time.h"
@@ -18,10 +19,9 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 bool IsBlank(char character) { return character == ' ' || character == '\t' || character == '\r'; }
-bool IsSeparator(char character) { return IsBlank(character) || character == ','; }
+bool IsMark(char character) { return character == ',' || character == ';'; }
+bool IsSeparator(char character) { return IsBlank(character) || IsMark(character); }
 
 // The longest beginning of `text` without separators, at most 32 characters: what a message quotes.
 std::string Word(std::string_view text) {
@@ -47,12 +47,12 @@ bool ReadNumber(std::string_view& text, double& number) {
   return true;
 }
 
-// Moves on to the next cell of a line; false at its end. One comma, with blanks around it, or blanks alone separate
-// cells.
+// Moves on to the next cell of a line; false at its end. One comma or semicolon, with blanks around it, or blanks alone
+// separate cells.
 bool NextCell(std::string_view& text) {
   SkipBlanks(text);
   if (text.empty()) return false;
-  if (text.front() == ',') {
+  if (IsMark(text.front())) {
     text.remove_prefix(1);
     SkipBlanks(text);
   }
@@ -73,6 +73,13 @@ bool BeginsWithNumber(std::string_view line) {
   SkipBlanks(line);
   double ignored;
   return ReadNumber(line, ignored);
+}
+
+// The line with decimal points in place of commas.
+std::string PointLine(std::string_view line) {
+  std::string points(line);
+  std::replace(points.begin(), points.end(), ',', '.');
+  return points;
 }
 
 bool IsText(std::string_view bytes) {
@@ -98,9 +105,11 @@ class AsciiReader {
     RETURN_IF_ERROR(ReadHeader());
     std::unique_ptr<AsciiTrajectory> trajectory(new AsciiTrajectory(name_, columns_.size()));
     Reserve(*trajectory);
-    do {
+    while (true) {
       RETURN_IF_ERROR(ReadLine(*trajectory));
-    } while (NextLine());
+      if (!NextLine()) break;
+      if (decimal_comma_) RETURN_IF_ERROR(TakeDecimalCommas());
+    }
     if (trajectory->size() < 2) return Error("has a single record; give a trajectory of at least two");
     return trajectory;
   }
@@ -151,6 +160,7 @@ class AsciiReader {
                                       "trajectory of 15 or 20 columns"));
       }
     }
+    RETURN_IF_ERROR(FindDecimalMark());
     const std::size_t cells = CountCells(line_);
     columns_ = AsciiColumns(cells);
     if (columns_.empty()) {
@@ -163,6 +173,27 @@ class AsciiReader {
       if (contradiction.empty()) continue;
       return absl::InvalidArgumentError(absl::StrCat(name_, " line ", number, ": the header states ", contradiction));
     }
+    return absl::OkStatus();
+  }
+
+  // Whether commas are decimal marks, as beside semicolons, or separate columns: what makes a layout.
+  absl::Status FindDecimalMark() {
+    if (line_.find(',') == line_.npos) return absl::OkStatus();
+    decimal_comma_ = line_.find(';') != line_.npos;
+    if (!decimal_comma_ && line_.find('.') == line_.npos && !AsciiColumns(CountCells(PointLine(line_))).empty()) {
+      if (!AsciiColumns(CountCells(line_)).empty())
+        return LineError("has commas that may separate columns or be decimal marks; separate columns by semicolons");
+      decimal_comma_ = true;
+    }
+    return decimal_comma_ ? TakeDecimalCommas() : absl::OkStatus();
+  }
+
+  // The line with points.
+  absl::Status TakeDecimalCommas() {
+    if (line_.find('.') != line_.npos)
+      return LineError("has both decimal commas and decimal points, or thousands; write one mark");
+    points_ = PointLine(line_);
+    line_ = points_;
     return absl::OkStatus();
   }
 
@@ -257,6 +288,8 @@ class AsciiReader {
   std::size_t line_number_ = 0;
   std::span<const AsciiColumn> columns_;
   bool next_week_ = false;
+  bool decimal_comma_ = false;
+  std::string points_;  // The line, with decimal points.
 };
 
 absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Open(const std::filesystem::path& path) {

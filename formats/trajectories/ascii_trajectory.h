@@ -1,4 +1,5 @@
-// A trajectory as text: one line a record, of the columns in ascii_columns.h, separated by blanks, tabs or commas.
+// A trajectory as text: one line a record, of the columns in ascii_columns.h, separated by blanks, tabs, commas or
+// semicolons. Beside semicolons, and beside blanks where only so the columns are a layout, commas are decimal marks.
 // Lines above the numbers that do not begin with a number are a header.
 #pragma once
 

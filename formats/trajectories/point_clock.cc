@@ -66,11 +66,7 @@ bool ReadsAlike(const PointClock& a, const PointClock& b) {
   return a.scale == b.scale && a.shift == b.shift && a.form == b.form;
 }
 
-bool IsTime(const TimeSpan& span) { return !(IsNoTime(span.first) && IsNoTime(span.last)); }
-
 }  // namespace
-
-bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
 
 std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format) {
   std::vector<PointClock> possible;
@@ -102,31 +98,6 @@ std::string ClockNote(const PointClock& clock, const PointTimes& stated, const s
   return absl::StrCat("the GPS times of the points are ", clock.description, ", not ", Describe(stated.form),
                       " as their file states: only so does ", fitting, " lie at the points; ", TimeFormatFlag(clock),
                       " says so");
-}
-
-absl::StatusOr<double> FindUtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
-                                     const std::string& of, std::string& note) {
-  note.clear();
-  absl::StatusOr<double> stated = UtcOffset(name, points, known, of);
-  if (stated.ok() || !IsTime(points.span)) return stated;
-  std::vector<PointClock> fitting;
-  double offset = 0;
-  for (const PointClock& clock : ClocksOf(points, TimeFormat::kAuto)) {
-    const PointTimes times = clock(points.span);
-    const absl::StatusOr<double> utc = UtcOffset(name, times, known, of);
-    if (clock.scale != 1 || !utc.ok()) continue;
-    const TimeSpan span = {times.span.first + *utc, times.span.last + *utc};
-    if (Overlap(span, known) < (span.last - span.first) / 2) continue;
-    offset = *utc + clock.shift;
-    fitting.push_back(clock);
-  }
-  if (fitting.empty()) return stated;
-  if (fitting.size() > 1) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(stated.status().message(), " (as ", ClocksText(fitting), " they would lie within it)"));
-  }
-  note = ClockNote(fitting.front(), points, of);
-  return offset;
 }
 
 }  // namespace albtpu::formats

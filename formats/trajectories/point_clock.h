@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "absl/status/statusor.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
@@ -30,9 +29,6 @@ struct PointClock {
   bool changes_times() const { return scale != 1 || shift != 0; }
 };
 
-// A time that no clock gives: 0, which files have where the clock was not known, or not finite.
-bool IsNoTime(double stated);
-
 // The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
 // other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
 // formats: that one alone, which is several for seconds of a day and for milliseconds.
@@ -50,11 +46,5 @@ std::string ClocksText(std::span<const PointClock> clocks);
 // For the user, where a clock was found by what fits: "the GPS times of the points are Unix seconds, not adjusted
 // standard GPS times as their file states: only so does `fitting` lie at the points; --time-format unix says so".
 std::string ClockNote(const PointClock& clock, const PointTimes& stated, const std::string& fitting);
-
-// UtcOffset by the clock that the header states; where the points lie outside `known` by it, by the only other one
-// whose unit is a second and by which half of their time or more lies within. `note` says so then, and is empty
-// otherwise. The error names the clocks that fit where they are several.
-absl::StatusOr<double> FindUtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
-                                     const std::string& of, std::string& note);
 
 }  // namespace albtpu::formats

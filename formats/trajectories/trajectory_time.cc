@@ -136,6 +136,24 @@ std::string UtcText(double gps_time) {
                          second / 60 % 60, second % 60);
 }
 
+constexpr double kGpsEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact
+
+// Within the leap second itself either side of it is right enough.
+double UtcOfGps(double gps) {
+  const int leap = LeapSecondsAtUtc(gps - LeapSecondsAtUtc(gps));
+  return gps - leap + kGpsEpoch;
+}
+
+double GpsOfUtc(double utc) { return utc - kGpsEpoch + LeapSecondsAtUtc(utc - kGpsEpoch); }
+
+std::optional<double> GpsTimeOfDay(int year_number, int day_of_year) {
+  const year of(year_number);
+  if (year_number < 1990 || year_number > 2100 || day_of_year < 1 || day_of_year > (of.is_leap() ? 366 : 365))
+    return std::nullopt;
+  const double utc = SinceEpoch(sys_days(of / 1 / 1) + std::chrono::days(day_of_year - 1));
+  return utc + LeapSecondsAtUtc(utc);
+}
+
 namespace {
 
 // GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.
@@ -257,21 +275,9 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
   return {"another flight", "give the trajectory of this one"};
 }
 
-constexpr double kGpsEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact
-
-// UTC of a GPS time, s since 1970. Within the leap second itself either side of it is right enough.
-double UtcOfGps(double gps) {
-  const int leap = LeapSecondsAtUtc(gps - LeapSecondsAtUtc(gps));
-  return gps - leap + kGpsEpoch;
-}
-
-double GpsOfUtc(double utc) { return utc - kGpsEpoch + LeapSecondsAtUtc(utc - kGpsEpoch); }
-
-std::string SpanText(const TimeSpan& utc) {
-  return absl::StrFormat("%s to %s", UtcText(GpsOfUtc(utc.first)), UtcText(GpsOfUtc(utc.last)));
-}
-
 }  // namespace
+
+bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
 
 double Overlap(const TimeSpan& a, const TimeSpan& b) { return std::min(a.last, b.last) - std::max(a.first, b.first); }
 
@@ -300,45 +306,6 @@ absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& traje
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s: no record at the times of the points: it has %.1f to %.1f s, they have %s (%s); %s", name, trajectory.first,
       trajectory.last, DescribePointTimes(points), mismatch.why, mismatch.suggestion));
-}
-
-absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
-                                 const std::string& of) {
-  if (!std::isfinite(points.span.first) || !std::isfinite(points.span.last) ||
-      (points.span.first == 0 && points.span.last == 0)) {
-    return absl::FailedPreconditionError(
-        absl::StrFormat("%s: the GPS times of its points are no times, so that no sea of %s belongs to them; choose "
-                        "one by --sea-time",
-                        name, of));
-  }
-  const auto outside = [&] {
-    return absl::FailedPreconditionError(
-        absl::StrFormat("%s: its points were measured outside of %s (they have %s, the file %s); give the "
-                        "sea of that time, or choose "
-                        "an instant by --sea-time",
-                        name, of, DescribePointTimes(points), SpanText(known)));
-  };
-  if (points.form == PointTimeForm::kAdjustedStandard) {
-    const double offset = UtcOfGps(points.span.first + kAdjustedGpsOffset) - points.span.first;
-    const bool meets = Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0;
-    if (!meets) return outside();
-    return offset;
-  }
-  const double first_week = std::floor(GpsOfUtc(known.first) / kSecondsPerWeek),
-               last_week = std::floor(GpsOfUtc(known.last) / kSecondsPerWeek);
-  std::vector<double> offsets;
-  for (double week = first_week; week <= last_week && offsets.size() < 2; ++week) {
-    const double offset = UtcOfGps(week * kSecondsPerWeek + points.span.first) - points.span.first;
-    if (Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0) offsets.push_back(offset);
-  }
-  if (offsets.empty()) return outside();
-  if (offsets.size() == 1 && points.span.last - points.span.first < kSecondsPerWeek / 2) return offsets.front();
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "%s: its GPS times are seconds of a week that they do not name (%s, %s), and %s; choose an instant by "
-      "--sea-time, "
-      "or give the part of the file that is of the flight",
-      name, DescribePointTimes(points), of,
-      offsets.size() > 1 ? "the sea has more than one week of them" : "they begin again from 0"));
 }
 
 }  // namespace albtpu::formats

@@ -31,12 +31,23 @@ std::optional<double> ParseUtc(std::string_view text);
 // The inverse, to whole seconds: `2016-05-11T14:00:00Z`. Requires 0 <= gps_time < 1e11 [s].
 std::string UtcText(double gps_time);
 
+// UTC, s since 1970 without leap seconds, of a GPS time, s since 1980, and the inverse.
+double UtcOfGps(double gps);
+double GpsOfUtc(double utc);
+
+// The beginning of a day in UTC as GPS time, s since 1980, by the number of the day in its year, from 1. nullopt where
+// there is no such day, or none of a laser survey: before 1990 or after 2100.
+std::optional<double> GpsTimeOfDay(int year, int day_of_year);
+
 // A closed interval of seconds.
 struct TimeSpan {
   double first = 0, last = 0;
 };
 // The overlap of two intervals, s; negative: the gap between them.
 double Overlap(const TimeSpan& a, const TimeSpan& b);
+
+// A time that no clock gives: 0, which files have where the clock was not known, or not finite.
+bool IsNoTime(double stated);
 
 // The form of GPS times in a LAS file, global encoding bit 0.
 enum class PointTimeForm { kWeekSeconds, kAdjustedStandard };
@@ -45,6 +56,8 @@ enum class PointTimeForm { kWeekSeconds, kAdjustedStandard };
 struct PointTimes {
   TimeSpan span;
   PointTimeForm form = PointTimeForm::kAdjustedStandard;
+  // The beginning of the day, in UTC, on which the file was created by its header: GPS time since 1980.
+  std::optional<double> created = std::nullopt;
 };
 
 // The time scale of a trajectory: --trajectory-time.
@@ -58,16 +71,6 @@ enum class TrajectoryClock { kGps, kUtc };
 // another week. Also fails when points of more than a week fit several weeks. `name` is the trajectory's.
 absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& trajectory, TrajectoryClock clock,
                                   const PointTimes& points);
-
-// The times of the points of a LAS file in UTC, to find the state of the sea at each point.
-//
-// `offset` such that UTC [s since 1970-01-01T00:00:00Z, without leap seconds] = time of a point + offset. Times that
-// are seconds of the week leave the week open: it is the one in which the points lie within `known`, an interval of
-// UTC. Fails, and names the points' times, where they lie wholly outside `known`, and where seconds of the week fit
-// into more than one week of it or start again from 0. `name` begins the message, `of` names the source of `known`:
-// "sea.csv".
-absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
-                                 const std::string& of);
 
 // The range in words: "302400.0 to 305000.0 s of the GPS week", with week and date where they are known.
 std::string DescribePointTimes(const PointTimes& points);

@@ -10,8 +10,10 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/csv/csv_reader.h"
+#include "formats/files/file_access.h"
 #include "formats/text/text.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/trajectories/coops_levels.h"
+#include "formats/trajectories/dated_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -30,10 +32,26 @@ std::string CellText(const CsvRecord& record, std::size_t cell) {
 
 class WaterLevelReader {
  public:
-  WaterLevelReader(std::string name, std::string text, PointTimeForm form)
-      : name_(std::move(name)), block_{.text = std::move(text)}, form_(form) {}
+  WaterLevelReader(std::string name, std::string text, PointTimeForm form, const LevelReference& reference)
+      : name_(std::move(name)), block_{.text = std::move(text)}, form_(form), reference_(reference) {}
 
   absl::StatusOr<WaterLevelSeries> Read() {
+    RETURN_IF_ERROR(AreCoopsLevels(block_.text) ? TakeCoopsLevels() : ReadRecords());
+    if (series_.size() < 2)
+      return Error(
+          "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
+          "number in place of the file");
+    if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
+    series_.has_dates_ = utc_;
+    series_.offset_ = reference_.offset;
+    for (double& level : series_.levels_) level += reference_.offset;
+    if (reference_.datum.has_value() || reference_.offset != 0) Describe();
+    return std::move(series_);
+  }
+
+ private:
+  absl::Status ReadRecords() {
+    ASSIGN_OR_RETURN(block_.dialect, DialectOf(name_, block_.text));
     CsvRecords records(name_, block_);
     CsvRecord record;
     while (true) {
@@ -43,16 +61,54 @@ class WaterLevelReader {
       RETURN_IF_ERROR(has_header_ ? ReadLevel(record) : ReadHeader(record));
     }
     if (!has_header_) return Error("is empty; give a CSV file with the columns time and water_level");
-    if (series_.size() < 2)
-      return Error(
-          "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
-          "number in place of the file");
-    if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
-    series_.has_dates_ = utc_;
-    return std::move(series_);
+    if (!reference_.hours_from_utc.has_value()) return absl::OkStatus();
+    return Error("has times that are UTC or GPS times by their form; leave out --level-hours-from-utc");
   }
 
- private:
+  // Datum, zone and unit are not those of the points by themselves, as they are of the form above.
+  absl::Status TakeCoopsLevels() {
+    ASSIGN_OR_RETURN(const CoopsLevels coops, ReadCoopsLevels(name_, block_.text));
+    if (!reference_.datum.has_value()) {
+      return Error(
+          "is a file of CO-OPS, which does not state the datum of its levels; name the one that they were asked for by "
+          "--level-datum, such as MLLW or NAVD, and what has to be added for that of the points by --level-offset");
+    }
+    using Zone = CoopsLevels::Zone;
+    if (coops.zone == Zone::kLocal && !reference_.hours_from_utc.has_value()) {
+      return Error(
+          "has times of a local zone; give its hours from UTC by --level-hours-from-utc, such as -5 for Eastern "
+          "Standard Time");
+    }
+    if (coops.zone == Zone::kGmt && reference_.hours_from_utc.value_or(0) != 0)
+      return Error("states times in GMT; leave out --level-hours-from-utc");
+    const double hours = reference_.hours_from_utc.value_or(0);
+    for (const CoopsLevel& each : coops.levels) {
+      const double time = GpsOfUtc(UtcOfGps(each.time) - hours * 3600) - kAdjustedGpsOffset;
+      if (series_.size() > 0 && !(time > series_.times_.back()))
+        return Error(absl::StrCat("has ", UtcText(each.time), " after a later time; sort it by time"));
+      series_.times_.push_back(time);
+      series_.levels_.push_back(each.level);
+    }
+    utc_ = true;
+    series_.metres_ = coops.metres;
+    about_ = absl::StrCat(
+        coops.predicted ? "predictions" : "water levels", " of CO-OPS",
+        coops.station.empty() ? "" : absl::StrCat(" at ", coops.station),
+        coops.preliminary > 0 ? absl::StrFormat(", %d of %d preliminary", coops.preliminary, coops.levels.size()) : "",
+        coops.missing > 0 ? absl::StrFormat(", %d missing", coops.missing) : "",
+        coops.zone == Zone::kNotStated && hours == 0 ? ", times taken as GMT" : "",
+        coops.metres.has_value() ? "" : ", in the unit of the points' heights");
+    return absl::OkStatus();
+  }
+
+  void Describe() {
+    series_.description_ = absl::StrCat(
+        about_.empty() ? "water levels" : about_, ", relative to ", reference_.datum.value_or("a datum without name"),
+        reference_.offset == 0
+            ? " (taken as the datum of the points' heights; --level-offset is added otherwise)"
+            : absl::StrFormat("; %+g is added for the datum of the points' heights", reference_.offset));
+  }
+
   absl::Status Error(std::string_view text) const {
     return absl::InvalidArgumentError(absl::StrCat(name_, ": ", std::string(text)));
   }
@@ -92,7 +148,7 @@ class WaterLevelReader {
                        "column, and decimal points"));
     }
     const std::string level_text = CellText(record, level_column_);
-    const std::optional<double> level = ParseDouble(level_text);
+    const std::optional<double> level = NumberIn(level_text);
     if (!level.has_value() || !(std::abs(*level) <= kLargestLevel)) {
       return CellError(record, kLevel,
                        absl::StrCat("'", level_text, "' is not a water level; write a number in the ",
@@ -110,9 +166,15 @@ class WaterLevelReader {
     return absl::OkStatus();
   }
 
+  std::optional<double> NumberIn(const std::string& cell) const {
+    std::string buffer;
+    const std::optional<std::string_view> text = WithPoint(cell, block_.dialect, buffer);
+    return text.has_value() ? ParseDouble(*text) : std::nullopt;
+  }
+
   absl::Status ReadTime(const CsvRecord& record, double& time) {
     const std::string text = CellText(record, time_column_);
-    const std::optional<double> utc = ParseUtc(text), number = ParseDouble(text);
+    const std::optional<double> utc = ParseUtc(text), number = NumberIn(text);
     if (!utc.has_value() && !(number.has_value() && std::abs(*number) <= kLargestTime)) {
       return CellError(record, kTime,
                        absl::StrCat("'", text, "' is not a time; write UTC such as 2016-05-11T14:00:00Z, or the GPS ",
@@ -155,13 +217,22 @@ class WaterLevelReader {
   std::string name_;
   CsvBlock block_;
   PointTimeForm form_;
+  LevelReference reference_;
+  std::string about_;  // Of a file of CO-OPS.
   WaterLevelSeries series_;
   bool has_header_ = false, utc_ = false;
   std::size_t time_column_ = 0, level_column_ = 0, column_count_ = 0;
 };
 
-absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::string text, PointTimeForm form) {
-  return WaterLevelReader(std::move(name), std::move(text), form).Read();
+absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::string text, PointTimeForm form,
+                                                         const LevelReference& reference) {
+  return WaterLevelReader(std::move(name), std::move(text), form, reference).Read();
+}
+
+void WaterLevelSeries::TakeUnit(double metres_per_unit) {
+  if (!metres_.has_value() || *metres_ == metres_per_unit) return;
+  for (double& level : levels_) level = (level - offset_) * *metres_ / metres_per_unit + offset_;
+  metres_ = metres_per_unit;
 }
 
 double WaterLevelSeries::Continued(double stated) const {
@@ -201,51 +272,44 @@ void WaterLevelSeries::LevelsAt(std::span<const double> times, std::span<double>
   }
 }
 
-absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path, PointTimeForm form) {
-  ASSIGN_OR_RETURN(CsvReader reader, CsvReader::Open(path));
-  ASSIGN_OR_RETURN(CsvBlock block, reader.ReadHeader());
-  std::string text = std::move(block.text);
-  while (true) {
-    ASSIGN_OR_RETURN(const bool more, reader.Read(block));
-    if (!more) break;
-    text += block.text;
-    if (text.size() > kLargestFile) {
-      return absl::InvalidArgumentError(absl::StrFormat("%s: is larger than %d MB; give a CSV file of water levels",
-                                                        path.string(), kLargestFile >> 20));
-    }
+absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path, PointTimeForm form,
+                                                 const LevelReference& reference) {
+  ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "a CSV file of water levels"));
+  if (file.bytes().size() > kLargestFile) {
+    return absl::InvalidArgumentError(absl::StrFormat("%s: is larger than %d MB; give a CSV file of water levels",
+                                                      path.string(), kLargestFile >> 20));
   }
-  return WaterLevelSeries::Parse(path.string(), std::move(text), form);
+  return WaterLevelSeries::Parse(path.string(), std::string(file.bytes()), form, reference);
 }
 
 absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
+                                                 TimeFormat format, const LevelReference& reference,
                                                  std::string& note) {
   note.clear();
-  ASSIGN_OR_RETURN(WaterLevelSeries stated, ReadWaterLevels(path, points.form));
-  const auto covered = [&](const WaterLevelSeries& series, const PointClock& clock) {
-    const PointTimes times = clock(points.span);
-    return Overlap({series.start(), series.end()}, times.span) / std::max(times.span.last - times.span.first, 1e-9);
-  };
-  const std::vector<PointClock> clocks = ClocksOf(points, TimeFormat::kAuto);
-  if (!stated.has_dates() || stated.crosses_week_ || covered(stated, clocks.front()) >= 0) return stated;
-  std::vector<PointClock> fitting;
-  std::optional<WaterLevelSeries> found;
-  for (const PointClock& clock : clocks) {
-    // Dates of more than a week cannot be seconds of a week: an error of that form alone.
-    absl::StatusOr<WaterLevelSeries> series = ReadWaterLevels(path, clock.form);
-    if (!series.ok() || !(covered(*series, clock) >= 0.5)) continue;
-    series->scale_ = clock.scale;
-    series->shift_ = clock.shift;
-    fitting.push_back(clock);
-    found = *std::move(series);
+  absl::StatusOr<WaterLevelSeries> stated = ReadWaterLevels(path, points.form, reference);
+  if (stated.ok()) {
+    const bool covers = Overlap({stated->start(), stated->end()}, points.span) >= 0;
+    if (!stated->has_dates() || (format == TimeFormat::kAuto && (stated->crosses_week_ || covers))) return stated;
   }
-  if (fitting.empty()) return stated;
-  if (fitting.size() > 1) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": covers the GPS times of the points as ", ClocksText(fitting),
-                     ", but not as their header states; give the levels of the day of the survey alone"));
+  // Dates of more than a week are an error of seconds of a week alone.
+  absl::StatusOr<WaterLevelSeries> dated = ReadWaterLevels(path, PointTimeForm::kAdjustedStandard, reference);
+  if (!dated.ok() || !dated->has_dates()) return stated;
+  const absl::StatusOr<std::optional<DatedClock>> clock =
+      FindDatedClock(points, format, {dated->start(), dated->end()}, path.string(), note);
+  if (!clock.ok()) {
+    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": covers the GPS times of the points as ",
+                                                      clock.status().message(),
+                                                      "; give the levels of the day of the survey alone"));
   }
-  note = ClockNote(fitting.front(), points, path.string());
-  return *std::move(found);
+  if (!clock->has_value()) {
+    if (format == TimeFormat::kAuto) return stated;
+    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": has no level at the times of the points if ",
+                                                      "--time-format ", NameOf(format),
+                                                      " is right; give the levels of that time, or another format"));
+  }
+  dated->scale_ = (*clock)->scale;
+  dated->shift_ = (*clock)->shift;
+  return dated;
 }
 
 }  // namespace albtpu::formats

@@ -6,7 +6,9 @@
 //
 // `time` is UTC in ISO 8601 with its Z, or a number: GPS time in the form in which the LAS file states it. One file has
 // one of the two. `water_level` is in the unit and in the vertical datum of the heights of the points. Others are
-// ignored.
+// ignored. Cells may be separated and numbers written as in formats/csv/csv_dialect.h.
+//
+// Or a file of CO-OPS (coops_levels.h), which states neither its datum nor, mostly, its time zone and unit.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +19,17 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
+
+// What a file of levels does not state, by the user.
+struct LevelReference {
+  std::optional<std::string> datum = {};      // "MLLW", by name.
+  double offset = 0;                          // Added to levels, from that datum to that of the points, in their unit.
+  std::optional<double> hours_from_utc = {};  // Of times that state no zone: local time - UTC.
+};
 
 class WaterLevelSeries {
  public:
@@ -29,7 +39,8 @@ class WaterLevelSeries {
   static constexpr double kLongestGap = 7200;
 
   // Reads the text of such a file. `name` is for messages. At least two levels at increasing times.
-  static absl::StatusOr<WaterLevelSeries> Parse(std::string name, std::string text, PointTimeForm form);
+  static absl::StatusOr<WaterLevelSeries> Parse(std::string name, std::string text, PointTimeForm form,
+                                                const LevelReference& reference = {});
 
   std::size_t size() const { return times_.size(); }
   double start() const { return times_.front(); }
@@ -37,6 +48,16 @@ class WaterLevelSeries {
 
   // Whether the file has dates, and not times in the form of the points.
   bool has_dates() const { return has_dates_; }
+
+  // What the levels are and are relative to, for the user: "8723214 Virginia Key (CO-OPS), relative to MLLW, ...".
+  // Empty where the file is of levels as the points have them.
+  const std::string& description() const { return description_; }
+
+  // Levels of a file that states its unit become those in a unit of `metres_per_unit`. Others have it already.
+  void TakeUnit(double metres_per_unit);
+
+  // Of a unit of the points' times.
+  double seconds() const { return scale_; }
 
   // The level at a time of the points, linear between the two levels around it. nullopt before the first, after the
   // last, and in a gap.
@@ -59,21 +80,26 @@ class WaterLevelSeries {
   std::vector<double> times_, levels_;
   bool crosses_week_ = false;  // Seconds of the week that continue beyond 604 800 s.
   bool has_dates_ = false;
+  std::string description_;
+  std::optional<double> metres_;  // Of the unit of the levels; absent: not stated.
+  double offset_ = 0;             // As LevelReference.
   double scale_ = 1, shift_ = 0;  // Time of the series = scale (time of a point) + shift.
 
   friend class WaterLevelReader;
   friend absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
+                                                          TimeFormat format, const LevelReference& reference,
                                                           std::string& note);
 };
 
 // Reads a CSV file of water levels.
 absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path,
-                                                 PointTimeForm form = PointTimeForm::kAdjustedStandard);
+                                                 PointTimeForm form = PointTimeForm::kAdjustedStandard,
+                                                 const LevelReference& reference = {});
 
 // The same for the points of a file, by the clock that their header states. Where a file of dates has no level at their
-// times by it, by the only other clock by which it covers half of them or more; `note` says so then, and is empty
-// otherwise. The error names the clocks that fit where they are several.
+// times by it, or several weeks of them, by FindDatedClock, which fills `note`. With another `format` than kAuto by
+// that alone. Numbers in place of dates are in the form of the points, whatever it is.
 absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
-                                                 std::string& note);
+                                                 TimeFormat format, const LevelReference& reference, std::string& note);
 
 }  // namespace albtpu::formats

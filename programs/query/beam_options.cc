@@ -64,7 +64,6 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
   } checked[] = {
       {"--trajectory-errors", !flags.trajectory.errors.empty(), kTrajectory},
       {"--trajectory-time", flags.trajectory.time.has_value(), kTrajectory},
-      {"--time-format", flags.trajectory.time_format.has_value(), kTrajectory},
       {"--velocity-axes", flags.trajectory.velocity_axes.has_value(), kTrajectory},
       {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
       {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
@@ -101,16 +100,14 @@ absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOption
   const config::TrajectorySettings& trajectory = settings.trajectory;
   switch (way.way) {
     case kTrajectory:
-      return annotate::TrajectoryFromFiles{
-          .paths = trajectory.files,
-          .errors = trajectory.errors,
-          .utc = trajectory.time == "utc",
-          .time_format = static_cast<formats::TimeFormat>(IndexOf(formats::kTimeFormatNames, trajectory.time_format)),
-          .velocity_axes =
-              static_cast<formats::VelocityAxes>(IndexOf(formats::kVelocityAxesNames, trajectory.velocity_axes)),
-          .geoid_separation = settings.datum.geoid_separation,
-          .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
-          .crs = options.crs};
+      return annotate::TrajectoryFromFiles{.paths = trajectory.files,
+                                           .errors = trajectory.errors,
+                                           .utc = trajectory.time == "utc",
+                                           .velocity_axes = static_cast<formats::VelocityAxes>(
+                                               IndexOf(formats::kVelocityAxesNames, trajectory.velocity_axes)),
+                                           .geoid_separation = settings.datum.geoid_separation,
+                                           .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
+                                           .crs = options.crs};
     case kReturns:
       return annotate::TrajectoryFromReturns{.crs = options.crs};
     case kScanner:
@@ -178,13 +175,25 @@ absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& s
   return absl::OkStatus();
 }
 
-void SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) {
+absl::Status SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) {
   plan.water_classes = {surface.classes.begin(), surface.classes.end()};
-  if (!surface.level.has_value()) return;
+  plan.level_reference = {.datum = surface.level_datum,
+                          .offset = surface.level_offset.value_or(0),
+                          .hours_from_utc = surface.level_hours_from_utc};
+  const bool refers =
+      surface.level_datum.has_value() || surface.level_offset.has_value() || surface.level_hours_from_utc.has_value();
+  const bool file_given = surface.level.has_value() && std::holds_alternative<std::string>(*surface.level);
+  if (refers && !file_given) {
+    return formats::UsageError(
+        "las: --level-datum, --level-offset and --level-hours-from-utc have no effect without a file of water levels; "
+        "leave them out, or give the file by --water-level");
+  }
+  if (!surface.level.has_value()) return absl::OkStatus();
   if (const auto* file = std::get_if<std::string>(&*surface.level))
     plan.water_level_file = *file;
   else
     plan.water_level = std::get<double>(*surface.level);
+  return absl::OkStatus();
 }
 
 void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
@@ -218,7 +227,10 @@ void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
 
 void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
   AddWays(command, options, flags);
-  AddFlags(command, {"--water-level", "--water-classes", "--water-index"}, group::kSea, flags);
+  AddFlags(command,
+           {"--water-level", "--level-datum", "--level-offset", "--level-hours-from-utc", "--water-classes",
+            "--water-index"},
+           group::kSea, flags);
   for (const annotate::PulseInput input : {annotate::PulseInput::kFootprint, annotate::PulseInput::kAzimuth})
     AddInput(command, input, options.fixed);
   AddNumber(command, "--altitude", Sign::kNotNegative,
@@ -295,12 +307,14 @@ absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const Su
   TakeWind(sea, wind);
   annotate::BeamPlan plan;
   plan.source = source;
+  plan.time_format =
+      static_cast<formats::TimeFormat>(IndexOf(formats::kTimeFormatNames, settings.trajectory.time_format));
   plan.any_sea = wind.any_sea;
   plan.wind_speed = wind[annotate::PulseInput::kWindSpeed].value_or(0);
   plan.fetch = wind[annotate::PulseInput::kFetch];
   plan.metres_per_unit = options.metres_per_unit;
   if (plan.has_track()) plan.refractive_index = annotate::IndexOf(settings.water).value_or(kSeaWaterIndex);
-  SetWater(settings.surface, plan);
+  RETURN_IF_ERROR(SetWater(settings.surface, plan));
   RETURN_IF_ERROR(SetFootprint(options, details, plan));
   RETURN_IF_ERROR(SetAzimuth(options, sea, details, plan));
   return plan;

@@ -211,6 +211,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
       for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
       answers = annotate::WithTotal(std::move(answers), plan, csv.totals);
     }
+    if (!csv.dialect.is_usual()) absl::StrAppend(&text, "\n  ", csv.dialect.Text(), ", in the output as well");
     return annotate::AnnotatedFile{std::move(csv.file),
                                    annotate::Findings{.input_bytes = csv.input_bytes,
                                                       .input = annotate::JsonBox(answerer.SeaJson()),

@@ -170,7 +170,9 @@ absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
     for (const std::string& line : plan.trajectory_errors.skipped()) annotate::Note(line);
   }
   if (!plan.water_level_file.has_value()) return absl::OkStatus();
-  return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard).status();
+  return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard,
+                                  plan.level_reference)
+      .status();
 }
 
 // The inputs in which a mistake in the coordinates is sought.

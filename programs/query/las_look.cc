@@ -16,6 +16,7 @@
 #include "formats/las/las_crs.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "programs/query/beam_options.h"
+#include "programs/query/las_clock.h"
 #include "service/printable_text.h"
 #include "status/status_macros.h"
 
@@ -67,33 +68,16 @@ std::vector<std::string> ClassLines(const LasLook& look) {
   return lines;
 }
 
+double GpsNow() {
+  return formats::GpsOfUtc(static_cast<double>(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
 std::string TimesText(const LasLook& look) {
   const formats::LasContents& contents = look.contents;
-  const formats::TimeSpan span{contents.first_time, contents.last_time};
   if (!formats::HasGpsTime(look.header.point_format))
     return absl::StrCat("none (point format ", look.header.point_format, "): no trajectory can be used");
-  if (!contents.has_times()) return "none: all are equal or not finite, so that no trajectory can be used";
-  const bool week_seconds = span.first >= 0 && span.last <= formats::kSecondsPerWeek;
-  if (!look.header.adjusted_gps_time) {
-    return absl::StrFormat("%.1f to %.1f s, which are seconds of the GPS week according to the header%s", span.first,
-                           span.last,
-                           week_seconds ? ", whose date is not known"
-                                        : "; but these are more than a week has, mostly adjusted standard GPS time "
-                                          "(set bit 0 of the global encoding)");
-  }
-  const double first = span.first + formats::kAdjustedGpsOffset, last = span.last + formats::kAdjustedGpsOffset;
-  if (!(first >= 0 && last < 1e11))
-    return absl::StrFormat(
-        "%.1f to %.1f s, which are adjusted standard GPS time according to the header, but before 1980 or after 5000",
-        span.first, span.last);
-  const double now = static_cast<double>(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
-  constexpr double kGpsEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact
-  return absl::StrFormat("%s to %s, by adjusted standard GPS time according to the header%s", formats::UtcText(first),
-                         formats::UtcText(last),
-                         last > now - kGpsEpoch + 86400 ? "; but this is in the future: they are of another kind"
-                         : week_seconds                 ? "; but they may be seconds of a week (clear bit 0 of the "
-                                                          "global encoding then)"
-                                                        : "");
+  if (!contents.has_times()) return "none: all are equal, 0 or not finite, so that no trajectory can be used";
+  return ClockText(look.times(), GpsNow());
 }
 
 std::string PlaceText(const LasLook& look) {
@@ -117,9 +101,7 @@ std::string List(const std::vector<int>& classes) { return absl::StrCat("[", abs
 
 // What a file has, in words that can be compared.
 std::string ClockOf(const LasLook& look) {
-  return !look.contents.has_times()      ? "no GPS times"
-         : look.header.adjusted_gps_time ? "adjusted standard GPS times"
-                                         : "seconds of the GPS week";
+  return look.contents.has_times() ? ClockName(look.times(), GpsNow()) : "no GPS times";
 }
 
 // The class that has most points, and that returns neither from the water surface nor noise have.
@@ -188,6 +170,13 @@ std::vector<int> LasLook::bottom() const {
 std::vector<int> LasLook::water_surface() const {
   const std::vector<int> found = contents.Of(formats::UsualSurfaceClasses(formats::kFirstModernFormat));
   return !found.empty() ? found : contents.Of(formats::UsualSurfaceClasses(0));
+}
+
+formats::PointTimes LasLook::times() const {
+  return {.span = {contents.first_time, contents.last_time},
+          .form = header.adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
+                                           : formats::PointTimeForm::kWeekSeconds,
+          .created = formats::GpsTimeOfDay(header.creation_year, header.creation_day)};
 }
 
 bool LasLook::has_bottom_by_default() const {

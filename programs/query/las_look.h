@@ -13,6 +13,7 @@
 #include "formats/las/las_contents.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_reader.h"
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::programs {
 
@@ -29,6 +30,7 @@ struct LasLook {
 
   std::vector<int> bottom() const;         // The classes of bathymetric points, as far as their numbers tell.
   std::vector<int> water_surface() const;  // The same of returns from the water surface.
+  formats::PointTimes times() const;       // Requires contents.has_times().
   bool has_bottom_by_default() const;      // Points of the class that is taken where none is named.
   // Whether enough pulses have two returns that may lie under water: the way of the beams follows from them.
   bool has_pairs() const;

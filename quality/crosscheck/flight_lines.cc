@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::quality {
 namespace {
@@ -13,7 +14,7 @@ constexpr int kBitsOfSecond = 48;
 constexpr std::int64_t kLatest = std::int64_t{1} << (kBitsOfSecond - 1);  // s
 constexpr std::uint64_t kNoSecond = 0;
 
-bool IsTime(double time) { return std::isfinite(time) && time != 0 && std::abs(time) < static_cast<double>(kLatest); }
+bool IsTime(double time) { return !formats::IsNoTime(time) && std::abs(time) < static_cast<double>(kLatest); }
 
 }  // namespace
 

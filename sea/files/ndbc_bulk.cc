@@ -52,7 +52,7 @@ class NdbcBulkReader {
       RETURN_IF_ERROR(ReadRecord(words));
     }
     if (lines_.cut()) return lines_.CutError();
-    if (series_.records.empty()) return absl::InvalidArgumentError("none of its records has waves; give another file");
+    if (series_.records.empty()) RETURN_IF_ERROR(TakeWinds());
     SayWhatIsAssumed();
     SortByTime(series_);
     return std::move(series_);
@@ -70,6 +70,7 @@ class NdbcBulkReader {
                 {Column(header, {"SwH"}), Column(header, {"SwP"}), Column(header, {"SwD"})}};
     } else {
       waves_ = {{Column(header, {"WVHT"}), Column(header, {"DPD"}), Column(header, {"MWD"})}};
+      has_waves_ = waves_.front().height != kNone;
     }
     wind_speed_ = Column(header, {"WSPD"});
     wind_direction_ = Column(header, {"WDIR", "WD"});
@@ -80,7 +81,7 @@ class NdbcBulkReader {
     if (!time) return lines_.Error("does not begin with a date and time; get another copy of the file");
     if (words.size() != columns_)
       return lines_.Error("has ", words.size(), " columns (expected ", columns_, "); get another copy of the file");
-    if (series_.records.size() >= kMaxSeaRecords)
+    if (series_.records.size() + winds_.size() >= kMaxSeaRecords)
       return lines_.Error("is one record too many (at most ", kMaxSeaRecords, "); split the file");
     SeaRecord record{.time = time};
     std::vector<JonswapWaves> components;
@@ -90,11 +91,34 @@ class NdbcBulkReader {
     RETURN_IF_ERROR(AddWind(words, record));
     if (components.empty()) {
       ++without_waves_;
+      with_speed_ += record.wind_speed_10m.has_value();
+      const bool directed = record.wind_from.has_value() || record.wind_speed_10m == 0;
+      if (record.wind_speed_10m.has_value() && directed) {
+        record.waves = WindAlone();
+        winds_.push_back(std::move(record));
+      }
       return absl::OkStatus();
     }
     record.waves = std::make_shared<const std::vector<JonswapWaves>>(std::move(components));
     series_.records.push_back(std::move(record));
     return absl::OkStatus();
+  }
+
+  // Stations on the coast measure no waves.
+  absl::Status TakeWinds() {
+    is_of_winds_ = !winds_.empty();
+    series_.records = std::exchange(winds_, {});
+    if (is_of_winds_) {
+      series_.format = "NDBC winds";
+      return absl::OkStatus();
+    }
+    return absl::InvalidArgumentError(absl::StrCat("none of its ", without_waves_, " records has waves (",
+                                                   has_waves_ ? "height or period is missing" : "no column WVHT",
+                                                   ") or, in their place, a wind (",
+                                                   wind_speed_ == kNone ? "no column WSPD"
+                                                   : with_speed_ > 0    ? "its direction is missing"
+                                                                        : "its speed is missing",
+                                                   "); give the file of a buoy, or --hs, --tp and --waves-from"));
   }
 
   absl::Status AddWaves(const std::vector<std::string_view>& words, const WaveColumns& columns, bool swell,
@@ -155,6 +179,13 @@ class NdbcBulkReader {
 
   void SayWhatIsAssumed() {
     const auto say = [&](auto... parts) { series_.assumed.push_back(absl::StrCat(parts...)); };
+    if (is_of_winds_) {
+      say("it has no waves: the sea of each record is that of its wind, fully developed, without swell");
+      say("winds are taken as measured ", anemometer_height_, " m above the water");
+      if (without_waves_ > series_.records.size())
+        say(without_waves_ - series_.records.size(), " records have no wind or no direction of it and are left out");
+      return;
+    }
     say("the waves are taken as JONSWAP's of these heights and periods: gamma 3.3 and Mitsuyasu's spreading",
         separated_ ? ", swell gamma 7 and a spread of 18 degrees" : "");
     if (!separated_) say("swell and wind waves are not separated: spectra or a .spec file are more accurate");
@@ -171,6 +202,9 @@ class NdbcBulkReader {
   std::vector<WaveColumns> waves_;
   std::size_t wind_speed_ = kNone, wind_direction_ = kNone;
   SeaSeries series_{};
+  std::vector<SeaRecord> winds_;  // Of records without waves.
+  bool has_waves_ = true, is_of_winds_ = false;
+  std::size_t with_speed_ = 0;  // Records without waves that have a speed of the wind.
   std::size_t without_waves_ = 0, without_direction_ = 0;
 };
 
@@ -178,7 +212,7 @@ class NdbcBulkReader {
 
 bool IsNdbcBulk(std::string_view first_line) {
   const std::vector<std::string_view> words = Words(first_line);
-  return NdbcDateColumns(words).count > 0 && Column(words, {"WVHT"}) != kNone;
+  return NdbcDateColumns(words).count > 0 && (Column(words, {"WVHT"}) != kNone || Column(words, {"WSPD"}) != kNone);
 }
 
 absl::StatusOr<SeaSeries> ReadNdbcBulk(std::string_view text, double anemometer_height) {

@@ -20,6 +20,8 @@
 
 namespace albtpu {
 
+// Files in which no record has waves, as those of stations on the coast (C-MAN) and continuous winds, give the wind
+// alone.
 bool IsNdbcBulk(std::string_view first_line);
 
 // `anemometer_height` [m, 1 to 100] is that of stdmet's winds, which are converted to 10 m by WindSpeedAt10m().

@@ -13,6 +13,8 @@ namespace albtpu {
 namespace {
 
 struct HeightOf {
+  const SeaRecord& record;
+  double operator()(WindAlone) const { return SignificantWaveHeight(Describe(record).spectrum); }
   double operator()(const BinnedWaves& waves) const { return waves->significant_wave_height(); }
   double operator()(const WaveComponents& waves) const { return JonswapSpectrum(*waves).significant_wave_height(); }
   double operator()(const WholeSea& waves) const { return SignificantWaveHeight(*waves); }
@@ -27,16 +29,16 @@ SeaDescription Merged(const SeaRecord& record, SeaDescription given) {
 
 }  // namespace
 
-double SeaRecord::significant_wave_height() const { return std::visit(HeightOf(), waves); }
+double SeaRecord::significant_wave_height() const { return std::visit(HeightOf{*this}, waves); }
 
 SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription given) {
   assert(!std::holds_alternative<WholeSea>(record.waves));
   given = Merged(record, std::move(given));
   if (const auto* bins = std::get_if<BinnedWaves>(&record.waves)) {
     given.waves = *bins;
-  } else {
+  } else if (const auto* components = std::get_if<WaveComponents>(&record.waves)) {
     given.waves = std::make_shared<JonswapSpectrum>(
-        *std::get<WaveComponents>(record.waves), given.water_depth.value_or(std::numeric_limits<double>::infinity()));
+        **components, given.water_depth.value_or(std::numeric_limits<double>::infinity()));
   }
   return given;
 }

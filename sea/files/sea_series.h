@@ -19,6 +19,7 @@ namespace albtpu {
 using BinnedWaves = std::shared_ptr<const BinnedSpectrum>;
 using WaveComponents = std::shared_ptr<const std::vector<JonswapWaves>>;  // at least one
 using WholeSea = std::shared_ptr<const HarmonicSpectrum>;
+using WindAlone = std::monostate;  // the sea is the fully developed one of the wind, which is known with its direction
 
 struct SeaRecord {
   std::optional<double> time = {};            // s since 1970-01-01T00:00:00Z, without leap seconds
@@ -26,7 +27,7 @@ struct SeaRecord {
   std::optional<double> water_depth = {};     // m
   std::optional<double> wind_speed_10m = {};  // m/s
   std::optional<double> wind_from = {};       // compass direction, rad
-  std::variant<BinnedWaves, WaveComponents, WholeSea> waves = {};
+  std::variant<BinnedWaves, WaveComponents, WholeSea, WindAlone> waves = {};
 
   double significant_wave_height() const;  // m
 };

@@ -9,6 +9,7 @@
 #include "annotate/las/las_chunk.h"
 #include "annotate/las/las_prescan.h"
 #include "budget/beams/ray_track.h"
+#include "formats/las/las_contents.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
@@ -139,7 +140,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   LasChunkWork::Chunk chunk((AnswerStyle()));
   chunk.records = file.substr(header.offset_to_points, header.point_count * header.record_length);
   chunk.own = header.point_count;
-  ALBTPU_MUST(LasChunkWork(header, annotation, {}, beams, 0, true, source)(chunk).ok());
+  ALBTPU_MUST(LasChunkWork(header, annotation, {}, beams, {}, true, source)(chunk).ok());
   return head + chunk.annotated + std::string(file.substr(header.end_of_points()));
 }
 
@@ -156,6 +157,21 @@ void CheckAnnotated(std::string_view file, const LasReader& reader, const std::s
       absl::IsInvalidArgument(AnnotatedHead(*again, AppendedFloats({.details = true}), LasKind::kLas).status()));
 }
 
+// What is said of a file to people who have yet to describe it: all points are of some class.
+void CheckContents(const LasReader& reader, std::string_view input) {
+  const absl::StatusOr<LasContents> contents = ReadContents(reader);
+  if (!contents.ok()) return MustExplain(contents.status());
+  ALBTPU_MUST(contents->points == reader.header().point_count);
+  std::uint64_t points = 0;
+  for (const LasClassContents& of_class : contents->classes) points += of_class.points;
+  ALBTPU_MUST(points == contents->points);
+  ALBTPU_MUST(!contents->has_times() || (std::isfinite(contents->first_time) && std::isfinite(contents->last_time)));
+  contents->scan_pattern();
+  if (!IsOneIn(64, input)) return;  // PROJ takes long.
+  const absl::StatusOr<LasCrs> crs = CrsOf(reader, "");
+  ALBTPU_MUST(!crs.ok() || crs->map != nullptr);
+}
+
 // Every byte is kept, and the output is a LAS file that describes its uncertainties: with incidences from scan angles,
 // and from the positions of a sensor.
 void LasTarget(std::string_view file) {
@@ -165,6 +181,7 @@ void LasTarget(std::string_view file) {
   if (!reader.ok()) return MustExplain(reader.status());
   ALBTPU_MUST(FindFeet(*reader).ok());
   ALBTPU_MUST(DescribeCrs(*reader).ok());
+  CheckContents(*reader, file);
   if (reader->kind() == LasKind::kLaz) return;  // Its points are not in the file as they are.
   absl::StatusOr<LasHead> head = AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
   if (!head.ok()) return MustExplain(head.status());

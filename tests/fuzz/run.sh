@@ -18,11 +18,11 @@ shift
 targets=("$@")
 
 # The longest input of each target, in bytes: enough for its format and no more, because short inputs run faster.
-declare -A longest=([ascii_trajectory]=1500 [budget]=2400 [campaign]=2048 [columns]=2400 [csv]=300 [csv_file]=300
-                    [las]=1500 [las_head]=1500 [laz_chunk]=600 [laz_file]=1500 [laz_records]=620 [ndbc_bulk]=400
-                    [ndbc_spectra]=700 [sbet]=1088 [sea_csv]=300 [sea_gzip]=200 [sea_state]=4000 [sea_text]=700
-                    [seal]=600 [sensor_file]=500 [smrmsg]=640 [specification]=500 [survey_description]=900
-                    [swan_spectra]=400 [table]=131072 [water_level]=300 [ww3_points]=600)
+declare -A longest=([ascii_trajectory]=1500 [budget]=2400 [campaign]=2048 [clocks]=48 [columns]=2400 [csv]=300
+                    [csv_file]=300 [las]=1500 [las_head]=1500 [laz_chunk]=600 [laz_file]=1500 [laz_records]=620
+                    [ndbc_bulk]=400 [ndbc_spectra]=700 [sbet]=1088 [sea_csv]=300 [sea_gzip]=200 [sea_state]=4000
+                    [sea_text]=700 [seal]=600 [sensor_file]=500 [smrmsg]=640 [span_index]=300 [specification]=500
+                    [survey_description]=900 [swan_spectra]=400 [table]=131072 [water_level]=500 [ww3_points]=600)
 (($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
 for target in "${targets[@]}"; do
   if [[ -z ${longest[$target]-} ]]; then

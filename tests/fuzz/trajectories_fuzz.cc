@@ -108,10 +108,12 @@ void SmrmsgTarget(std::string_view bytes) {
   ALBTPU_MUST(!file->SigmaAt(std::nextafter(end, INFINITY)).has_value());
 }
 
-// For either form of the times of points: levels are finite, and columns of times give what single times give.
+// Of this project and of CO-OPS, for either form of the times of points: levels are finite, and columns of times give
+// what single times give.
 void WaterLevelTarget(std::string_view text) {
   const PointTimeForm form = text.size() % 2 == 0 ? PointTimeForm::kAdjustedStandard : PointTimeForm::kWeekSeconds;
-  const absl::StatusOr<WaterLevelSeries> series = WaterLevelSeries::Parse(kName, std::string(text), form);
+  const LevelReference reference = {.datum = "MLLW", .offset = -20};
+  const absl::StatusOr<WaterLevelSeries> series = WaterLevelSeries::Parse(kName, std::string(text), form, reference);
   if (!series.ok()) return MustExplain(series.status(), kName);
   ALBTPU_MUST(series->size() >= 2);
   const double start = series->start(), end = series->end();
@@ -126,7 +128,7 @@ void WaterLevelTarget(std::string_view text) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::optional<double> level = series->At(times[i]);
     ALBTPU_MUST(level.has_value() == !std::isnan(levels[i]));
-    if (level.has_value()) ALBTPU_MUST(*level == levels[i] && std::abs(*level) <= 1.0000001e5);
+    if (level.has_value()) ALBTPU_MUST(*level == levels[i] && std::abs(*level) <= 1.00021e5);
   }
 }
 

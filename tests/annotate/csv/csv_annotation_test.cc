@@ -63,6 +63,24 @@ const char kHeader[] = "wind_speed,fetch,incidence,azimuth,footprint,depth";
 const Pulse kPulse = {
     .wind_speed = 5, .fetch = 3e4f, .incidence = 12.5f, .azimuth = 30.0f, .footprint = 0.6f, .depth = 7};
 
+TEST_F(CsvAnnotation, WritesInTheDialectOfTheFile) {
+  const auto with = [](std::string text, char separator, char decimal) {
+    for (char& character : text) character = character == ',' ? separator : character == '.' ? decimal : character;
+    return text;
+  };
+  const std::string plain = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n");
+  for (const auto& [separator, decimal] : {std::pair(';', ','), {'\t', ','}, {';', '.'}, {'\t', '.'}}) {
+    const std::string text = with(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n", separator, decimal);
+    EXPECT_EQ(Annotate(text), with(plain, separator, decimal));
+  }
+  const std::string quoted = Annotate(std::string(kHeader) + "\n5,3e4,\"12,5\",30,\",6\",7\n");
+  EXPECT_EQ(quoted.find('.'), std::string::npos) << quoted;
+  EXPECT_THAT(Annotate("depth;wind_speed;incidence;footprint\n5,5;5;12;0,6\n1.5;5;12;0,6\n"),
+              HasSubstr("in.csv: has a number with a comma in line 2 and one with a point in line 3"));
+  EXPECT_THAT(Annotate("depth,wind_speed,incidence,footprint\n5,5;5;12;0,6\n"),
+              HasSubstr("line 2: 3 cells, but the header has 4 (columns separated by commas, decimal points)"));
+}
+
 TEST_F(CsvAnnotation, AppendsTheAnswerToEachRecord) {
   EXPECT_EQ(Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n"),
             std::string(kHeader) + kAppended + "\n5,3e4,12.5,30,.6,7" + Cells(kPulse) + "\n");

@@ -175,12 +175,18 @@ TEST_F(SummaryFile, NoticesThatTheInputIsNewer) {
 }
 
 TEST_F(SummaryFile, RejectsAnOutputThatIsOlderThanItsTrajectory) {
-  settings_.files = {folder_.Write("sbet.out", "trajectory")};
+  const std::vector<std::filesystem::path> files = {folder_.Write("a.out", "trajectory"),
+                                                    folder_.Write("sbet.out", "trajectory")};
+  settings_.newest = NewestOf(files);
   ASSERT_TRUE(Write().ok());
   EXPECT_TRUE(CheckComplete(settings_, job_).ok()) << Difference();
   const auto later = std::filesystem::last_write_time(job_.output) + std::chrono::seconds(1);
-  std::filesystem::last_write_time(settings_.files[0], later);
+  std::filesystem::last_write_time(files[1], later);
+  settings_.newest = NewestOf(files);
   EXPECT_THAT(Difference(), HasSubstr("sbet.out is newer"));
+  settings_.newest = NewestOf({files[0], folder_ / "no.out"});
+  EXPECT_THAT(Difference(), HasSubstr("no.out is newer"));
+  EXPECT_FALSE(NewestOf({}).has_value());
 }
 
 TEST_F(SummaryFile, RejectsAnOutputWithoutAValidSummary) {

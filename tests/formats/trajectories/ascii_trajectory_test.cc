@@ -116,6 +116,27 @@ TEST(AsciiTrajectory, TakesBlanksTabsAndCommas) {
   EXPECT_EQ(Read(absl::StrReplaceAll(plain, {{" 1.5", " +1.5"}}))->size(), 200u);
 }
 
+TEST(AsciiTrajectory, TakesDecimalCommas) {
+  for (const char* separator : {" ", "\t", ";", " ; "}) {
+    SCOPED_TRACE(separator);
+    const std::string text = absl::StrReplaceAll(FlightText({.separator = separator}), {{".", ","}});
+    ExpectLine(*Read(text), 7, LineOf({}, 7));
+  }
+  ExpectLine(*Read(FlightText({.separator = ";"})), 7, LineOf({}, 7));
+}
+
+TEST(AsciiTrajectory, DoesNotGuessWhatCommasAre) {
+  const std::string semicolons = FlightText({.separator = ";"});
+  EXPECT_THAT(ErrorOf(WithLine(semicolons, 1, "1,5;-80.6;25;5;6;400;1;2;345;1;1;1;1;1;1")),
+              HasSubstr("flight.txt line 1: has both decimal commas and decimal points"));
+  // 15 numbers between blanks of which five have commas, or 20 columns.
+  EXPECT_THAT(ErrorOf("1,5 2,5 3,5 4,5 5,5 6 7 8 9 1 1 1 1 1 1\n"),
+              HasSubstr("line 1: has commas that may separate columns or be decimal marks"));
+  const std::string commas = absl::StrReplaceAll(semicolons, {{".", ","}});
+  EXPECT_THAT(ErrorOf(WithLine(commas, 5, "1.5;-80,6;25;5;6;400;1;2;345;1;1;1;1;1;1")),
+              HasSubstr("flight.txt line 5: has both"));
+}
+
 TEST(AsciiTrajectory, SkipsAHeaderThatAgreesWithTheColumns) {
   EXPECT_EQ(
       Read(FlightText({.header = "time lon lat X Y Z roll pitch heading stdX stdY stdZ stdroll stdpitch stdheading\n"}))

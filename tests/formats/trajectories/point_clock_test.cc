@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/trajectories/dated_clock.h"
 #include "sea/sea_time.h"
 
 namespace albtpu::formats {
@@ -131,29 +131,6 @@ TEST(PointClock, IsTheOneThatTheUserNames) {
   }
   EXPECT_TRUE(ClocksOf({{kUnix, kUnix + 9}, PointTimeForm::kWeekSeconds}, TimeFormat::kWeek).empty());
   EXPECT_TRUE(ClocksOf({{kOfWeek, kOfWeek + 9}, PointTimeForm::kWeekSeconds}, TimeFormat::kUnix).empty());
-}
-
-TEST(PointClock, IsFoundByTheTimesOfASea) {
-  const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
-  for (const Written& written : kWritten) {
-    if (written.unit != 1) continue;
-    const PointTimes stated = TimesOf(written);
-    std::string note;
-    const absl::StatusOr<double> offset = FindUtcOffset("in.las", stated, known, "sea.csv", note);
-    ASSERT_TRUE(offset.ok()) << written.description << ": " << offset.status();
-    EXPECT_NEAR(stated.span.first + *offset, Utc("2016-05-11T14:00Z"), 1e-6) << written.description;
-    EXPECT_THAT(note, ::testing::AllOf(HasSubstr(std::string("are ") + written.description), HasSubstr("sea.csv"),
-                                       HasSubstr(TimeFormatFlag({.format = written.format, .description = ""}))));
-  }
-  // What the header says is right.
-  std::string note = "none";
-  EXPECT_TRUE(FindUtcOffset("in.las", OfWeek(kOfWeek, kOfWeek + 60), known, "sea.csv", note).ok());
-  EXPECT_EQ(note, "");
-  // Of a sea of a week, every day fits.
-  const TimeSpan week = Span("2016-05-09T00:00Z", "2016-05-14T00:00Z");
-  EXPECT_THAT(
-      std::string(FindUtcOffset("in.las", OfWeek(kOfDay, kOfDay + 60), week, "sea.csv", note).status().message()),
-      HasSubstr("seconds of the day, a Tuesday or as seconds of the day, a Wednesday"));
 }
 
 }  // namespace

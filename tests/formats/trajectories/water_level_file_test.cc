@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {
@@ -173,7 +174,8 @@ TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
                  {kOfWeek - 3 * 86400, 1, kWeekSeconds, "day"}};
   for (const auto& points : kPoints) {
     std::string note = "none";
-    const auto levels = FindWaterLevels(path, {{points.time, points.time + 60 * points.unit}, points.header}, note);
+    const auto levels = FindWaterLevels(path, {{points.time, points.time + 60 * points.unit}, points.header},
+                                        TimeFormat::kAuto, {}, note);
     ASSERT_TRUE(levels.ok()) << points.format << levels.status();
     EXPECT_NEAR(levels->At(points.time).value_or(-1), 1.5, 1e-9) << points.format;
     EXPECT_NEAR(levels->At(points.time + 60 * points.unit).value_or(-1), 1.55, 1e-9) << points.format;
@@ -184,9 +186,30 @@ TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
   }
   // Of another day: there is no level, and nothing is claimed.
   std::string note;
-  const auto none = FindWaterLevels(path, {{kUnix + 2e5, kUnix + 2e5 + 60}, kWeekSeconds}, note);
+  const auto none = FindWaterLevels(path, {{kUnix + 2e5, kUnix + 2e5 + 60}, kWeekSeconds}, TimeFormat::kAuto, {}, note);
   EXPECT_FALSE(none->At(kUnix + 2e5).has_value());
   EXPECT_EQ(note, "");
+  const auto other = FindWaterLevels(path, {{kOfWeek, kOfWeek + 60}, kWeekSeconds}, TimeFormat::kUnix, {}, note);
+  EXPECT_THAT(std::string(other.status().message()), ::testing::HasSubstr("if --time-format unix is right"));
+}
+
+TEST(FindWaterLevels, TakesTheWeekOfTheCreationOfThePoints) {
+  constexpr double kOfWeek = 4 * 86400 + 600 + 17;
+  const albtpu::testing::TemporaryFolder folder;
+  std::string text = "time,water_level\n";
+  for (int day = 1; day <= 28; ++day)
+    for (int hour = 0; hour < 24; ++hour) absl::StrAppendFormat(&text, "2016-05-%02dT%02d:00:00Z,%d\n", day, hour, day);
+  const std::filesystem::path path = folder.Write("tide.csv", text);
+  std::string note;
+  // 2016-05-12 is a Thursday, and the day 133.
+  const PointTimes points = {{kOfWeek, kOfWeek + 60}, kWeekSeconds, GpsTimeOfDay(2016, 133)};
+  const auto levels = FindWaterLevels(path, points, TimeFormat::kAuto, {}, note);
+  ASSERT_TRUE(levels.ok()) << levels.status();
+  EXPECT_EQ(levels->At(kOfWeek), 12);
+  EXPECT_THAT(note, ::testing::HasSubstr("2016-05-12 is taken because of the creation of the file on 2016-05-12"));
+  const auto open = FindWaterLevels(path, {points.span, kWeekSeconds}, TimeFormat::kAuto, {}, note);
+  EXPECT_THAT(std::string(open.status().message()),
+              ::testing::HasSubstr("seconds of the GPS week (2016-05-05) or as seconds of the GPS week (2016-05-12)"));
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ void MustBeWaves(const SeaRecord& record) {
       ALBTPU_MUST(waves.significant_wave_height >= 0 && waves.significant_wave_height < 99);
       ALBTPU_MUST(waves.peak_period >= 0.5 && waves.peak_period < 99 && std::isfinite(waves.travels_towards));
     }
+  } else if (std::holds_alternative<WindAlone>(record.waves)) {
+    ALBTPU_MUST(record.wind_speed_10m && (record.wind_from || *record.wind_speed_10m == 0));
   } else {
     const HarmonicSpectrum& whole = *std::get<WholeSea>(record.waves);
     ALBTPU_MUST(whole.size() >= 2 && whole.s.size() == whole.size() && whole.b.size() == whole.harmonics());

@@ -4,6 +4,7 @@ Each file is made from the right one of a simulated survey. What the right one g
 are exact, and to the rounding of the other clock where they are not.
 """
 
+import datetime
 import json
 import pathlib
 import shutil
@@ -13,6 +14,7 @@ import struct
 import numpy as np
 
 import programs
+import sea_states
 from las_file import LasFile
 from programs import query
 from simulated_survey import SimulatedSurvey
@@ -69,8 +71,9 @@ class ClocksTest(programs.Test):
         """GPS seconds since 1980 of a time as the right file states it."""
         return stated + 1e9 if self.adjusted else stated + 1900 * WEEK
 
-    def test_every_clock_is_read_by_what_fits(self):
-        clocks = {
+    def clocks(self):
+        """Each way to write the times, and the bit of the header that is wrong for it."""
+        return {
             "week": (lambda t: self.gps(t) % WEEK, 1),
             "adjusted": (lambda t: self.gps(t) - 1e9, 0),
             "gps": (lambda t: self.gps(t), 1),
@@ -78,7 +81,9 @@ class ClocksTest(programs.Test):
             "milliseconds": (lambda t: self.gps(t) % WEEK * 1e3, 0),
             "day": (lambda t: self.gps(t) % 86400, 0),
         }
-        for name, (change, bit) in clocks.items():
+
+    def test_every_clock_is_read_by_what_fits(self):
+        for name, (change, bit) in self.clocks().items():
             with self.subTest(name):
                 las = self.with_times("other.las", lambda _, t, change=change: change(t), bit)
                 # 60 m/s for the 2.4e-7 s to which Unix times are rounded are 1.4e-5 m, of 400 m 2e-6 degrees.
@@ -88,6 +93,109 @@ class ClocksTest(programs.Test):
                 self.assertNotIn("says so", self.stderr)
                 other = "unix" if name != "unix" else "week"
                 self.assert_fails(self.las(las, None, "--time-format", other), 1, "other.las")
+
+    def without_trajectory(self, source, *flags, output="level.las"):
+        target = self.folder / output
+        target.unlink(missing_ok=True)
+        return query("las", source, target, "--incidence", 15, "--altitude", 400, "--footprint", 0.5, "--classes", 40,
+                     "--details", *flags)
+
+    def unix_times(self):
+        """Of the points of the right file."""
+        self.with_times("same.las", lambda _, t: t)
+        return np.array([self.gps(t) + UNIX_EPOCH - 18 for t in LasFile(self.survey.las).field(22, "<f8")])
+
+    def write_tide(self, *hours, name="tide.csv"):
+        """Levels around the flight that rise by 1 m in an hour, at these hours from its beginning."""
+        begin = self.unix_times().min()
+        lines = ["time,water_level"]
+        for hour in hours:
+            lines.append(f"{sea_states.utc(round(begin) + 3600 * hour)},{self.survey.water_level + hour}")
+        return self.write(name, "\n".join(lines) + "\n")
+
+    def test_levels_are_read_by_the_clock_that_fits(self):
+        tide = self.write_tide(-1, 1)
+        flags = ("--water-level", tide, "--wind-speed", 6, "--table", self.table)
+        self.assertEqual(self.without_trajectory(self.survey.las, *flags).returncode, 0)
+        right = LasFile(self.folder / "level.las").columns()["water_depth"]
+        self.assertGreater(right.max(), 0)
+        for name, (change, bit) in self.clocks().items():
+            with self.subTest(name):
+                las = self.with_times("other.las", lambda _, t, change=change: change(t), bit)
+                for chosen in ((), ("--time-format", name)):
+                    result = self.without_trajectory(las, *flags, *chosen)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    depth = LasFile(self.folder / "level.las").columns()["water_depth"]
+                    np.testing.assert_allclose(depth, right, atol=1e-5)  # m; float32 at 20 m, levels rise 0.3 mm in 1 s
+                    said = f"tide.csv lie at the points; --time-format {name} says so"
+                    self.assertEqual(said in result.stderr, not chosen)
+                result = self.without_trajectory(las, *flags, "--time-format", "unix" if name != "unix" else "week")
+                self.assert_fails(result, 1, "tide.csv")
+
+    def test_seas_are_read_by_the_clock_that_fits(self):
+        begin = self.unix_times().min()
+        lines = ["time,f,E"]
+        for hour, energy in ((-1, 0.2), (0, 0.4), (1, 2)):
+            for i in range(1, 11):
+                lines.append(f"{sea_states.utc(round(begin) + 3600 * hour)},{0.05 * i:.2f},{energy / i:.6g}")
+        sea = self.write("sea.csv", "\n".join(lines) + "\n")
+        flags = ("--water-level", self.survey.water_level, "--sea", sea, "--wind-speed", 6)
+        self.assertEqual(self.without_trajectory(self.survey.las, *flags).returncode, 0)
+        right = LasFile(self.folder / "level.las").columns()["sea_tvu"]
+        for name, (change, bit) in self.clocks().items():
+            with self.subTest(name):
+                las = self.with_times("other.las", lambda _, t, change=change: change(t), bit)
+                result = self.without_trajectory(las, *flags)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"sea.csv lie at the points; --time-format {name} says so", result.stderr)
+                np.testing.assert_allclose(LasFile(self.folder / "level.las").columns()["sea_tvu"], right, rtol=1e-5)
+
+    def test_the_creation_of_the_file_is_evidence_for_its_day(self):
+        """Levels of a month, points of seconds of the week."""
+        tide = self.write_tide(*range(-24 * 15, 24 * 15))
+        flags = ("--water-level", tide, "--wind-speed", 6, "--table", self.table)
+        las = self.with_times("other.las", lambda _, t: self.gps(t) % WEEK, 0)
+        day = datetime.datetime.fromtimestamp(self.unix_times().min(), datetime.timezone.utc)
+        data = bytearray(las.read_bytes())
+        for created, decides in ((day, True), (day + datetime.timedelta(days=500), False), (None, False)):
+            stated = (created.timetuple().tm_yday, created.year) if created else (0, 0)
+            struct.pack_into("<2H", data, 90, *stated)
+            las.write_bytes(data)
+            result = self.without_trajectory(las, *flags)
+            if decides:
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"{day:%Y-%m-%d} is taken because of the creation of the file", result.stderr)
+                depth = LasFile(self.folder / "level.las").columns()["water_depth"]
+                self.without_trajectory(self.survey.las, *flags)
+                right = LasFile(self.folder / "level.las").columns()["water_depth"]
+                np.testing.assert_allclose(depth, right, atol=1e-5)
+            else:
+                self.assert_fails(result, 1, "tide.csv", f"seconds of the GPS week ({day:%Y-%m-%d})")
+
+    def test_milliseconds_are_no_seconds_for_the_local_surface(self):
+        """Returns of the surface within a minute and not a second's thousandth part make its height."""
+        flags = ("--water-classes", 41)
+        right = self.annotated(self.survey.las, None, *flags)
+        for header in (0, 1):
+            las = self.with_times("other.las", lambda _, t: self.gps(t) % WEEK * 1e3, header)
+            for chosen in ((), ("--time-format", "milliseconds")):
+                columns = self.annotated(las, None, *flags, *chosen)
+                for name in ("water_depth", "incidence"):
+                    np.testing.assert_allclose(columns[name], right[name], rtol=2e-4, atol=2e-4, err_msg=name)
+
+    def test_init_names_the_clocks_that_are_possible(self):
+        said = {
+            "week": "may be seconds of a week", "adjusted": "adjusted standard GPS times (20",
+            "gps": "but this is in the future", "unix": "Unix seconds (20",
+            "milliseconds": "milliseconds of the GPS week", "day": "whose date is not known",
+        }
+        for name, (change, bit) in self.clocks().items():
+            las = self.with_times("other.las", lambda _, t, change=change: change(t), bit)
+            text = query("init", las, check=0).stdout
+            times, = (line for line in text.splitlines() if "GPS times: " in line)
+            self.assertIn(said[name], times)
+            if name in ("adjusted", "unix", "milliseconds", "gps"):
+                self.assertIn(f"--time-format {name}", times)
 
     def test_a_trajectory_of_another_day_is_still_refused(self):
         later = self.survey.write_sbet("later.out", time=lambda t: t + 2 * 86400 + 7200)

@@ -11,9 +11,10 @@ import subprocess
 import numpy as np
 
 import programs
+import short_files
 from las_file import LasFile
 from programs import FLAGS, make_flight, make_table, query
-
+from simulated_survey import SimulatedSurvey
 
 
 def repeat(source, target, times):
@@ -183,6 +184,58 @@ class ManyFilesTest(programs.Test):
         one = new.records[:len(LasFile(flight).records)]
         np.testing.assert_array_equal(new.records.reshape(150, *one.shape)[[0, 70, 149]],
                                       np.broadcast_to(one, (3, *one.shape)))
+
+
+def reads():
+    """The reads of this process and of its children that have ended."""
+    with open("/proc/self/io") as counts:
+        return int(next(line.split()[1] for line in counts if line.startswith("syscr:")))
+
+
+class ManyTrajectoriesTest(programs.Test):
+    """Short files, each with an SBET of its own, a minute after the one before."""
+
+    def make(self, count):
+        survey = SimulatedSurvey(self.folder, "--seconds", 4, "--seed", 3, "--start", 1000, "--sbet-rate", 50)
+        files = short_files.make(survey.las, self.folder, count)
+        (self.folder / "out").mkdir()
+        self.flags = ("--output-dir", self.folder / "out", "--trajectory", self.folder / "sbet", "--lever-arm",
+                      "0.3,-0.2,0.5", "--water-level", survey.water_level, "--classes", 40, "--divergence", 1,
+                      "--wind-speed", 6, "--table", self.table, "--details")
+        return files
+
+    def annotate(self, files, *flags):
+        before = reads()
+        result = query("las", *files, *self.flags, *flags, check=0)
+        return reads() - before, result
+
+    def test_each_file_adds_the_same_few_reads(self):
+        """PROJ's database is not read again for each file, and its trajectory is found without reading the others."""
+        files = self.make(60)
+        of_one, _ = self.annotate(files[:1])
+        of_thirty, _ = self.annotate(files[:30], "--overwrite")
+        of_sixty, _ = self.annotate(files, "--overwrite")
+        self.assertLess(of_thirty - of_one, 29 * 20)
+        self.assertEqual(of_sixty - of_thirty, round((of_thirty - of_one) / 29) * 30)
+        first = LasFile(self.folder / "out" / "00000.las").records[:, -28:]
+        self.assertGreater(first.any(axis=1).mean(), 0.5)
+        for i in (1, 29, 59):
+            columns = LasFile(self.folder / "out" / f"{i:05}.las").columns()
+            right = LasFile(self.folder / "out" / "00000.las").columns()
+            for name in ("incidence", "sea_thu", "slant_range"):
+                # Times that are 60 s later have other last bits: 0.1 us of 60 m/s.
+                np.testing.assert_allclose(columns[name], right[name], rtol=1e-5, atol=1e-5)
+
+    def test_resumes_from_many(self):
+        files = self.make(20)
+        self.annotate(files[:10])
+        _, result = self.annotate(files, "--resume")
+        self.assertEqual(result.stderr.count("is already complete"), 10)
+        _, result = self.annotate(files, "--resume")
+        self.assertEqual(result.stderr.count("is already complete"), 20)
+        os.utime(self.folder / "sbet" / "00007.sbet", (2e9, 2e9))
+        _, result = self.annotate(files, "--resume", "--overwrite")
+        self.assertNotIn("is already complete", result.stderr)
 
 
 if __name__ == "__main__":

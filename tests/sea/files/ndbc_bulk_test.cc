@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
@@ -100,6 +101,57 @@ TEST(NdbcBulk, RefusesWhatIsDamaged) {
   EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 400  SE  STEEP  4.9 196"), HasSubstr("no direction"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1   MM   MM   MM   MM  MM  MM  N/A    MM  MM"), HasSubstr("has waves"));
   EXPECT_FALSE(ReadNdbcBulk(kSummary.substr(0, kSummary.size() - 1)).ok());
+}
+
+// A station on the coast (C-MAN), which has an anemometer and no waves.
+const std::string kCoast =
+    "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES  ATMP\n"
+    "#yr  mo dy hr mn degT m/s  m/s     m   sec   sec degT   hPa  degC\n"
+    "2026 07 31 13 00  90  8.0  9.0    MM    MM    MM  MM 1021.2    MM\n"
+    "2026 07 31 12 00  MM  8.0  9.0    MM    MM    MM  MM 1021.2    MM\n"
+    "2026 07 31 11 00 180  6.0  6.0    MM    MM    MM  MM 1021.0    MM\n";
+
+TEST(NdbcWinds, StandForTheirSeaWhereNoRecordHasWaves) {
+  const auto series = ReadNdbcBulk(kCoast);
+  ASSERT_TRUE(series.ok()) << series.status();
+  EXPECT_EQ(series->format, "NDBC winds");
+  ASSERT_EQ(series->records.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<WindAlone>(series->records[0].waves));
+  EXPECT_NEAR(series->records[0].wind_speed_10m.value(), 6, 1e-12);
+  EXPECT_NEAR(series->records[0].wind_from.value(), std::numbers::pi, 1e-12);
+  EXPECT_THAT(series->assumed, Contains(HasSubstr("it has no waves: the sea of each record is that of its wind")));
+  EXPECT_THAT(series->assumed, Contains(HasSubstr("1 records have no wind or no direction")));
+  // That of the same wind without a file.
+  const DescribedSea sea = Describe(series->records[0]);
+  const DescribedSea expected = Describe(SeaDescription{.wind_speed_10m = 6, .wind_from = std::numbers::pi});
+  EXPECT_NEAR(SignificantWaveHeight(sea.spectrum), SignificantWaveHeight(expected.spectrum), 1e-9);
+  EXPECT_NEAR(sea.x_azimuth, expected.x_azimuth, 1e-9);
+  EXPECT_GT(series->records[0].significant_wave_height(), 0.5);
+}
+
+TEST(NdbcWinds, AreReadFromContinuousWindsAndOldFiles) {
+  for (const char* text : {"#YY  MM DD hh mm WDIR WSPD GDR GST GTIME\n2019 01 01 00 00 180 6.0 999 99.0 9999\n",
+                           "YY MM DD hh WD   WSPD GST  WVHT  DPD   APD  MWD  BAR\n"
+                           "89 01 01 00 180 06.0 07.4 99.00 99.00 99.00 999 1028.5\n",
+                           "YYYY MM DD hh mm  WD  WSPD GST  WVHT  DPD   APD  MWD  BAR\n"
+                           "2005 01 01 00 30 180 06.0 07.4 99.00 99.00 99.00 999 1028.5\n"}) {
+    SCOPED_TRACE(text);
+    ASSERT_TRUE(IsNdbcBulk(std::string_view(text).substr(0, std::string_view(text).find('\n'))));
+    const auto series = ReadNdbcBulk(text);
+    ASSERT_TRUE(series.ok()) << series.status();
+    EXPECT_NEAR(series->records[0].wind_speed_10m.value(), 6, 1e-12);
+  }
+}
+
+TEST(NdbcWinds, SayWhatIsMissing) {
+  const auto error = [](const std::string& text) { return std::string(ReadNdbcBulk(text).status().message()); };
+  const std::string head = "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD\n2026 07 31 13 00 ";
+  EXPECT_THAT(error(head + "MM 8.0 9.0 MM MM\n"), HasSubstr("its direction is missing"));
+  EXPECT_THAT(error(head + "90 MM 9.0 MM MM\n"), HasSubstr("its speed is missing"));
+  EXPECT_THAT(error(head + "90 MM 9.0 MM MM\n"), HasSubstr("has waves (height or period is missing)"));
+  EXPECT_THAT(error("#YY  MM DD hh mm WVHT DPD\n2026 07 31 13 00 MM MM\n"), HasSubstr("no column WSPD"));
+  EXPECT_THAT(error("#YY  MM DD hh mm WDIR WSPD\n2026 07 31 13 00 MM MM\n"), HasSubstr("no column WVHT"));
+  EXPECT_TRUE(ReadNdbcBulk(head + "MM 0.0 0.0 MM MM\n").ok());  // A calm has no direction.
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+#include "formats/trajectories/dated_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "status/status_macros.h"
+
+namespace albtpu::formats {
+namespace {
+
+constexpr double kDay = 86400;  // exact
+constexpr double kHalfDay = kDay / 2;
+
+std::string SpanText(const TimeSpan& utc) {
+  return absl::StrFormat("%s to %s", UtcText(GpsOfUtc(utc.first)), UtcText(GpsOfUtc(utc.last)));
+}
+
+double WeekOf(double adjusted) { return std::floor((adjusted + kAdjustedGpsOffset) / kSecondsPerWeek); }
+
+TimeSpan SpanOf(const DatedClock& clock, const TimeSpan& stated) { return {clock(stated.first), clock(stated.last)}; }
+
+std::vector<DatedClock> FittingClocks(const PointTimes& points, TimeFormat format, const TimeSpan& known) {
+  std::vector<DatedClock> fitting;
+  const auto add = [&](const PointClock& clock, double shift) {
+    const DatedClock dated = {clock, clock.scale, shift};
+    const TimeSpan span = SpanOf(dated, points.span);
+    if (Overlap(span, known) >= (span.last - span.first) / 2) fitting.push_back(dated);
+  };
+  for (const PointClock& clock : ClocksOf(points, format)) {
+    if (clock.form == PointTimeForm::kAdjustedStandard) {
+      add(clock, clock.shift);
+      continue;
+    }
+    // Times that begin again from 0 have two weeks.
+    if (clock.scale * (points.span.last - points.span.first) > kSecondsPerWeek / 2) continue;
+    for (double week = WeekOf(known.first) - 1; week <= WeekOf(known.last); ++week)
+      add(clock, clock.shift + week * kSecondsPerWeek - kAdjustedGpsOffset);
+  }
+  return fitting;
+}
+
+std::string DateOf(double adjusted) {
+  const double gps = adjusted + kAdjustedGpsOffset;
+  return gps >= 0 && gps < 1e11 ? UtcText(gps).substr(0, 10) : "a date before 1980";
+}
+
+std::string DatedText(const DatedClock& clock, const PointTimes& points) {
+  return absl::StrCat(clock.clock.description, " (", DateOf(clock(points.span.first)), ")");
+}
+
+// Leaves those that the creation of the file allows, and says so. People export points days or years after the flight,
+// so that another day than that of the creation is no contradiction; an earlier creation is one, of the date.
+void KeepByCreation(const PointTimes& points, std::vector<DatedClock>& clocks, std::string& evidence) {
+  if (clocks.size() < 2 || !points.created.has_value()) return;
+  const double created = *points.created - kAdjustedGpsOffset;
+  // The date is that of the place of the survey, up to half a day from UTC.
+  const auto keep = [&](double earliest, double latest) {
+    std::vector<DatedClock> kept;
+    for (const DatedClock& clock : clocks) {
+      const double first = clock(points.span.first);
+      if (first >= earliest && first < latest) kept.push_back(clock);
+    }
+    if (!kept.empty()) clocks = std::move(kept);
+  };
+  const std::size_t before = clocks.size();
+  keep(-INFINITY, created + kDay + kHalfDay);
+  if (clocks.size() > 1) keep(created, created + kDay);
+  if (clocks.size() > 1) keep(created - kHalfDay, created + kDay + kHalfDay);
+  if (clocks.size() < before)
+    evidence = absl::StrCat("the creation of the file on ", DateOf(created + kHalfDay), " by its header");
+}
+
+}  // namespace
+
+absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, TimeFormat format,
+                                                         const TimeSpan& known, const std::string& of,
+                                                         std::string& note) {
+  note.clear();
+  std::vector<DatedClock> clocks = FittingClocks(points, format, known);
+  const auto is_other = [](const DatedClock& each) {
+    return each.clock.format != TimeFormat::kAuto || each.clock.changes_times();
+  };
+  // Where the header's clock fits, in whatever week, nothing contradicts it.
+  if (format == TimeFormat::kAuto && !std::all_of(clocks.begin(), clocks.end(), is_other))
+    std::erase_if(clocks, is_other);
+  if (clocks.empty()) return std::nullopt;
+  std::string evidence;
+  KeepByCreation(points, clocks, evidence);
+  if (clocks.size() > 1) {
+    return absl::FailedPreconditionError(absl::StrJoin(
+        clocks, " or as ",
+        [&](std::string* text, const DatedClock& each) { absl::StrAppend(text, DatedText(each, points)); }));
+  }
+  const DatedClock& found = clocks.front();
+  if (format == TimeFormat::kAuto && is_other(found)) note = ClockNote(found.clock, points, of);
+  if (!evidence.empty()) {
+    if (note.empty()) note = absl::StrCat("the GPS times of the points are ", found.clock.description);
+    absl::StrAppend(&note, "; of the dates that ", of, " has for them, ", DateOf(found(points.span.first)),
+                    " is taken because of ", evidence);
+  }
+  return found;
+}
+
+absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
+                                 const std::string& of) {
+  if (!std::isfinite(points.span.first) || !std::isfinite(points.span.last) ||
+      (points.span.first == 0 && points.span.last == 0)) {
+    return absl::FailedPreconditionError(
+        absl::StrFormat("%s: the GPS times of its points are no times, so that no sea of %s belongs to them; choose "
+                        "one by --sea-time",
+                        name, of));
+  }
+  const auto outside = [&] {
+    return absl::FailedPreconditionError(
+        absl::StrFormat("%s: its points were measured outside of %s (they have %s, the file %s); give the "
+                        "sea of that time, or choose "
+                        "an instant by --sea-time",
+                        name, of, DescribePointTimes(points), SpanText(known)));
+  };
+  if (points.form == PointTimeForm::kAdjustedStandard) {
+    const double offset = UtcOfGps(points.span.first + kAdjustedGpsOffset) - points.span.first;
+    const bool meets = Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0;
+    if (!meets) return outside();
+    return offset;
+  }
+  const double first_week = std::floor(GpsOfUtc(known.first) / kSecondsPerWeek),
+               last_week = std::floor(GpsOfUtc(known.last) / kSecondsPerWeek);
+  std::vector<double> offsets;
+  for (double week = first_week; week <= last_week && offsets.size() < 2; ++week) {
+    const double offset = UtcOfGps(week * kSecondsPerWeek + points.span.first) - points.span.first;
+    if (Overlap({points.span.first + offset, points.span.last + offset}, known) >= 0) offsets.push_back(offset);
+  }
+  if (offsets.empty()) return outside();
+  if (offsets.size() == 1 && points.span.last - points.span.first < kSecondsPerWeek / 2) return offsets.front();
+  return absl::FailedPreconditionError(absl::StrFormat(
+      "%s: its GPS times are seconds of a week that they do not name (%s, %s), and %s; choose an instant by "
+      "--sea-time, "
+      "or give the part of the file that is of the flight",
+      name, DescribePointTimes(points), of,
+      offsets.size() > 1 ? "the sea has more than one week of them" : "they begin again from 0"));
+}
+
+absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes& points, TimeFormat format,
+                                      const TimeSpan& known, const std::string& of, std::string& note) {
+  note.clear();
+  const absl::StatusOr<double> stated = UtcOffset(name, points, known, of);
+  if (IsNoTime(points.span.first) && IsNoTime(points.span.last)) return stated.status();
+  if (stated.ok() && format == TimeFormat::kAuto) return UtcClock{1, *stated};
+  const TimeSpan adjusted = {GpsOfUtc(known.first) - kAdjustedGpsOffset, GpsOfUtc(known.last) - kAdjustedGpsOffset};
+  const absl::StatusOr<std::optional<DatedClock>> found = FindDatedClock(points, format, adjusted, of, note);
+  if (!found.ok()) {
+    if (!stated.ok())
+      return absl::FailedPreconditionError(
+          absl::StrCat(stated.status().message(), " (as ", found.status().message(), " they would lie within it)"));
+    return absl::FailedPreconditionError(absl::StrCat(name, ": its points lie within ", of, " as ",
+                                                      found.status().message(), "; choose an instant by --sea-time"));
+  }
+  if (!found->has_value()) {
+    if (!stated.ok()) return stated.status();
+    return absl::FailedPreconditionError(absl::StrCat(name, ": its points were measured outside of ", of,
+                                                      " if --time-format ", NameOf(format),
+                                                      " is right; give the sea of that time, or another format"));
+  }
+  const double first = (**found)(points.span.first);
+  return UtcClock{(*found)->scale, (*found)->shift + UtcOfGps(first + kAdjustedGpsOffset) - first};
+}
+
+}  // namespace albtpu::formats
