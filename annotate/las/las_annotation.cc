@@ -93,7 +93,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
   ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach));
   RETURN_IF_ERROR(writer.Begin());
   const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(), beams.has_surface_returns(),
-                          source);
+                          source, beams.terrain());
   std::uint64_t written_records = 0;
   const absl::Status status = formats::RunOrderedPipeline(
       [&] {
@@ -116,6 +116,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::Las
         annotated.summary.Merge(chunk.summary);
         annotated.totals.Merge(chunk.totals);
         annotated.dry.Merge(chunk.dry);
+        annotated.sloped += chunk.sloped;
         annotated.submerged += chunk.submerged;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
         annotated.sigmas_assumed += chunk.sigmas_assumed;
@@ -162,6 +163,13 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
   RETURN_IF_ERROR(CheckIncidence(reader, annotation, annotated.incidence));
   annotated.geometry = JsonBox((*beams)->Json());
   annotated.notes = (*beams)->Notes();
+  if (const LasTerrain terrain = (*beams)->terrain(); terrain.planes != nullptr) {
+    const std::string from = terrain.is_classified ? "ground" : "unclassified";
+    (*annotated.geometry)["terrain"] = {{"cell", terrain.planes->cell()}, {"from", from}, {"points", annotated.sloped}};
+    annotated.notes.push_back(
+        absl::StrFormat("terrain slope: known at %d of %d dry points, from planes of %s points within %g m",
+                        annotated.sloped, annotated.dry.count(), from, 1.5 * terrain.planes->cell()));
+  }
   if (annotated.submerged > 0)
     annotated.notes.push_back(absl::StrCat(annotated.submerged,
                                            " unclassified points lie below the water surface and have no number; "

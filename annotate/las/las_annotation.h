@@ -33,6 +33,7 @@ struct AnnotatedLas {
   std::map<int, TotalSummary> totals_by_line = {};
   std::uint64_t sigmas_assumed = 0;
   DrySummary dry = {};
+  std::uint64_t sloped = 0;     // Dry points whose total has the slope of the terrain.
   std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
   SurfaceCounts surface = {};
   CoordinateSpread incidence = {};      // degree

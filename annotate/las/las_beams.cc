@@ -166,7 +166,8 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
                                         .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
                                         .level_classes = formats::UsualSurfaceClasses(format),
                                         .use_withheld = annotation.use_withheld,
-                                        .dry_points = plan.dry_points}));
+                                        .dry_points = plan.dry_points,
+                                        .terrain = annotation.terrain_slope}));
     return absl::OkStatus();
   };
   if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {

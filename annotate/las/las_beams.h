@@ -28,6 +28,12 @@ class LasBeams {
                                                         const LasAnnotation& annotation);
 
   const BeamGeometry& geometry() const { return *geometry_; }
+  // Without planes, unless the annotation wants them.
+  LasTerrain terrain() const {
+    return {.planes = prescan_.terrain.has_value() ? &*prescan_.terrain : nullptr,
+            .is_classified = prescan_.terrain_is_classified,
+            .frame = place_.frame};
+  }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
   // UTC [s since 1970] = time of a point + it; where the sea goes by time.
   double utc() const { return utc_; }

@@ -58,7 +58,7 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddBeamOptions(command, options.beams, options.flags);
   AddSeaFlags(command, options.flags, kRareSeaFlags);
   AddTotalFlags(command, options.flags);
-  AddFlags(command, {"--classes", "--points", "--use-withheld"}, group::kPoints, options.flags);
+  AddFlags(command, {"--classes", "--points", "--use-withheld", "--terrain-slope"}, group::kPoints, options.flags);
   AddFlags(command, {"--details"}, group::kOutput, options.flags);
   command
       .add_flag("--replace", options.replace,
@@ -134,6 +134,14 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   plan.dry_points = settings.output.points.value_or(total ? "all" : "bathymetric") == "all";
   if (plan.dry_points && !total)
     return formats::UsageError("las: --points all needs a sensor: without one, only the sea adds to the uncertainty");
+  annotation.terrain_slope = settings.output.terrain_slope.value_or(false);
+  if (annotation.terrain_slope && !plan.dry_points)
+    return formats::UsageError("las: --terrain-slope is of dry points; it needs a sensor, and no --points bathymetric");
+  if (annotation.terrain_slope && !plan.has_track()) {
+    return formats::UsageError(
+        "las: --terrain-slope needs the direction and the footprint of each beam; give --trajectory or "
+        "--trajectory-from-returns");
+  }
   if (total) {
     ASSIGN_OR_RETURN(annotation.total,
                      TotalOf(settings, plan, options.beams.divergence.has_value(), annotation.style.coverage));
@@ -172,6 +180,7 @@ nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, con
   json["details"] = annotation.details;
   if (annotation.plan.dry_points) json["points"] = "all";
   if (annotation.use_withheld) json["use_withheld"] = true;
+  if (annotation.terrain_slope) json["terrain_slope"] = true;
   if (annotation.replace) json["replace"] = true;
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));
