@@ -169,6 +169,8 @@ absl::Status AnnotatedLasFile::FindFloats() {
       return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
     offsets_.push_back(begin + found->second);
   }
+  ASSIGN_OR_RETURN(const auto bytes, formats::ByteOffsets(reader_.name(), record, reader_.header().extra_bytes()));
+  if (const auto found = bytes.find("share_of"); found != bytes.end()) share_of_ = begin + found->second;
   return absl::OkStatus();
 }
 
@@ -210,7 +212,8 @@ std::string AnnotatedLasFile::table_digest() const {
   return digest.is_string() ? digest.get<std::string>() : "";
 }
 
-absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit) const {
+absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit,
+                                                        const VisitDry& visit_dry) const {
   annotate::FileProgress::File shown(progress, reader_.name());
   absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader_, 0, 0);
   if (!runs.ok()) return reader_.Named(runs.status());
@@ -219,6 +222,10 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
   std::array<bool, formats::kClassCount> wanted = {};
   for (const int each : classes_)
     if (each >= 0 && each < formats::kClassCount) wanted[each] = true;
+  const std::set<int> water_surface = formats::WaterSurfaceClasses(header.point_format);
+  const auto read_floats = [&](std::string_view record, AnnotatedPoint& point) {
+    for (std::size_t k = 0; k < kFloats.size(); ++k) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+  };
   formats::LasRun run;
   LeftOutPoints left_out;
   std::vector<AnnotatedPoint> points;
@@ -235,6 +242,17 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         ++left_out.noise;
         continue;
       }
+      if (visit_dry && share_of_.has_value() &&
+          static_cast<std::uint8_t>(record[*share_of_]) == static_cast<std::uint8_t>(formats::ShareOf::kLand)) {
+        AnnotatedPoint dry;
+        read_floats(record, dry);
+        const auto sigma = static_cast<float>(dry.tvu / VerticalFactor(coverage_));
+        if (IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))
+          visit_dry({.point_class = point_class,
+                     .of_water_surface = water_surface.contains(point_class),
+                     .variance_horizontal = dry.variance_x + dry.variance_y,
+                     .variance_vertical = sigma * sigma});
+      }
       if (!wanted[point_class]) continue;
       if (!use_withheld_ && fields.IsWithheld(record)) {
         ++left_out.withheld;
@@ -246,7 +264,7 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
       point.z = fields.Z(record) * metres_per_height_unit_;
       if (fields.has_gps_time()) point.time = fields.GpsTime(record);
       point.line = fields.PointSourceId(record);
-      for (std::size_t k = 0; k < kFloats.size(); ++k) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      read_floats(record, point);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
       point.gap = GapOf(point, may_lack_surface_);
