@@ -88,6 +88,7 @@ struct OutputSettings {               // [output]
   std::vector<int> classes;           // Of the points that get an uncertainty.
   std::optional<std::string> points;  // kPointChoices
   std::optional<bool> use_withheld;
+  std::optional<bool> terrain_slope;
   std::optional<std::string> coverage;   // kCoverages
   std::optional<std::string> s44_order;  // kS44OrderNames
   std::optional<bool> details;
@@ -259,7 +260,7 @@ inline constexpr std::array<Key<ExtraSettings>, 2> kExtraKeys = {{
      &ExtraSettings::horizontal},
     {{"vertical", "", Number{0, 10, "m"}, "0", "The same of heights, as the VUC of cBLUE"}, &ExtraSettings::vertical},
 }};
-inline constexpr std::array<Key<OutputSettings>, 6> kOutputKeys = {{
+inline constexpr std::array<Key<OutputSettings>, 7> kOutputKeys = {{
     {{"classes", "--classes", kClasses, "40, 43; 26 in point formats 0 to 5", "The classes of bathymetric points"},
      &OutputSettings::classes},
     {{"points", "--points", Word{kPointChoices}, "all with a sensor, otherwise bathymetric",
@@ -269,6 +270,11 @@ inline constexpr std::array<Key<OutputSettings>, 6> kOutputKeys = {{
     {{"use_withheld", "--use-withheld", YesOrNo{}, "",
       "Points that are flagged as withheld count as any other; otherwise they get no number and take no part"},
      &OutputSettings::use_withheld},
+    {{"terrain_slope", "--terrain-slope", YesOrNo{}, "",
+      "The vertical uncertainty of points of the ground (class 2; without any, of unclassified dry points) is that of "
+      "the height at a fixed place: with the horizontal error on the slope of the points around, and the spread of the "
+      "footprint on it. In LAS files, with a sensor and the direction of each beam"},
+     &OutputSettings::terrain_slope},
     {{"coverage", "--coverage", Word{kCoverages}, "2sigma",
       "2sigma for twice the standard deviation, p95 for 95 %, 1sigma for one standard deviation"},
      &OutputSettings::coverage},

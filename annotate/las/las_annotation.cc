@@ -112,7 +112,8 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
   if (writer.has_value()) RETURN_IF_ERROR(writer->Begin());
   const std::vector<formats::ReplacedFloat> replaced =
       head.has_value() ? head->replaced : std::vector<formats::ReplacedFloat>();
-  LasChunkWork work(header, annotation, replaced, beams.geometries(), beams.utc(), beams.has_surface_returns(), source);
+  LasChunkWork work(header, annotation, replaced, beams.geometries(), beams.utc(), beams.has_surface_returns(), source,
+                    beams.terrain());
   const LasCsv csv(header, beams.place(), annotation.appended());
   if (csv_file != nullptr) {
     work.MakeCsv(&csv);
@@ -140,6 +141,7 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
         annotated.summary.Merge(chunk.summary);
         annotated.totals.Merge(chunk.totals);
         annotated.dry.Merge(chunk.dry);
+        annotated.sloped += chunk.sloped;
         annotated.submerged += chunk.submerged;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
         for (std::size_t i = 0; i < annotated.points_by_channel.size(); ++i) {
@@ -203,6 +205,13 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
   RETURN_IF_ERROR(CheckIncidence(reader, annotation, annotated.incidence));
   annotated.geometry = JsonBox((*beams)->Json());
   annotated.notes = (*beams)->Notes();
+  if (const LasTerrain terrain = (*beams)->terrain(); terrain.planes != nullptr) {
+    const std::string from = terrain.is_classified ? "ground" : "unclassified";
+    (*annotated.geometry)["terrain"] = {{"cell", terrain.planes->cell()}, {"from", from}, {"points", annotated.sloped}};
+    annotated.notes.push_back(
+        absl::StrFormat("terrain slope: known at %d of %d dry points, from planes of %s points within %g m",
+                        annotated.sloped, annotated.dry.count(), from, 1.5 * terrain.planes->cell()));
+  }
   if (annotated.submerged > 0)
     annotated.notes.push_back(absl::StrCat(annotated.submerged,
                                            " unclassified points lie below the water surface and have no number; "

@@ -37,6 +37,7 @@ struct AnnotatedLas {
   std::vector<TotalSummary> totals_by_channel = {};
   std::uint64_t dry_without_channel = 0;
   DrySummary dry = {};
+  std::uint64_t sloped = 0;     // Dry points whose total has the slope of the terrain.
   std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
   SurfaceCounts surface = {};
   CoordinateSpread incidence = {};      // degree

@@ -202,7 +202,8 @@ absl::Status LasBeams::Scan(const formats::LasReader& reader, const LasAnnotatio
                                       .level_classes = formats::UsualSurfaceClasses(format),
                                       .use_withheld = annotation.use_withheld,
                                       .dry_points = plan.dry_points,
-                                      .seconds = seconds_}));
+                                      .seconds = seconds_,
+                                      .terrain = annotation.terrain_slope}));
   return absl::OkStatus();
 }
 

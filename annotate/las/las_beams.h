@@ -33,6 +33,12 @@ class LasBeams {
   // Of each scanner of the annotation, or of the only one.
   const std::vector<BeamGeometry>& geometries() const { return geometries_; }
   const LasPlace& place() const { return place_; }
+  // Without planes, unless the annotation wants them.
+  LasTerrain terrain() const {
+    return {.planes = prescan_.terrain.has_value() ? &*prescan_.terrain : nullptr,
+            .is_classified = prescan_.terrain_is_classified,
+            .frame = place_.frame};
+  }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
   // Of the points' times, where the sea goes by time.
   const formats::UtcClock& utc() const { return utc_; }

@@ -22,17 +22,13 @@ AnswerStyle LasAnnotation::style_of_sea() const {
   return of_sea;
 }
 
-namespace {
-
-constexpr int kLastUnclassified = 1;  // ASPRS: 0 and 1 are points that nobody classified.
-
-}  // namespace
-
 LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
                            const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams,
-                           const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source)
+                           const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source,
+                           const LasTerrain& terrain)
     : fields_(header),
       record_length_(header.record_length),
+      terrain_(terrain),
       seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
       utc_(utc),
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
@@ -63,6 +59,9 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
   for (const int point_class : annotation.plan.water_classes) is_water_[point_class] = true;
   for (int i = 0; i < formats::kClassCount && dry_points_; ++i)
     is_dry_[i] = !is_chosen_[i] && formats::MayBeDry(i, header.point_format);
+  for (int i = 0; i < formats::kClassCount; ++i)
+    is_terrain_[i] =
+        is_dry_[i] && (terrain.is_classified ? formats::IsGround(i, header.point_format) : formats::IsUnclassified(i));
 }
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
@@ -107,7 +106,8 @@ std::uint8_t LasChunkWork::ScannerOf(std::string_view record) const {
 
 void LasChunkWork::Begin(Chunk& chunk) const {
   chunk.classes = {};
-  chunk.withheld = chunk.synthetic = chunk.submerged = chunk.sigmas_assumed = chunk.dry_without_channel = 0;
+  chunk.withheld = chunk.synthetic = chunk.sloped = chunk.submerged = chunk.sigmas_assumed = chunk.dry_without_channel =
+      0;
   chunk.dry = {};
   chunk.surface = {};
   chunk.incidence = {};
@@ -233,7 +233,7 @@ void LasChunkWork::FindDryTotals(const Scanner& scanner, Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     if (beams.dry[i] == 0 || beams.why_not[i].has_value()) continue;
     // A return from under the water that nobody classified is none from land.
-    if (chunk.scratch.above[i] < 0 && fields_.Class(Record(chunk, chunk.chosen[i])) <= kLastUnclassified) {
+    if (chunk.scratch.above[i] < 0 && formats::IsUnclassified(fields_.Class(Record(chunk, chunk.chosen[i])))) {
       ++chunk.submerged;
       continue;
     }
@@ -241,9 +241,30 @@ void LasChunkWork::FindDryTotals(const Scanner& scanner, Chunk& chunk) const {
     chunk.dry_incidence.push_back(beams.incidence[i]);
   }
   TakeAircraft(*scanner.plan, beams, chunk.dry_rows, chunk.dry_aircraft);
+  chunk.dry_total.whole = terrain_.planes != nullptr;
   ComputeDryTotals(*scanner.total, chunk.dry_incidence, chunk.dry_aircraft, chunk.dry_total);
+  if (terrain_.planes != nullptr) FindTerrain(scanner, chunk);
   chunk.sigmas_assumed += chunk.dry_total.sigmas_assumed;
   for (std::size_t i = 0; i < chunk.dry_rows.size(); ++i) chunk.dry.Add(chunk.dry_total, i);
+}
+
+void LasChunkWork::FindTerrain(const Scanner& scanner, Chunk& chunk) const {
+  chunk.dry_terrain.assign(chunk.dry_rows.size(), {});
+  const PointBeams& beams = chunk.beams;
+  for (std::size_t i = 0; i < chunk.dry_rows.size(); ++i) {
+    const std::uint32_t row = chunk.dry_rows[i];
+    if (!is_terrain_[fields_.Class(Record(chunk, chunk.chosen[row]))]) continue;
+    const Eigen::Vector3d at = terrain_.frame.At(chunk.points.x[row], chunk.points.y[row], chunk.points.z[row]);
+    const std::optional<TerrainPlanes::Gradient> gradient = terrain_.planes->GradientAt(at.x(), at.y());
+    if (!gradient.has_value()) continue;
+    ++chunk.sloped;
+    chunk.dry_terrain[i] = AddTerrain(scanner.total->options.coverage,
+                                      {.gradient = OfGrid(gradient->x, gradient->y, beams.convergence[row]),
+                                       .footprint = beams.footprint[row],
+                                       .incidence = beams.incidence[row],
+                                       .azimuth = beams.beam_azimuth[row]},
+                                      i, chunk.dry_total);
+  }
 }
 
 void LasChunkWork::FindTotals(const Scanner& scanner, Chunk& chunk) const {

@@ -17,7 +17,9 @@
 #include "annotate/beams/point_beams.h"
 #include "annotate/las/las_csv.h"
 #include "annotate/seas/sea_timeline.h"
+#include "annotate/totals/terrain_totals.h"
 #include "annotate/totals/total_summary.h"
+#include "budget/beams/terrain_planes.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
@@ -36,7 +38,8 @@ struct LasChannel {
 struct LasAnnotation {
   std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClasses of the format.
   BeamPlan plan;
-  bool use_withheld = false;                // Points with this flag count as any other.
+  bool use_withheld = false;   // Points with this flag count as any other.
+  bool terrain_slope = false;  // Heights of the ground are those at a fixed place (terrain_error.h). With a total.
   std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
   bool details = false;                     // Append the geometry of each beam, too.
   bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
@@ -52,10 +55,18 @@ struct LasAnnotation {
             .total = total.has_value(),
             .water = total.has_value() && total->water.share != nullptr,
             .extra = total.has_value() && total->has_extra(),
-            .details = details};
+            .details = details,
+            .terrain = terrain_slope};
   }
   // How the sea is queried: for a total at 2 sigma.
   AnswerStyle style_of_sea() const;
+};
+
+// The ground of a file.
+struct LasTerrain {
+  const TerrainPlanes* planes = nullptr;  // Null: uncertainties are those of the points themselves.
+  bool is_classified = false;             // As LasPrescan::terrain_is_classified.
+  LocalFrame frame = {};
 };
 
 // The settings of all chunks of a file.
@@ -66,7 +77,8 @@ class LasChunkWork {
   // from a return of the same pulse.
   LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
                const std::vector<formats::ReplacedFloat>& replaced, const std::vector<BeamGeometry>& beams,
-               const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source);
+               const formats::UtcClock& utc, bool pulse_surface, const AnswerSource& source,
+               const LasTerrain& terrain = {});
 
   // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
   // searched for returns of the same pulse.
@@ -78,6 +90,7 @@ class LasChunkWork {
     formats::LasClassCounts classes;
     std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
     DrySummary dry;                             // Of dry points, where the plan has them.
+    std::uint64_t sloped = 0;                   // Of these with the slope of the terrain.
     std::uint64_t submerged = 0;                // Unclassified points below the water, which have no number.
     SurfaceCounts surface;
     CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
@@ -108,6 +121,7 @@ class LasChunkWork {
     std::vector<float> dry_incidence;
     AircraftColumns dry_aircraft;
     TotalBatch dry_total;
+    std::vector<TerrainShare> dry_terrain;  // Empty without the slope of the terrain.
   };
 
   // Makes `csv` of chunks, too; it must outlive this.
@@ -138,6 +152,7 @@ class LasChunkWork {
   void FindSeas(Chunk& chunk) const;
   void FindTotals(const Scanner& scanner, Chunk& chunk) const;
   void FindDryTotals(const Scanner& scanner, Chunk& chunk) const;
+  void FindTerrain(const Scanner& scanner, Chunk& chunk) const;
   // Columns of `rows` of the points.
   static void TakeAircraft(const BeamPlan& plan, const PointBeams& beams, const std::vector<std::uint32_t>& rows,
                            AircraftColumns& aircraft);
@@ -149,6 +164,7 @@ class LasChunkWork {
 
   formats::LasPointFields fields_;
   std::size_t record_length_;
+  LasTerrain terrain_;
   std::vector<Scanner> scanners_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
   formats::UtcClock utc_;
@@ -160,7 +176,7 @@ class LasChunkWork {
   std::size_t extra_bytes_begin_;  // In a record of the input.
   AnswerStyle style_;
   AnswerSelection selection_;
-  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {};
+  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {}, is_terrain_ = {};
   AnswerSource source_;
   const LasCsv* csv_ = nullptr;
 };

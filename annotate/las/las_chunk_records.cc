@@ -99,6 +99,11 @@ void LasChunkWork::EncodeTotals(const TotalPlan& plan, const Chunk& chunk, bool 
     put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
   for (const Quantity bias : {Quantity::kBiasAlongBeam, Quantity::kBiasVertical}) put(dry ? 0 : chunk.answers[bias][i]);
   for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[point])) put(entry);
+  if (!appended_.terrain) return;
+  const TerrainShare terrain = dry ? chunk.dry_terrain[i] : TerrainShare();
+  put(terrain.slope);
+  put(terrain.tvu_slope);
+  put(terrain.tvu_footprint);
 }
 
 }  // namespace albtpu::annotate

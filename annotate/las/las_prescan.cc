@@ -20,7 +20,15 @@ constexpr std::size_t kPrescanChunkBytes = 4 << 20;
 constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
 
 // What a point may be, as bits.
-enum Role : std::uint8_t { kChosen = 1, kSurface = 2, kAtLevel = 4, kOfPair = 8, kNumbered = 16 };
+enum Role : std::uint8_t {
+  kChosen = 1,
+  kSurface = 2,
+  kAtLevel = 4,
+  kOfPair = 8,
+  kNumbered = 16,
+  kGround = 32,
+  kUnclassified = 64
+};
 
 using Box = LasPrescan::Box;
 
@@ -49,6 +57,7 @@ struct Part {
   Box all, of_numbered;
   double first_time, last_time;
   SurfaceReturns surface;
+  TerrainReturns ground, unclassified;
   std::vector<ReturnPair> pairs;
   std::uint64_t of_several = 0, alone = 0;
   std::vector<PulseReturn> incomplete;  // Returns whose pulse has others than those within reach.
@@ -71,6 +80,10 @@ class PrescanWork {
     for (const int surface : formats::UsualSurfaceClasses(reader.header().point_format)) roles_[surface] = 0;
     for (int i = 0; i < formats::kClassCount && options.dry_points; ++i)
       if (formats::MayBeDry(i, reader.header().point_format)) roles_[i] |= kNumbered;
+    for (int i = 0; i < formats::kClassCount && options.terrain; ++i) {
+      if (formats::IsGround(i, reader.header().point_format)) roles_[i] |= kGround;
+      if (formats::IsUnclassified(i)) roles_[i] |= kUnclassified;
+    }
     for (const int point_class : options.classes) roles_[point_class] |= kChosen | kNumbered | kOfPair;
     for (const int point_class : options.water_classes)
       roles_[point_class] = (roles_[point_class] | kSurface) & ~kOfPair;
@@ -102,6 +115,8 @@ class PrescanWork {
     part.first_time = std::numeric_limits<double>::infinity();
     part.last_time = -part.first_time;
     part.surface = SurfaceReturns();
+    part.ground.Clear();
+    part.unclassified.Clear();
     part.pairs.clear();
     part.of_several = part.alone = 0;
     part.incomplete.clear();
@@ -110,6 +125,7 @@ class PrescanWork {
       const std::array<double, 3> at = PlaceOf(Record(part, i));
       Extend(at, at, part.all);
       if ((roles & kSurface) != 0) AddSurface(part, i);
+      if ((roles & (kGround | kUnclassified)) != 0) AddTerrain(part, i);
       if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
       if ((roles & kNumbered) != 0) AddNumbered(at, part, i);
       if (pairs_ && !formats::IsNoTime(part.times[i])) AddPairs(part, i);
@@ -140,6 +156,11 @@ class PrescanWork {
     part.surface.Add(at.x(), at.y(), seconds_ * part.times[i], at.z());
     ++part.surface_returns;
     part.synthetic_surface += fields_.IsSynthetic(Record(part, i));
+  }
+
+  void AddTerrain(Part& part, std::size_t i) const {
+    const Eigen::Vector3d at = PositionOf(Record(part, i));
+    ((part.roles[i] & kGround) != 0 ? part.ground : part.unclassified).Add(at.x(), at.y(), at.z());
   }
 
   void CompareWithLevel(Part& part, std::size_t i) const {
@@ -227,6 +248,7 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
   LasPrescan prescan;
   prescan.all = prescan.of_numbered = EmptyBox();
   SurfaceReturns surface;
+  TerrainReturns ground, unclassified;
   PairSample pairs;
   PulseSample incomplete;
   const PrescanWork work(reader, frame, options);
@@ -237,6 +259,11 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
                                               [&](Part& part) {
                                                 Merge(part, prescan);
                                                 surface.Merge(std::move(part.surface));
+                                                ground.Merge(part.ground);
+                                                if (ground.empty())
+                                                  unclassified.Merge(part.unclassified);
+                                                else
+                                                  unclassified.Clear();
                                                 for (const ReturnPair& pair : part.pairs) pairs.Add(pair);
                                                 for (const PulseReturn& one : part.incomplete) incomplete.Add(one);
                                                 return absl::OkStatus();
@@ -253,9 +280,11 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
   }
   for (const ReturnPair& pair : apart) pairs.Add(pair);
   prescan.pair_count = pairs.seen();
+  prescan.terrain_is_classified = !ground.empty();
   tbb::parallel_invoke([&] { prescan.pairs = pairs.Take(); },
                        [&] {
                          if (prescan.surface_returns > 0) prescan.surface = surface.Finish();
+                         if (options.terrain) prescan.terrain = (ground.empty() ? unclassified : ground).Finish();
                        });
   return prescan;
 }

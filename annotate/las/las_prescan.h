@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "annotate/beams/file_track.h"
 #include "budget/beams/return_pair.h"
+#include "budget/beams/terrain_planes.h"
 #include "budget/beams/water_surface.h"
 #include "formats/las/las_reader.h"
 
@@ -26,6 +27,7 @@ struct LasPrescanOptions {
   bool use_withheld = false;          // Points with this flag count as any other.
   bool dry_points = false;            // Points that may be dry (MayBeDry) get a number, too.
   double seconds = 1;                 // Of a unit of the times, for `surface`.
+  bool terrain = false;               // Find the planes of the ground.
 };
 
 // Records in a file in order of time that belong to one pulse lie at most this far apart.
@@ -50,6 +52,9 @@ struct LasPrescan {
   std::uint64_t level_returns = 0, off_level = 0;
   double off_level_height = 0;
   std::optional<LocalWaterSurface> surface;  // If there are surface returns.
+  // If wanted: of the ground (IsGround), or of unclassified points where nothing is classified as ground.
+  std::optional<TerrainPlanes> terrain;
+  bool terrain_is_classified = false;
   // Two returns of one pulse at least 1 m apart, the lower one of a chosen class, neither of them noise or of the
   // surface or synthetic: a sample in order of time.
   std::vector<ReturnPair> pairs;

@@ -157,6 +157,10 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
     for (const std::string_view name :
          {"VarianceX", "VarianceY", "VarianceZ", "CovarianceXY", "CovarianceXZ", "CovarianceYZ"})
       floats.push_back({name, "of the total, 1 sigma, m2", kNan});
+    if (appended.terrain) {
+      floats.push_back({"terrain_slope", "of the ground around, degree", kNan});
+      for (const std::string_view name : {"tvu_slope", "tvu_footprint"}) floats.push_back({name, length, kNoNumber});
+    }
   }
   if (appended.details) {
     floats.push_back({"incidence", "in air, at the water, degree", kNan});
@@ -249,15 +253,31 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
   return description;
 }
 
-absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
-                                                                             std::string_view described,
-                                                                             std::size_t extra_bytes) {
+namespace {
+
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> OffsetsOf(std::uint8_t type, const std::string& name,
+                                                                          std::string_view described,
+                                                                          std::size_t extra_bytes) {
   ASSIGN_OR_RETURN(const Described known, Read(name, described));
   if (known.bytes > extra_bytes) return MoreThanExist(name, known.bytes, extra_bytes);
   std::map<std::string, std::size_t, std::less<>> offsets;
   for (const Known& entry : known.entries)
-    if (entry.type == kFloat) offsets.emplace(entry.name, entry.offset);
+    if (entry.type == type) offsets.emplace(entry.name, entry.offset);
   return offsets;
+}
+
+}  // namespace
+
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
+                                                                             std::string_view described,
+                                                                             std::size_t extra_bytes) {
+  return OffsetsOf(kFloat, name, described, extra_bytes);
+}
+
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> ByteOffsets(const std::string& name,
+                                                                            std::string_view described,
+                                                                            std::size_t extra_bytes) {
+  return OffsetsOf(kByte, name, described, extra_bytes);
 }
 
 }  // namespace albtpu::formats

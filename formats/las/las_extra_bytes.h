@@ -39,13 +39,14 @@ struct Appended {
   bool water = false;    // The total includes the water column.
   bool extra = false;    // The total includes what the surveyor adds.
   bool details = false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
+  bool terrain = false;  // A total with details has the slope of the terrain and what it adds, too.
 
   bool share_of() const { return total && details; }
 };
 
 // In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
-// more, and with `extra` two more behind tvu_water; with details the geometry; of a total with details share_of, the
-// only byte.
+// more, with `extra` two more behind tvu_water, and with terrain terrain_slope, tvu_slope, tvu_footprint; with details
+// the geometry; of a total with details share_of, the only byte.
 std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 
 inline constexpr std::size_t kUncertaintyCount = 2;
@@ -91,5 +92,10 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
 absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
                                                                              std::string_view described,
                                                                              std::size_t extra_bytes);
+
+// The same of unsigned bytes (type 1), such as share_of.
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> ByteOffsets(const std::string& name,
+                                                                            std::string_view described,
+                                                                            std::size_t extra_bytes);
 
 }  // namespace albtpu::formats

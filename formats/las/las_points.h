@@ -41,6 +41,20 @@ inline std::set<int> UsualSurfaceClasses(int point_format) {
   return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
 }
 
+// The same and water (9): classes of points that are neither land nor under water.
+inline std::set<int> WaterSurfaceClasses(int point_format) {
+  std::set<int> classes = UsualSurfaceClasses(point_format);
+  classes.insert(9);
+  return classes;
+}
+
+// Points that are of the ground, and points that nobody classified: ASPRS 2 and, in older formats, 8, model key points
+// of the ground; 0 and 1.
+constexpr bool IsGround(int point_class, int point_format) {
+  return point_class == 2 || (point_class == 8 && point_format < kFirstModernFormat);
+}
+constexpr bool IsUnclassified(int point_class) { return point_class <= 1; }
+
 // Whether points of this class lie on land or on the water: neither noise nor under water. ASPRS, LAS Domain Profile
 // for Topo-Bathy Lidar: 40 bottom, 43 submerged object, 44 object of S-57, 45 no bottom found, 46 overlapping bottom;
 // in older point formats what NOAA used before.

@@ -102,6 +102,16 @@ absl::StatusOr<ScannerPlan> PlanOf(const LasOptions& options, const BeamOptions&
   return plan;
 }
 
+absl::Status CheckTerrain(const annotate::LasAnnotation& annotation, const annotate::BeamPlan& plan) {
+  if (!annotation.terrain_slope) return absl::OkStatus();
+  if (!plan.dry_points)
+    return formats::UsageError("las: --terrain-slope is of dry points; it needs a sensor, and no --points bathymetric");
+  if (plan.has_track()) return absl::OkStatus();
+  return formats::UsageError(
+      "las: --terrain-slope needs the direction and the footprint of each beam; give --trajectory or "
+      "--trajectory-from-returns");
+}
+
 }  // namespace
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
@@ -117,7 +127,7 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddBeamOptions(command, options.beams, options.flags);
   AddSeaFlags(command, options.flags, kRareSeaFlags);
   AddTotalFlags(command, options.flags);
-  AddFlags(command, {"--classes", "--points", "--use-withheld"}, group::kPoints, options.flags);
+  AddFlags(command, {"--classes", "--points", "--use-withheld", "--terrain-slope"}, group::kPoints, options.flags);
   AddFlags(command, {"--details"}, group::kOutput, options.flags);
   command
       .add_flag("--replace", options.replace,
@@ -189,9 +199,11 @@ absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options, co
   if (!settings.output.classes.empty())
     annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
   const bool total = settings.wants_total();
+  annotation.terrain_slope = settings.output.terrain_slope.value_or(false);
   std::vector<ScannerPlan> plans;
   for (const auto& [of_scanner, flags] : ScannersOf(options, settings)) {
     ASSIGN_OR_RETURN(ScannerPlan plan, PlanOf(options, flags, of_scanner, annotation));
+    RETURN_IF_ERROR(CheckTerrain(annotation, plan.beams));
     plans.push_back(std::move(plan));
   }
   if (plans.front().beams.dry_points && !total)
@@ -278,6 +290,7 @@ nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, con
   json["details"] = annotation.details;
   if (annotation.plan.dry_points) json["points"] = "all";
   if (annotation.use_withheld) json["use_withheld"] = true;
+  if (annotation.terrain_slope) json["terrain_slope"] = true;
   if (annotation.replace) json["replace"] = true;
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));

@@ -13,6 +13,7 @@
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
+#include "quality/annotated/annotated_folder.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/report_folder.h"
 #include "status/status_macros.h"
@@ -37,6 +38,7 @@ absl::Status RunCrossCheck(const CrossCheckOptions& options) {
 struct ReportCommandOptions {
   std::string annotated, output, s44_order, specification, wanted_class;
   double cell = 1, patch = quality::kDefaultPatch, pass_share = quality::kDefaultPassShare;
+  quality::CheckPointErrors check_points;
   bool no_page = false, resume = false;
   Existing existing = Existing::kKeep;
 };
@@ -48,7 +50,8 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                  .specification = "s44",
                                  .wanted_class = flags.s44_order.empty() ? "1b" : flags.s44_order,
                                  .pass_share = flags.pass_share,
-                                 .patch = flags.patch};
+                                 .patch = flags.patch,
+                                 .check_points = flags.check_points};
   ASSIGN_OR_RETURN(options.specifications, quality::ListSpecifications());
   if (!flags.specification.empty()) {
     ASSIGN_OR_RETURN(quality::Specification wanted, quality::FindSpecification(flags.specification));
@@ -136,6 +139,16 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   command->add_option("--pass", options->pass_share, "Share of the points that must meet it [%]")
       ->check(NumberIn(0, 100, "%"))
       ->capture_default_str();
+  command
+      ->add_option("--check-points-horizontal", options->check_points.horizontal,
+                   "RMSE of the check points of land, radial [m]")
+      ->check(NumberIn(0, 10, "m"))
+      ->capture_default_str();
+  command
+      ->add_option("--check-points-vertical", options->check_points.vertical,
+                   "RMSE of the check points of land [m]; their errors add to those of the points")
+      ->check(NumberIn(0, 10, "m"))
+      ->capture_default_str();
   command->add_option("--patch", options->patch, "Side of the patches in which overlapping lines are compared [m]")
       ->check(NumberIn(0.5, 100, "m"))
       ->capture_default_str();
@@ -143,7 +156,8 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   command->add_flag("--resume", options->resume, "Do nothing if the folder has the report of these files already");
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier report");
-  Group(*command, "What was asked for", {"--s44-order", "--spec", "--class", "--pass"});
+  Group(*command, "What was asked for",
+        {"--s44-order", "--spec", "--class", "--pass", "--check-points-horizontal", "--check-points-vertical"});
   Group(*command, "How points are gathered", {"--cell", "--patch"});
   Group(*command, "Output", {"--output", "--no-page", "--resume", "--overwrite"});
   EndHelp(*command,

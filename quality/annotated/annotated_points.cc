@@ -12,11 +12,9 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
-#include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
@@ -182,6 +180,8 @@ absl::Status AnnotatedLasFile::FindFloats() {
       return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
     offsets_.push_back(found == offsets.end() ? kAbsent : begin + found->second);
   }
+  ASSIGN_OR_RETURN(const auto bytes, formats::ByteOffsets(reader_.name(), record, reader_.header().extra_bytes()));
+  if (const auto found = bytes.find("share_of"); found != bytes.end()) share_of_ = begin + found->second;
   return absl::OkStatus();
 }
 
@@ -223,7 +223,8 @@ std::string AnnotatedLasFile::table_digest() const {
   return digest.is_string() ? digest.get<std::string>() : "";
 }
 
-absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit) const {
+absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit,
+                                                        const VisitDry& visit_dry) const {
   annotate::FileProgress::File shown(progress, reader_.name());
   absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader_, 0, 0);
   if (!runs.ok()) return reader_.Named(runs.status());
@@ -232,6 +233,11 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
   std::array<bool, formats::kClassCount> wanted = {};
   for (const int each : classes_)
     if (each >= 0 && each < formats::kClassCount) wanted[each] = true;
+  const std::set<int> water_surface = formats::WaterSurfaceClasses(header.point_format);
+  const auto read_floats = [&](std::string_view record, AnnotatedPoint& point) {
+    for (std::size_t k = 0; k < kFloats.size(); ++k)
+      if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+  };
   formats::LasRun run;
   LeftOutPoints left_out;
   std::vector<AnnotatedPoint> points;
@@ -248,6 +254,17 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         ++left_out.noise;
         continue;
       }
+      if (visit_dry && share_of_.has_value() &&
+          static_cast<std::uint8_t>(record[*share_of_]) == static_cast<std::uint8_t>(formats::ShareOf::kLand)) {
+        AnnotatedPoint dry;
+        read_floats(record, dry);
+        const auto sigma = static_cast<float>(dry.tvu / VerticalFactor(coverage_));
+        if (IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))
+          visit_dry({.point_class = point_class,
+                     .of_water_surface = water_surface.contains(point_class),
+                     .variance_horizontal = dry.variance_x + dry.variance_y,
+                     .variance_vertical = sigma * sigma});
+      }
       if (!wanted[point_class]) continue;
       if (!use_withheld_ && fields.IsWithheld(record)) {
         ++left_out.withheld;
@@ -259,8 +276,7 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
       point.z = fields.Z(record) * metres_per_height_unit_;
       if (fields.has_gps_time()) point.time = fields.GpsTime(record);
       point.line = fields.PointSourceId(record);
-      for (std::size_t k = 0; k < kFloats.size(); ++k)
-        if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      read_floats(record, point);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
       const auto is_its = [&](const formats::ScannerPoints& points) { return points.Has(fields, record); };
@@ -292,57 +308,6 @@ std::string LeftOutText(const LeftOutPoints& points) {
     parts.push_back(absl::StrCat(points.noise, " points of noise (classes ", formats::kLowNoise, " and ",
                                  formats::kHighNoise, ")"));
   return absl::StrCat(absl::StrJoin(parts, " and "), " take no part");
-}
-
-absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
-  std::error_code error;
-  std::vector<fs::path> paths;
-  if (fs::is_directory(folder_or_file, error)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
-      if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
-        paths.push_back(entry.path());
-    std::ranges::sort(paths);
-    if (error) return Invalid(folder_or_file, absl::StrCat("cannot be read: ", error.message()));
-    if (paths.empty())
-      return absl::NotFoundError(absl::StrCat(folder_or_file.string(),
-                                              ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
-  } else {
-    paths.push_back(folder_or_file);
-  }
-  std::vector<AnnotatedLasFile> files;
-  for (const fs::path& path : paths) {
-    ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(path));
-    if (reader.header().point_count == 0) {
-      annotate::Note(absl::StrCat(path.string(), ": has no points, and is left out"));
-      continue;
-    }
-    ASSIGN_OR_RETURN(AnnotatedLasFile file, AnnotatedLasFile::Open(path));
-    files.push_back(std::move(file));
-    const AnnotatedLasFile &first = files.front(), &last = files.back();
-    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
-                            const std::string& remedy) {
-      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last, " (in ",
-                                                     first.path().string(), " it is ", in_first, "); ", remedy));
-    };
-    if (last.crs_name() != first.crs_name())
-      return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
-    if (last.metres_per_unit() != first.metres_per_unit()) {
-      const auto unit = [](double metres) { return absl::StrFormat("%.10g m", metres); };
-      return differ("unit of x and y", unit(first.metres_per_unit()), unit(last.metres_per_unit()),
-                    "report each unit apart");
-    }
-    if (last.coverage() != first.coverage()) {
-      return differ("coverage", std::string(annotate::CoverageName(first.coverage())),
-                    std::string(annotate::CoverageName(last.coverage())), "annotate all files with one --coverage");
-    }
-    if (last.table_digest() != first.table_digest())
-      return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
-  }
-  if (files.empty()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(folder_or_file.string(), ": no file has points; give the outputs of albtpu-query las"));
-  }
-  return files;
 }
 
 }  // namespace albtpu::quality

@@ -1,4 +1,4 @@
-// The bottom points of LAS and LAZ files that `albtpu-query las --details` annotated with a total.
+// The points of LAS and LAZ files that `albtpu-query las --details` annotated with a total.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -61,6 +62,14 @@ struct AnnotatedPoint {
   float depth = 0;
 };
 
+// A point whose beam met no water before it, with a total of the air side.
+struct DryPoint {
+  int point_class = 0;
+  bool of_water_surface = false;  // By its class: 9, or one that surface returns usually have.
+  float variance_horizontal = 0;  // m^2 at 1 sigma, of both axes together.
+  float variance_vertical = 0;    // Of the total: with --terrain-slope that of the height at a fixed place.
+};
+
 class AnnotatedLasFile {
  public:
   // Fails on a file without our extra bytes or without the summary beside it, and on one that was annotated without a
@@ -79,9 +88,12 @@ class AnnotatedLasFile {
 
   using Visit = std::function<void(std::span<const AnnotatedPoint>)>;
 
-  // All bathymetric points in their order, some at a time, without those left out. Fails when the file cannot be read
-  // or was modified.
-  absl::StatusOr<LeftOutPoints> ForEach(annotate::FileProgress& progress, const Visit& visit) const;
+  using VisitDry = std::function<void(const DryPoint&)>;
+
+  // All bathymetric points in their order, some at a time, without those left out. Also each dry point with a total, of
+  // whatever class: a bathymetric one is visited as both. Fails when the file cannot be read or was modified.
+  absl::StatusOr<LeftOutPoints> ForEach(annotate::FileProgress& progress, const Visit& visit,
+                                        const VisitDry& visit_dry = {}) const;
 
  private:
   explicit AnnotatedLasFile(formats::LasReader reader) : reader_(std::move(reader)) {}
@@ -98,13 +110,9 @@ class AnnotatedLasFile {
   bool use_withheld_ = false;                     // As --use-withheld of the annotation.
   bool may_lack_surface_ = false;                 // Of points whose beams are known by angles.
   std::vector<std::size_t> offsets_;              // In a record, by kFloats of the implementation.
+  std::optional<std::size_t> share_of_;           // In a record; absent: annotated without dry points.
   std::string crs_name_ = "not stated", crs_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
 };
-
-// The annotated files in a folder by name, or the file itself, but for those without points, which are noted. All have
-// the same coordinate system, unit of x and y, coverage and table. Fails with the names of the first two files that
-// differ, and where no file has points.
-absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesystem::path& folder_or_file);
 
 }  // namespace albtpu::quality

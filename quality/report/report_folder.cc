@@ -113,6 +113,15 @@ std::string ReportText(const nlohmann::ordered_json& report) {
                                  .noise = left_out["noise"].get<std::uint64_t>()}),
                     "\n");
   }
+  if (const auto& land = report["land"]; !land.is_null()) {
+    std::string met;
+    for (const auto& of : land["classes"])
+      if (met.empty() && of["met"].get<bool>())
+        met = absl::StrCat("; ", of["specification"].get<std::string>(), " ", of["name"].get<std::string>());
+    absl::StrAppendFormat(&text, "  %d dry points of land: RMSE %.3f m horizontal, %.3f m vertical%s\n",
+                          land["points"].get<std::uint64_t>(), land["rmse_horizontal"].get<double>(),
+                          land["rmse_vertical"].get<double>(), met);
+  }
   const auto& check = report["crosscheck"];
   if (check.is_null()) {
     return absl::StrCat(text, "  ", report["nothing_to_compare"].get<std::string>(),

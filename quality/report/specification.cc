@@ -61,6 +61,12 @@ SpecificationClass ReadClass(TomlKeys& keys) {
   return read;
 }
 
+// Land has no depth, and an RMSE is 1 sigma.
+bool IsOfRmse(const SpecificationClass& of) {
+  const auto grows = [](const std::optional<Limit>& limit) { return limit.has_value() && limit->of_depth > 0; };
+  return of.coverage == Coverage::kOneSigma && !grows(of.horizontal) && !grows(of.vertical);
+}
+
 absl::StatusOr<Specification> ReadSpecification(const fs::path& path) {
   ASSIGN_OR_RETURN(const std::string text, ReadTomlText(path, kSpecificationFile));
   absl::StatusOr<Specification> specification = ParseSpecification(text);
@@ -93,10 +99,8 @@ double Limit::At(double depth) const {
 
 nlohmann::ordered_json LimitsJson(const Specification& specification) {
   using Json = nlohmann::ordered_json;
-  Json json = {{"name", specification.name},
-               {"title", specification.title},
-               {"source", specification.source},
-               {"classes", Json::array()}};
+  Json json = {{"name", specification.name},     {"title", specification.title}, {"edition", specification.edition},
+               {"source", specification.source}, {"land", specification.land},   {"classes", Json::array()}};
   for (const SpecificationClass& of : specification.classes) {
     Json limits = Json::array({of.name, annotate::CoverageName(of.coverage)});
     for (const auto& limit : {of.horizontal, of.vertical})
@@ -118,6 +122,13 @@ absl::StatusOr<Specification> ParseSpecification(std::string_view text) {
     read.classes.push_back(ReadClass(keys));
     if (!names.insert(read.classes.back().name).second) keys.Fail("has the name of another class; give each its own");
   }
+  read.edition = root.Text("edition", "that of the document").value_or("");
+  read.land = root.OneOf("land", {"rmse"}).has_value();
+  for (const SpecificationClass& of : read.classes)
+    if (read.land && !IsOfRmse(of))
+      root.Fail(absl::StrCat("class ", of.name,
+                             " is none of root mean square errors, which land = \"rmse\" asks for; "
+                             "give it coverage = \"1sigma\" and limits without of_depth"));
   root.Finish();
   for (const std::string_view key : {"title", "source", "class"})
     if (!root.Has(key)) root.Fail(absl::StrCat(std::string(key), " is missing; give title, source and each [[class]]"));

@@ -30,10 +30,13 @@ struct SpecificationClass {
 };
 
 struct Specification {
-  std::string name;    // Of the file: "s44".
-  std::string title;   // "IHO S-44"
-  std::string source;  // The document.
-  std::vector<SpecificationClass> classes;
+  std::string name = {};     // Of the file: "s44".
+  std::string title = {};    // "IHO S-44"
+  std::string edition = {};  // Of the document, whose text was read: "6.1.0 (2022)"; empty if nobody stated it.
+  std::string source = {};   // The document.
+  // Its limits are those of root mean square errors, and hold for dry points together, beside each bathymetric one.
+  bool land = false;
+  std::vector<SpecificationClass> classes = {};
 };
 
 // All of it, compact, for `made_from` of a report.
@@ -43,6 +46,8 @@ nlohmann::ordered_json LimitsJson(const Specification& specification);
 //
 //     title = "Harbour of Mine"
 //     source = "Port authority, order 12 of 2021"
+//     edition = "2"                                                        # may be left out
+//     land = "rmse"                                                        # may be left out
 //     [[class]]
 //     name = "berths"
 //     coverage = "p95"                                                     # or "1sigma", "2sigma"

@@ -89,7 +89,9 @@ class Reporter {
       progress.NextFile();
       OfFile& of_file = of_files_.emplace_back();
       ASSIGN_OR_RETURN(const LeftOutPoints left_out,
-                       file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); }));
+                       file.ForEach(
+                           progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); },
+                           [&](const DryPoint& point) { land_.Add(point); }));
       left_out_.Add(left_out);
       RETURN_IF_ERROR(grid_.status());
     }
@@ -173,7 +175,11 @@ class Reporter {
     Json list = Json::array();
     std::size_t index = 0;
     for (const Specification& each : options_.specifications) {
-      Json json = {{"name", each.name}, {"title", each.title}, {"source", each.source}, {"classes", Json::array()}};
+      Json json = {{"name", each.name},
+                   {"title", each.title},
+                   {"edition", each.edition.empty() ? Json() : Json(each.edition)},
+                   {"source", each.source},
+                   {"classes", Json::array()}};
       for (const SpecificationClass& of : each.classes) {
         const auto limit = [](const std::optional<Limit>& known) {
           if (!known.has_value()) return Json();
@@ -275,6 +281,7 @@ class Reporter {
                  {"files", FilesJson()},
                  {"histograms", {{"thu", thu_.ToJson()}, {"tvu", tvu_.ToJson()}}},
                  {"numbers", NumbersJson()},
+                 {"land", land_.Json(options_.specifications, options_.check_points)},
                  {"crosscheck", nullptr}};
     for (const auto& [line, tally] : lines_) {
       Json of_line = {{"line", line}};
@@ -299,6 +306,7 @@ class Reporter {
   std::size_t classes_;
   const AnnotatedLasFile& first_;
   PointTally all_;
+  LandTable land_;
   DepthTallies depths_;
   std::map<int, PointTally> lines_;
   std::vector<OfFile> of_files_;
@@ -316,6 +324,7 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
       {"cell", options.cell},          {"patch", options.patch},           {"specification", options.specification},
       {"class", options.wanted_class}, {"pass_share", options.pass_share}, {"specifications", Json::array()},
       {"files", Json::array()}};
+  json["check_points"] = Json::array({options.check_points.horizontal, options.check_points.vertical});
   for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
   for (const AnnotatedLasFile& file : files)
     json["files"].push_back({{"name", file.path().filename().string()}, {"bytes", file.reader().file_size()}});

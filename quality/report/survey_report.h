@@ -10,6 +10,7 @@
 #include "quality/annotated/annotated_points.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/grid_file.h"
+#include "quality/report/land_table.h"
 #include "quality/report/specification.h"
 #include "quality/report/survey_grid.h"
 
@@ -23,6 +24,7 @@ struct ReportOptions {
   std::string specification, wanted_class;    // The required one: names of one of them.
   double pass_share = kDefaultPassShare;      // %
   double patch = kDefaultPatch;               // m
+  CheckPointErrors check_points = {};         // That land will be held against.
 };
 
 // Everything that determines the report: the files by name and size, and the options. It is `made_from` in the JSON.

@@ -51,15 +51,19 @@ void ReportedPoints::Receive(int line, double since_start, const AircraftState& 
   reported.heading += at(5);
   const Eigen::Matrix3d body = reported.BodyAxes();
   const Eigen::Matrix3d axes = EastNorthUp(reported.position.latitude, reported.position.longitude);
-  const Eigen::Vector3d sensor = EarthCentred(reported.position) + body * lever_arm_ + at(0) * axes.col(1) +
-                                 at(1) * axes.col(0) - at(2) * axes.col(2);
+  sensor_ = EarthCentred(reported.position) + body * lever_arm_ + at(0) * axes.col(1) + at(1) * axes.col(0) -
+            at(2) * axes.col(2);
   Eigen::Vector3d scanned = in_body;
   for (const Eigen::Vector3d& across : Across(in_body)) scanned += errors_.scan * random_.Normal() * across;
-  const Eigen::Vector3d beam = body * scanned.normalized();
+  in_air_ = body * scanned.normalized();
   surface_noise_ = range_noise_ * random_.Normal();
-  at_water_ = sensor + (path.slant_range + surface_noise_) * beam;
+  at_water_ = sensor_ + (path.slant_range + surface_noise_) * in_air_;
   const Geodetic here = GeodeticFrom(at_water_);
-  in_water_ = Refract(beam, EastNorthUp(here.latitude, here.longitude).col(2));
+  in_water_ = Refract(in_air_, EastNorthUp(here.latitude, here.longitude).col(2));
+}
+
+Eigen::Vector3d ReportedPoints::ReportedOnLand(double range) const {
+  return sensor_ + (range + surface_noise_) * in_air_;
 }
 
 Eigen::Vector3d ReportedPoints::Reported(double way) {

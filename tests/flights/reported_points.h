@@ -44,14 +44,17 @@ class ReportedPoints {
   // A return of that pulse from `way` m behind the water, 0: from the surface. Earth-centred, m.
   Eigen::Vector3d Reported(double way);
 
+  // A return of that pulse from dry land, `range` m from the sensor: the beam goes straight.
+  Eigen::Vector3d ReportedOnLand(double range) const;
+
  private:
   ReportingErrors errors_;
   Eigen::Vector3d lever_arm_;
   double range_noise_;
   RandomNumbers random_;
-  std::vector<std::array<SmoothMotion, 6>> of_lines_;  // North, east, down; roll, pitch, heading.
-  Eigen::Vector3d at_water_, in_water_;                // Of the pulse that was received.
-  double surface_noise_ = 0;                           // m, of its range to the surface.
+  std::vector<std::array<SmoothMotion, 6>> of_lines_;      // North, east, down; roll, pitch, heading.
+  Eigen::Vector3d sensor_, in_air_, at_water_, in_water_;  // Of the pulse that was received.
+  double surface_noise_ = 0;                               // m, of its range to the surface.
 };
 
 }  // namespace albtpu::testing

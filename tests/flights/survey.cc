@@ -87,7 +87,7 @@ class PulseSimulator {
     } else if (const double to_land = DistanceToGround(scene_, sensor, beam);
                DepthOf(sensor + to_land * beam) < -kLowestLand) {
       pulse.slant_range = to_land;
-      Add(ReturnKind::kLand, sensor + to_land * beam, beam, 0, 0);
+      Add(ReturnKind::kLand, sensor + to_land * beam, beam, 0, to_land);
     }
     if (!found_.empty()) Keep(pulse);
   }
@@ -97,14 +97,15 @@ class PulseSimulator {
     return survey_.options.water_level - GeodeticFrom(point).height;
   }
 
-  // From `point`, which lies `way` m behind the water.
+  // From `point`, which lies `way` m behind the water, or on land `way` m from the sensor.
   void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth, double way) {
     if (processing_.has_value() && kind != ReturnKind::kLand) {
       found_.push_back({.kind = kind, .position = GeodeticFrom(processing_->Reported(way)), .depth = depth});
       return;
     }
     const double noise = survey_.options.range_noise * random_.Normal();
-    found_.push_back({.kind = kind, .position = GeodeticFrom(point + noise * beam), .depth = depth});
+    const Eigen::Vector3d reported = processing_.has_value() ? processing_->ReportedOnLand(way) : point + noise * beam;
+    found_.push_back({.kind = kind, .position = GeodeticFrom(reported), .depth = depth});
   }
 
   void UnderWater(const BeamPath& path, const Eigen::Vector3d& beam, double to_bottom, double depth) {

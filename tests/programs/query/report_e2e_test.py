@@ -10,6 +10,7 @@ import netCDF4
 import numpy as np
 
 import programs
+from las_file import LasFile
 from page_probe import probe
 from programs import query
 from reported_survey import Report, setUpModule  # noqa: F401
@@ -58,6 +59,70 @@ class Numbers(Report):
         self.assertTrue(numbers["boresight"]["assumed"])
         self.assertFalse(numbers["scan"]["assumed"])
         self.assertIn("cBLUE", numbers["scan"]["source"])
+
+
+class Land(Report):
+    def dry(self):
+        """Classes and numbers of the dry points, and which of them are of the water surface."""
+        files = [LasFile(path) for path in sorted(self.annotated.glob("*.las"))]
+        columns = [each.columns() for each in files]
+        classes = np.concatenate([each.classes for each in files])
+        of = {name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
+        dry = of["share_of"] == 1
+        return classes[dry], {name: values[dry] for name, values in of.items()}, np.isin(classes[dry], (9, 41, 42))
+
+    def test_has_its_table_by_root_mean_square_errors(self):
+        classes, of, surface = self.dry()
+        land = self.json["land"]
+        self.assertGreater((~surface).sum(), 100)
+        self.assertEqual(land["points"], (~surface).sum())
+        self.assertEqual(land["water_surface_points"], surface.sum())
+        horizontal, vertical = of["VarianceX"][~surface] + of["VarianceY"][~surface], of["VarianceZ"][~surface]
+        for name, variance in (("horizontal", horizontal), ("vertical", vertical)):
+            rmse = np.sqrt(variance.mean(dtype=float))
+            self.assertAlmostEqual(land[f"rmse_{name}"], rmse, delta=1e-6)
+            self.assertAlmostEqual(land[f"sigma_{name}"]["median"], np.median(np.sqrt(variance)), delta=0.01 * rmse)
+        self.assertAlmostEqual(land["rmse_3d"], np.sqrt((horizontal + vertical).mean(dtype=float)), delta=1e-6)
+        self.assertEqual({each["class"]: each["points"] for each in land["by_class"]},
+                         {int(each): int((classes[~surface] == each).sum()) for each in set(classes[~surface])})
+        # Summaries count points of the water surface among the dry ones.
+        summaries = [json.loads(path.read_text()) for path in self.annotated.glob("*.las.json")]
+        self.assertEqual(sum(each["answers"]["dry"]["points"] for each in summaries), len(classes))
+
+    def test_takes_no_part_in_the_verdict(self):
+        self.assertEqual(self.json["wanted"]["points"], len(self.points["x"]))
+        self.assertIn(f"{self.json['land']['points']} dry points of land: RMSE", self.said)
+
+    def test_is_held_against_classes_with_the_errors_of_check_points(self):
+        report = self.folder / "checked"
+        query("report", self.annotated, "--output", report, "--check-points-vertical", 0.1,
+              "--check-points-horizontal", 0.2, "--no-page", check=0)
+        land, before = json.loads((report / "report.json").read_text())["land"], self.json["land"]
+        for name, of_check in (("horizontal", 0.2), ("vertical", 0.1)):
+            rmse = before[f"rmse_{name}"]
+            self.assertEqual(land[f"rmse_{name}"], rmse)
+            self.assertEqual(before["against"][f"judged_{name}"], rmse)
+            self.assertAlmostEqual(land["against"][f"difference_{name}"], np.hypot(rmse, of_check))
+            self.assertAlmostEqual(land["against"][f"judged_{name}"], np.sqrt(rmse**2 + 2 * of_check**2))
+        for made in (land, before):
+            met = {each["name"]: each["met"] for each in made["classes"]}
+            self.assertEqual(met, {f"{cm:g} cm": made["against"]["judged_vertical"] <= cm / 100
+                                   for cm in (5, 10, 15, 20, 33.3)})
+
+    def test_has_a_table_on_the_page(self):
+        page = (self.made / "report.html").read_text()
+        table = page[page.index("<h2>Land</h2>"):]
+        self.assertIn(f"<td>{self.json['land']['rmse_vertical']:.3f}</td>", table[:table.index("</table>")])
+        self.assertIn("IHO S-44, edition 6.1.0 (2022)", page)
+
+    def test_is_missing_where_dry_points_have_no_total(self):
+        source, folder = sorted(self.flight.glob("*.las"))[0], self.folder / "bathymetric"
+        folder.mkdir()
+        query("las", source, folder / "line.las", "--survey", self.annotated.with_suffix(".toml"), "--points",
+              "bathymetric", "--table", self.one_table, check=0)
+        query("report", folder, "--output", self.folder / "without", check=0)
+        self.assertIsNone(json.loads((self.folder / "without" / "report.json").read_text())["land"])
+        self.assertNotIn("<h2>Land</h2>", (self.folder / "without" / "report.html").read_text())
 
 
 class Grid(Report):

@@ -99,6 +99,14 @@ TEST_F(ShippedSpecifications, HaveTheClassesOfAsprs) {
   Check({"asprs", "33.3 cm", Coverage::kOneSigma, 20, kNone, 0.333});
 }
 
+TEST_F(ShippedSpecifications, NameTheEditionThatWasRead) {
+  for (const Specification& each : *ListSpecifications()) {
+    EXPECT_FALSE(each.edition.empty()) << each.name;
+    EXPECT_EQ(each.land, each.name == "asprs") << each.name;
+  }
+  EXPECT_EQ(FindSpecification("s44")->edition, "6.1.0 (2022)");
+}
+
 TEST_F(ShippedSpecifications, AreListedWithS44First) {
   const auto all = ListSpecifications();
   std::vector<std::string> names;
@@ -117,6 +125,20 @@ TEST(Specifications, AreReadFromFilesOfTheUser) {
   const auto read = ParseSpecification(kGood);
   EXPECT_EQ(read->classes.front().vertical->At(30), 1);
   EXPECT_FALSE(read->classes.front().horizontal.has_value());
+}
+
+TEST(Specifications, OfLandHaveRootMeanSquareErrors) {
+  const std::string land = "edition = '3'\nland = 'rmse'\n", of_class = "[[class]]\nname = 'a'\n";
+  const std::string begin = "title = 'T'\nsource = 'S'\n" + land + of_class;
+  const auto read = ParseSpecification(begin + "coverage = '1sigma'\nvertical = {constant = 0.1}\n");
+  EXPECT_TRUE(read->land);
+  EXPECT_EQ(read->edition, "3");
+  EXPECT_FALSE(ParseSpecification(kGood)->land);
+  EXPECT_TRUE(ParseSpecification(kGood)->edition.empty());
+  EXPECT_THAT(ProblemOf(begin + "coverage = 'p95'\nvertical = {constant = 0.1}\n"),
+              HasSubstr("give it coverage = \"1sigma\""));
+  EXPECT_THAT(ProblemOf(begin + "coverage = '1sigma'\nhorizontal = {constant = 1, of_depth = 0.1, combined = 'sum'}\n"),
+              HasSubstr("class a is none of root mean square errors"));
 }
 
 TEST(Specifications, SayWhatIsWrongWithThem) {

@@ -16,7 +16,8 @@ def write_page(folder: pathlib.Path) -> None:
     report: Report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     overview = maps.read_overview(folder / "grid.nc", report["metres_per_unit"])
     sections = [_first_screen(report), _summary(report), _maps(report, overview), _curves(report), _bands(report),
-                _specifications(report), _lines(report), _crosscheck(report), _files(report), _numbers(report)]
+                _specifications(report), _land(report), _lines(report), _crosscheck(report), _files(report),
+                _numbers(report)]
     write_document(folder / "report.html", f"Uncertainty of a survey: {verdict.asked(report)}",
                    "\n" + "\n".join(sections))
 
@@ -97,7 +98,8 @@ def _specifications(report: Report) -> str:
             rows.append([text(specification["title"]), text(entry["name"]), COVERAGES[entry["coverage"]],
                          limit_text(entry["horizontal"]), limit_text(entry["vertical"]),
                          _judged(entry["fraction"], report)])
-    sources = "".join(f"<li>{text(each['title'])}: {text(each['source'])}</li>" for each in report["specifications"])
+    sources = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
+                      for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
             + table(["specification", "class", "at", "THU limit", "TVU limit", "points that meet it"], rows)
@@ -105,6 +107,48 @@ def _specifications(report: Report) -> str:
             + "<h3>By depth</h3><p class='soft'>% of the points with a number that meet each class.</p>"
             + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
                                                   for band in report["depth_bands"]], ""))
+
+
+def _edition(specification: dict[str, Any]) -> str:
+    edition = specification.get("edition")
+    return f", edition {text(edition)}" if edition else ""
+
+
+def _land(report: Report) -> str:
+    land = report.get("land")
+    if not land:
+        return ""
+    checked, against = land["check_points"], land["against"]
+    rows = [_rmse_row("all", land)] + [_rmse_row(f"{each['class']}", each) for each in land["by_class"]]
+    parts = ["<h2>Land</h2><p class='soft'>Dry points, which the verdict does not judge: standard deviations of single"
+             " points, and the root mean square errors of all, horizontal ones radial."]
+    if land["water_surface_points"]:
+        parts.append(f" {land['water_surface_points']:,} points of the water surface are not among them.")
+    parts.append("</p>" + table(["class of LAS", "points", "σ horizontal median [m]", "95th [m]",
+                                 "σ vertical median [m]", "95th [m]", "RMSE horizontal [m]", "RMSE vertical [m]",
+                                 "RMSE 3D [m]"], rows))
+    if checked["rmse_horizontal"] or checked["rmse_vertical"]:
+        parts.append(f"<p>Check points with an RMSE of {checked['rmse_horizontal']:g} m horizontally and"
+                     f" {checked['rmse_vertical']:g} m vertically will differ from the points by"
+                     f" {against['difference_horizontal']:.3f} m and {against['difference_vertical']:.3f} m (RMSE);"
+                     f" {against['judged_horizontal']:.3f} m and {against['judged_vertical']:.3f} m, which have the"
+                     " errors of the check points once more, are held against the classes.</p>")
+    classes = [[text(each["specification"]), text(each["name"]), _metres(each["horizontal"]),
+                _metres(each["vertical"]), "yes" if each["met"] else "<span class='no'>no</span>"]
+               for each in land["classes"]]
+    if classes:
+        parts.append(table(["specification", "class", "RMSE horizontal", "RMSE vertical", "met"], classes))
+    return "".join(parts)
+
+
+def _rmse_row(name: str, of: dict[str, Any]) -> list[str]:
+    sigmas = [f"{of[key][at]:.3f}" for key in ("sigma_horizontal", "sigma_vertical") for at in ("median", "p95")]
+    return [text(name), f"{of['points']:,}", *sigmas,
+            *(f"{of[key]:.3f}" for key in ("rmse_horizontal", "rmse_vertical", "rmse_3d"))]
+
+
+def _metres(length: float | None) -> str:
+    return "–" if length is None else f"{length:g} m"
 
 
 def _band_name(band: dict[str, Any]) -> str:

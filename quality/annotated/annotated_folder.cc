@@ -1,0 +1,71 @@
+#include "quality/annotated/annotated_folder.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "annotate/answers/batch.h"
+#include "annotate/run/file_jobs.h"
+#include "annotate/run/file_progress.h"
+#include "formats/las/las_points.h"
+#include "status/status_macros.h"
+
+namespace albtpu::quality {
+namespace fs = std::filesystem;
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  if (fs::is_directory(folder_or_file, error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
+      if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
+        paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    if (error)
+      return absl::InvalidArgumentError(absl::StrCat(folder_or_file.string(), ": cannot be read: ", error.message()));
+    if (paths.empty())
+      return absl::NotFoundError(absl::StrCat(folder_or_file.string(),
+                                              ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
+  } else {
+    paths.push_back(folder_or_file);
+  }
+  std::vector<AnnotatedLasFile> files;
+  for (const fs::path& path : paths) {
+    ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(path));
+    if (reader.header().point_count == 0) {
+      annotate::Note(absl::StrCat(path.string(), ": has no points, and is left out"));
+      continue;
+    }
+    ASSIGN_OR_RETURN(AnnotatedLasFile file, AnnotatedLasFile::Open(path));
+    files.push_back(std::move(file));
+    const AnnotatedLasFile &first = files.front(), &last = files.back();
+    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
+                            const std::string& remedy) {
+      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last, " (in ",
+                                                     first.path().string(), " it is ", in_first, "); ", remedy));
+    };
+    if (last.crs_name() != first.crs_name())
+      return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
+    if (last.metres_per_unit() != first.metres_per_unit()) {
+      const auto unit = [](double metres) { return absl::StrFormat("%.10g m", metres); };
+      return differ("unit of x and y", unit(first.metres_per_unit()), unit(last.metres_per_unit()),
+                    "report each unit apart");
+    }
+    if (last.coverage() != first.coverage()) {
+      return differ("coverage", std::string(annotate::CoverageName(first.coverage())),
+                    std::string(annotate::CoverageName(last.coverage())), "annotate all files with one --coverage");
+    }
+    if (last.table_digest() != first.table_digest())
+      return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
+  }
+  if (files.empty()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(folder_or_file.string(), ": no file has points; give the outputs of albtpu-query las"));
+  }
+  return files;
+}
+
+}  // namespace albtpu::quality

@@ -1,0 +1,17 @@
+// The annotated files of a survey.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "quality/annotated/annotated_points.h"
+
+namespace albtpu::quality {
+
+// The annotated files in a folder by name, or the file itself, but for those without points, which are noted. All have
+// the same coordinate system, unit of x and y, coverage and table. Fails with the names of the first two files that
+// differ, and where no file has points.
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesystem::path& folder_or_file);
+
+}  // namespace albtpu::quality
