@@ -23,6 +23,13 @@ double WeekOf(double adjusted) { return std::floor((adjusted + kAdjustedGpsOffse
 
 TimeSpan SpanOf(const DatedClock& clock, const TimeSpan& stated) { return {clock(stated.first), clock(stated.last)}; }
 
+// Seconds of the week that start again from 0 where the next one begins.
+bool BeginAgain(const PointTimes& points) {
+  const TimeSpan& span = points.span;
+  return points.form == PointTimeForm::kWeekSeconds && span.first >= 0 && span.last <= kSecondsPerWeek + kDay &&
+         span.last - span.first > kSecondsPerWeek / 2;
+}
+
 std::vector<DatedClock> FittingClocks(const PointTimes& points, TimeFormat format, const TimeSpan& known) {
   std::vector<DatedClock> fitting;
   const auto add = [&](const PointClock& clock, double shift) {
@@ -80,13 +87,16 @@ absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& point
                                                          const TimeSpan& known, const std::string& of,
                                                          std::string& note) {
   note.clear();
+  if (format == TimeFormat::kAuto && BeginAgain(points)) return std::nullopt;
   std::vector<DatedClock> clocks = FittingClocks(points, format, known);
   const auto is_other = [](const DatedClock& each) {
     return each.clock.format != TimeFormat::kAuto || each.clock.changes_times();
   };
-  // Where the header's clock fits, in whatever week, nothing contradicts it.
-  if (format == TimeFormat::kAuto && !std::all_of(clocks.begin(), clocks.end(), is_other))
-    std::erase_if(clocks, is_other);
+  const auto is_in_milliseconds = [](const DatedClock& each) { return each.scale != 1; };
+  // Where the header's clock fits, in whatever week, nothing contradicts it. Milliseconds are rare, and as such a
+  // thousandth of the time fits in many places.
+  if (format == TimeFormat::kAuto && !std::ranges::all_of(clocks, is_other)) std::erase_if(clocks, is_other);
+  if (!std::ranges::all_of(clocks, is_in_milliseconds)) std::erase_if(clocks, is_in_milliseconds);
   if (clocks.empty()) return std::nullopt;
   std::string evidence;
   KeepByCreation(points, clocks, evidence);

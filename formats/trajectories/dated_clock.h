@@ -22,10 +22,11 @@ struct DatedClock {
 
 // Of the clocks by which half of the points' time or more lies within `known`, adjusted standard GPS times of what `of`
 // names: the one that is meant. Times that do not name their week or day have one for each that fits. The clock that
-// the header states, or that `format` names, comes before all others. Of several, those count that are not later than
-// the creation of the file, and of these the one of that day; a creation before all of them says nothing. nullopt where
-// none fits. The error lists those that remain where they are several. `note` says what was found unless it is what
-// header or `format` say, and is empty then.
+// the header states, or that `format` names, comes before all others, and seconds come before milliseconds. Of several,
+// those count that are not later than the creation of the file, and of these the one of that day; a creation before all
+// of them says nothing. nullopt where none fits, and where seconds of the week begin again from 0. The error lists
+// those that remain where they are several. `note` says what was found unless it is what header or `format` say, and is
+// empty then.
 absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, TimeFormat format,
                                                          const TimeSpan& known, const std::string& of,
                                                          std::string& note);
