@@ -110,8 +110,13 @@ class DryPointsTest(programs.Test):
         self.assertTrue((sloping["tvu_slope"][~known] == -1).all())
         x, y, z = (las.field(4 * i, "<i4") * las.scale[i] + las.offset[i] for i in range(3))
         ground = np.flatnonzero(dry & (las.classes == 2))
+        compared = 0
         for i in np.flatnonzero(known)[::97]:
             near = ground[np.maximum(abs(x[ground] - x[i]), abs(y[ground] - y[i])) < 3]
+            # At the edge of the swath, points lie on an arc, and heights are rounded to a centimetre.
+            if len(near) < 20 or np.linalg.eigvalsh(np.cov(x[near], y[near]))[0] < 1:
+                continue
+            compared += 1
             design = np.stack([np.ones_like(x[near]), x[near] - x[i], y[near] - y[i]], axis=1)
             gradient = np.linalg.lstsq(design, z[near], rcond=None)[0][1:]
             normal = np.append(-gradient, 1)  # On the axes of the file, z up.
@@ -132,6 +137,7 @@ class DryPointsTest(programs.Test):
                                    delta=0.005 * np.sqrt(covariance[0, 0] + covariance[1, 1]) + 1e-3)
             horizontal = np.sqrt(gradient @ covariance[:2, :2] @ gradient)
             self.assertAlmostEqual(sloping["tvu_slope"][i], horizontal, delta=0.005 * np.sqrt(covariance[0, 0]) + 1e-3)
+        self.assertGreater(compared, 50)
 
     def test_on_a_slope_needs_dry_points_and_beams(self):
         survey = SimulatedSurvey(self.folder / "flight", "--seconds", 1, "--pulse-rate", 500)

@@ -100,7 +100,8 @@ TEST_F(ShippedSpecifications, HaveTheClassesOfAsprs) {
 }
 
 TEST_F(ShippedSpecifications, NameTheEditionThatWasRead) {
-  for (const Specification& each : *ListSpecifications()) {
+  const auto all = ListSpecifications();
+  for (const Specification& each : *all) {
     EXPECT_FALSE(each.edition.empty()) << each.name;
     EXPECT_EQ(each.land, each.name == "asprs") << each.name;
   }
