@@ -87,7 +87,7 @@ class LasChunkTest : public ::testing::Test {
     const formats::LasHeader& header = reader->header();
     const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation_);
     EXPECT_TRUE(beams.ok() && (*beams)->has_surface_returns());
-    const LasChunkWork work(header, annotation_, {}, (*beams)->geometries(), 0, true, source_);
+    const LasChunkWork work(header, annotation_, {}, (*beams)->geometries(), formats::UtcClock(), true, source_);
     LasChunkWork::Chunk chunk(annotation_.style);  // Used again for each part.
     Result result;
     UncertaintySummary summary(annotation_.style);
