@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "config/key_list.h"
 #include "config/survey_settings.h"
 #include "formats/text/text.h"
 

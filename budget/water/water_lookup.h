@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "budget/water/water_contribution.h"
 #include "budget/water/water_draws.h"
+#include "budget/water/water_receiver.h"
 #include "tables/water/water_column_table.h"
 
 namespace albtpu {

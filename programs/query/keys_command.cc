@@ -10,6 +10,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
+#include "config/key_list.h"
 #include "config/sensors/sensor.h"
 #include "config/survey_settings.h"
 #include "programs/command_line/command_line.h"

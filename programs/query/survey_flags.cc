@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
+#include "config/key_list.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
 #include "status/status_macros.h"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
+#include "config/key_list.h"
 #include "config/survey_settings.h"
 
 namespace albtpu::config {

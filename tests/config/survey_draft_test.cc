@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "config/key_list.h"
 #include "config/survey_settings.h"
 
 namespace albtpu::config {
