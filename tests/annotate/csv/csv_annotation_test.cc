@@ -171,7 +171,8 @@ TEST_F(CsvAnnotation, NamesAMissingColumnAndTheFlagForIt) {
               HasSubstr("line 1: no column 'depth' (columns found: wind_speed, incidence, Depth, footprint); add it, "
                         "or give one value for all pulses by --depth"));
   EXPECT_FALSE(formats::IsUsageError(status_));
-  EXPECT_THAT(Annotate("wind_speed;incidence;depth;footprint\n5;12;7;.6\n"), HasSubstr("by commas"));
+  EXPECT_THAT(Annotate("wind_speed;incidence;Depth;footprint\n5;12;7;.6\n"),
+              HasSubstr("no column 'depth' (columns found: wind_speed, incidence, Depth, footprint)"));
 }
 
 TEST_F(CsvAnnotation, RejectsAFlagBesideItsColumn) {
