@@ -49,8 +49,6 @@ inline constexpr std::array kSpectrumKeys = [] {
 // The listed model with this key; null if there is none.
 const SpectrumModel* FindSpectrumModel(std::string_view key);
 
-inline constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();  // m, as a fetch
-
 // The waves that one steady wind raises over one fetch. A wind of 0 raises none.
 struct WindSea {
   double wind_speed_10m = 0;                 // m/s, from 0

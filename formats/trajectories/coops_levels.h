@@ -33,7 +33,7 @@ struct CoopsLevels {
   std::vector<CoopsLevel> levels;  // In order of the file.
   std::string station;             // "8723214 Virginia Key"; may be empty.
   std::optional<double> metres;    // Of the unit; absent: not stated.
-  enum class Zone { kNotStated, kGmt, kLocal } zone = Zone::kNotStated;
+  enum class Zone { kAbsent, kGmt, kLocal } zone = Zone::kAbsent;
   std::size_t preliminary = 0, missing = 0;
   bool predicted = false;  // By the tide alone, not measured.
 };

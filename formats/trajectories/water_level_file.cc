@@ -96,7 +96,7 @@ class WaterLevelReader {
         coops.station.empty() ? "" : absl::StrCat(" at ", coops.station),
         coops.preliminary > 0 ? absl::StrFormat(", %d of %d preliminary", coops.preliminary, coops.levels.size()) : "",
         coops.missing > 0 ? absl::StrFormat(", %d missing", coops.missing) : "",
-        coops.zone == Zone::kNotStated && hours == 0 ? ", times taken as GMT" : "",
+        coops.zone == Zone::kAbsent && hours == 0 ? ", times taken as GMT" : "",
         coops.metres.has_value() ? "" : ", in the unit of the points' heights");
     return absl::OkStatus();
   }

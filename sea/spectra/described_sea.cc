@@ -1,11 +1,13 @@
 #include "sea/spectra/described_sea.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sea/spectra/elfouhaily_spectrum.h"
 #include "sea/spectra/equilibrium_wind.h"
 #include "sea/spectra/spectrum_moments.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {

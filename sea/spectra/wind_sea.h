@@ -2,6 +2,7 @@
 // the enhanced peak of a growing sea, and the wind profile over the water.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -36,6 +37,8 @@ struct SpectrumModel {
   // does not take a spreading ignores the one given.
   std::shared_ptr<const WaveSpectrum> (*make)(double wind_speed_10m, double fetch, const Cosine2sSpreading& spreading);
 };
+
+inline constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();  // m, as a fetch
 
 // The inverse wave age (wind speed over the phase speed at the peak) of the fully developed sea; Elfouhaily et al.
 // (1997), doi:10.1029/97JC00467, and Birkebak et al. (2018), Eq. 7.
