@@ -14,7 +14,7 @@
 namespace albtpu::config {
 
 struct ChannelSettings {                         // [[sensor.channel]]
-  std::vector<int> scanner_channels, user_data;  // Empty: any; not both.
+  std::vector<int> scanner_channels, user_data;  // An empty one: all.
   std::optional<std::string> name;               // As [sensor] name.
   std::optional<Triple> lever_arm;               // m; absent: that of [sensor].
   // In place of the flags --footprint, --divergence, --aperture and --incidence.

@@ -283,7 +283,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
       if (seconds != beams->seconds_) {  // Of the first track: those of other lever arms have its clock.
         RETURN_IF_ERROR(beams->TakeUnitOfTime(seconds, reader, annotation));
         beams->notes_.resize(notes);
-        beams->tracks_.clear();
+        beams->tracks_.pop_back();
         ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, beams->Water(plan), seconds));
       }
     }

@@ -22,9 +22,9 @@ struct TerrainShare {
   float tvu_slope = -1, tvu_footprint = -1;  // m, at the coverage: of the horizontal error, of the footprint.
 };
 
-// Makes the vertical uncertainties of point i, of the total, of the air side and of the groups, those of its height at
-// a fixed place. The spread of the footprint is drawn anew for each pulse. `totals` is whole; its covariance stays that
-// of the point itself.
+// Changes the vertical uncertainties of point i (of the total, the air side and the groups) to those of the height of
+// the terrain at a fixed place. The spread of the footprint is drawn anew for each pulse. Requires `totals.whole`; the
+// covariance stays that of the point itself.
 TerrainShare AddTerrain(Coverage coverage, const SlopingPoint& point, std::size_t i, TotalBatch& totals);
 
 }  // namespace albtpu::annotate
