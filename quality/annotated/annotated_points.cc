@@ -279,7 +279,7 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
       read_floats(record, point);
       point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                          IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
-      const auto is_its = [&](const formats::ScannerPoints& points) { return points.Has(fields, record); };
+      const auto is_its = [&](const formats::ScannerPoints& scanner) { return scanner.Has(fields, record); };
       const bool scanned = channels_.empty() || point.has_number || std::ranges::any_of(channels_, is_its);
       point.gap = scanned ? GapOf(point, may_lack_surface_) : Gap::kNoChannel;
       for (float AnnotatedPoint::*const length :
