@@ -89,6 +89,7 @@ absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, 
     json["verdict"] = "too few rays";
     found.notes.push_back(absl::StrCat("trajectory not compared with the returns (", check.rays,
                                        " pulses with two returns under water are too few",
+                                       check.rays < TrackCheckOptions().min_rays ? "" : " in so short a time",
                                        file.remark.empty() ? "" : "; ", file.remark, ")"));
     return absl::OkStatus();
   }

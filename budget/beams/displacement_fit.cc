@@ -43,10 +43,16 @@ Derivative DerivativeOf(const TrackedRay& ray, Displacement displacement, const 
   return d;
 }
 
-// The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kCell, their
-// products at all lags with Bartlett's weights, and Student's factor for the number of correlation times.
+// The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kCell, and their
+// products at all lags with Bartlett's weights. Its degrees of freedom are the number of correlation times, less the
+// fitted parameters.
+struct LongRun {
+  Square covariance;
+  int freedom;
+};
+
 template <typename Score>
-Square LongRunCovariance(std::span<const double> times, int size, const Score& score) {
+LongRun LongRunCovariance(std::span<const double> times, int size, const Score& score) {
   const auto lags = static_cast<std::int64_t>(kCorrelation / kCell);
   std::vector<std::pair<std::int64_t, Column>> cells;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -55,7 +61,7 @@ Square LongRunCovariance(std::span<const double> times, int size, const Score& s
     cells.back().second += score(i);
   }
   Square sum = Square::Zero(size, size);
-  double correlation_times = 0;
+  int correlation_times = 0;
   std::int64_t counted = std::numeric_limits<std::int64_t>::min() / 2;
   for (std::size_t a = 0; a < cells.size(); ++a) {
     if (cells[a].first - counted > lags) ++correlation_times, counted = cells[a].first;
@@ -66,9 +72,7 @@ Square LongRunCovariance(std::span<const double> times, int size, const Score& s
       sum += product + product.transpose();
     }
   }
-  const double freedom = std::max(1.0, correlation_times - size);
-  const double student = 1 + 1.2 / freedom;
-  return sum * (student * student);
+  return {sum, std::max(1, correlation_times - size)};
 }
 
 }  // namespace
@@ -111,9 +115,9 @@ MeanOverTime WeightedMean(std::span<const double> times, std::span<const double>
   double sum = 0, weight = 0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * values[i], weight += weights[i];
   const double mean = sum / weight;
-  const Square variance =
+  const auto [variance, freedom] =
       LongRunCovariance(times, 1, [&](std::size_t i) { return Column::Constant(1, weights[i] * (values[i] - mean)); });
-  return {mean, std::sqrt(variance(0, 0)) / weight};
+  return {mean, std::sqrt(variance(0, 0)) / weight, freedom};
 }
 
 DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement displacement, double index) {
@@ -200,9 +204,10 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   assemble();
   const double curvature = std::clamp(response / weight, 0.3, 1.0);
   const Square inverse = normal.ldlt().solve(Square::Identity(size, size));
-  const Square covariance =
-      inverse * LongRunCovariance(times, size, [&](std::size_t i) { return scores[i]; }) * inverse;
+  const LongRun of_scores = LongRunCovariance(times, size, [&](std::size_t i) { return scores[i]; });
+  const Square covariance = inverse * of_scores.covariance * inverse;
   fit.values = values;
+  fit.freedom = of_scores.freedom;
   fit.sigmas = covariance.diagonal().cwiseMax(0).cwiseSqrt() / curvature;
   for (double& square : squares) square = std::sqrt(square);
   fit.median_angle = Median(squares);

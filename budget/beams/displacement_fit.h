@@ -35,7 +35,8 @@ enum class Displacement {
 };
 
 struct DisplacementFit {
-  Eigen::VectorXd values, sigmas;  // With errors that are correlated for up to half a second.
+  Eigen::VectorXd values, sigmas;  // With errors that are correlated for up to half a second,
+  int freedom = 1;                 // so that the sigmas have the degrees of freedom of so many correlation times.
   RayNoise noise;                  // Of the rays about the displaced track.
   double flattening = 0;           // Mean angle by waves per sine of the incidence (FacingSlopesAt).
   double median_angle = 0;         // rad; median angle between rays and directions from the displaced track.
@@ -51,9 +52,11 @@ Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement,
 // The median angle between rays and the directions from the track to their water points.
 double MedianAngle(std::span<const TrackedRay> rays);
 
-// A mean and its standard error, where values up to half a second apart are correlated. Each value has a weight.
+// A mean and its standard error, where values up to half a second apart are correlated, and the degrees of freedom of
+// that error. Each value has a weight.
 struct MeanOverTime {
   double mean, sigma;
+  int freedom;
 };
 MeanOverTime WeightedMean(std::span<const double> times, std::span<const double> values,
                           std::span<const double> weights);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "sea/angle.h"
@@ -44,10 +45,14 @@ double AngleAmongRays(std::span<const AirRay> rays) {
   return angles.empty() ? 0.1 : Median(std::move(angles));
 }
 
+Correction CorrectionOf(const DisplacementFit& fit, Eigen::Index parameter, double before = 0) {
+  return {before + fit.values[parameter], fit.sigmas[parameter], fit.freedom};
+}
+
 // The time offset under which the track meets the rays best: a scan in steps of half a second, of which some 30 m of
 // flight pass, then Gauss-Newton from the best three.
 struct TimeSearch {
-  double offset = 0, sigma = 0;
+  Correction offset;
   double angle = std::numeric_limits<double>::infinity();
 };
 
@@ -70,15 +75,22 @@ TimeSearch FindTimeOffset(std::span<const AirRay> rays, const TrackPositions& tr
       const std::vector<TrackedRay> tracked = FollowTrack(rays, track, offset);
       if (tracked.size() < options.min_rays) break;
       const DisplacementFit fit = FitDisplacement(tracked, Displacement::kTime, options.index);
-      if (fit.median_angle < best.angle) best = {offset + fit.values[0], fit.sigmas[0], fit.median_angle};
+      if (fit.median_angle < best.angle) best = {CorrectionOf(fit, 0, offset), fit.median_angle};
       offset += std::clamp(fit.values[0], -2.0, 2.0);
     }
   }
   return best;
 }
 
+// The largest error of a correction that chance makes as rarely as `significance` standard errors of a normal error. A
+// sigma of few degrees of freedom is itself uncertain, and Student's distribution has wide tails.
+double ReachOf(const Correction& correction, const TrackCheckOptions& options) {
+  return correction.sigma *
+         StudentQuantile(correction.freedom, std::erfc(options.significance / std::numbers::sqrt2) / 2);
+}
+
 bool Significant(const Correction& correction, const TrackCheckOptions& options) {
-  return std::abs(correction.value) > options.significance * correction.sigma;
+  return std::abs(correction.value) > ReachOf(correction, options);
 }
 
 // The mean difference of incidence, the rms, and what belongs to them.
@@ -108,7 +120,7 @@ void CompareIncidence(std::span<const TrackedRay> tracked, const DisplacementFit
     sum += weights.back();
   }
   const MeanOverTime mean = WeightedMean(times, differences, weights);
-  check.mean_difference = {mean.mean, mean.sigma};
+  check.mean_difference = {mean.mean, mean.sigma, mean.freedom};
   check.rms_difference = std::sqrt(squares / sum);
   check.median_incidence = Median(std::move(incidences));
   check.range = Median(std::move(ranges));
@@ -137,9 +149,9 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   if (tracked.size() < std::max<std::size_t>(options.min_rays, 8)) return check;
 
   const DisplacementFit offset = FitDisplacement(tracked, Displacement::kOffset, options.index);
-  check.forward = {offset.values[0], offset.sigmas[0]};
-  check.right = {offset.values[1], offset.sigmas[1]};
-  check.up = {offset.values[2], offset.sigmas[2]};
+  check.forward = CorrectionOf(offset, 0);
+  check.right = CorrectionOf(offset, 1);
+  check.up = CorrectionOf(offset, 2);
   check.angle_with_offset = offset.median_angle;
   check.median_angle = MedianAngle(tracked);
   CompareIncidence(tracked, offset, check);
@@ -158,7 +170,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
 
   // A rotation moves the ends of lines; its effect is that at the root mean square distance from the middle.
   const DisplacementFit turned = FitDisplacement(tracked, Displacement::kOffsetRotation, options.index);
-  check.rotation = {turned.values[3], turned.sigmas[3]};
+  check.rotation = CorrectionOf(turned, 3);
   check.angle_with_rotation = turned.median_angle;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const TrackedRay& ray : tracked) centre += ray.position / static_cast<double>(tracked.size());
@@ -171,8 +183,8 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   check.height_ratio = 1 + check.up.value / heights;
 
   if (!far && !across && !up && !rotates && !matters(check.mean_difference, 1)) {
-    const bool significant = options.significance * check.mean_difference.sigma < RadiansOfDegrees(1);
-    check.verdict = significant ? TrackVerdict::kAgrees : TrackVerdict::kTooFewRays;
+    const bool known = ReachOf(check.mean_difference, options) < RadiansOfDegrees(1);
+    check.verdict = known ? TrackVerdict::kAgrees : TrackVerdict::kTooFewRays;
     return check;
   }
 
@@ -180,12 +192,12 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   double speed = 0;
   for (const TrackedRay& ray : tracked) speed += ray.velocity.norm() / static_cast<double>(tracked.size());
   const TimeSearch search = FindTimeOffset(kept, track, options);
-  check.time = {search.offset, search.sigma};
+  check.time = search.offset;
   check.angle_with_time = search.angle;
   double beside_time = std::numeric_limits<double>::infinity();
   double angle_with_both = std::numeric_limits<double>::infinity();
   if (std::isfinite(search.angle)) {
-    const std::vector<TrackedRay> shifted = FollowTrack(kept, track, search.offset);
+    const std::vector<TrackedRay> shifted = FollowTrack(kept, track, search.offset.value);
     if (shifted.size() >= options.min_rays) {
       const DisplacementFit rest = FitDisplacement(shifted, Displacement::kOffset, options.index);
       check.up_with_time = rest.values[2];
@@ -195,7 +207,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   }
   const double best = std::min({check.angle_with_offset, check.angle_with_rotation, angle_with_both});
   const auto explains = [&](double angle) { return angle <= 1.15 * best + RadiansOfDegrees(0.02); };
-  const double moved = std::abs(search.offset) * speed;
+  const double moved = std::abs(search.offset.value) * speed;
   const double horizontal = std::hypot(check.forward.value, check.right.value);
   const double inverse = 1 / kInternationalFoot;
   const auto near_ratio = [&](double ratio) { return std::abs(check.height_ratio / ratio - 1) < 0.08; };

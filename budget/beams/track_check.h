@@ -35,7 +35,7 @@ enum class TrackVerdict {
 
 struct TrackCheckOptions {
   double limit = 0.3 * std::numbers::pi / 180;  // rad; differences of incidence up to it agree.
-  double significance = 4;                      // Standard errors; a smaller difference is not significant.
+  double significance = 4;                      // Of a normal error; a smaller difference is chance.
   std::size_t min_rays = 30;
   std::size_t max_rays = 20000;     // More are thinned evenly in time.
   double longest_time_offset = 20;  // s
@@ -45,6 +45,7 @@ struct TrackCheckOptions {
 // The correction of a parameter by the rays: `value` must be added to the track for it to agree with them.
 struct Correction {
   double value = 0, sigma = 0;
+  int freedom = 1;  // Degrees of freedom of sigma.
 };
 
 struct TrackCheck {

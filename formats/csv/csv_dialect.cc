@@ -109,18 +109,6 @@ std::string_view FirstRecordOf(std::string_view text) {
   return text;
 }
 
-absl::StatusOr<CsvDialect> DialectOf(std::string_view name, std::string_view text) {
-  const std::string_view header = FirstRecordOf(text);
-  CsvDialect dialect;
-  ASSIGN_OR_RETURN(dialect.separator, SeparatorOf(name, header));
-  const auto lines = static_cast<std::size_t>(std::count(header.begin(), header.end(), '\n'));
-  ASSIGN_OR_RETURN(
-      const std::optional<char> decimal,
-      DecimalOf(name, text.substr(std::min(header.size() + 1, text.size())), lines + 2, dialect.separator));
-  dialect.decimal = decimal.value_or('.');
-  return dialect;
-}
-
 std::optional<std::string_view> WithPoint(std::string_view cell, const CsvDialect& dialect, std::string& buffer) {
   if (dialect.decimal == '.') return cell;
   if (cell.find('.') != cell.npos) return std::nullopt;

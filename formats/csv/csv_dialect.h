@@ -38,9 +38,6 @@ absl::StatusOr<char> SeparatorOf(std::string_view name, std::string_view header)
 absl::StatusOr<std::optional<char>> DecimalOf(std::string_view name, std::string_view text, std::size_t line,
                                               char separator);
 
-// Both, of a whole text. Without fractions, a decimal point.
-absl::StatusOr<CsvDialect> DialectOf(std::string_view name, std::string_view text);
-
 // The value of a cell with a decimal point, for parsing; `buffer` may hold it. nullopt if it has the other mark.
 std::optional<std::string_view> WithPoint(std::string_view cell, const CsvDialect& dialect, std::string& buffer);
 

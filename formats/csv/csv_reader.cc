@@ -123,6 +123,17 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   return true;
 }
 
+absl::StatusOr<CsvDialect> DialectOf(std::string_view name, std::string_view text) {
+  CsvDialect dialect;
+  ASSIGN_OR_RETURN(dialect.separator, SeparatorOf(name, FirstRecordOf(text)));
+  const RecordEnd end = FindRecordEnd(text, AfterByteOrderMark(text, 1), dialect.separator, [](std::size_t) {});
+  const std::string_view header = text.substr(0, end.text_after_quote ? text.size() : end.size);
+  ASSIGN_OR_RETURN(const std::optional<char> decimal,
+                   DecimalOf(name, text.substr(header.size()), 1 + CountLines(header), dialect.separator));
+  dialect.decimal = decimal.value_or('.');
+  return dialect;
+}
+
 CsvReader::CsvReader(std::string name, std::FILE* file)
     : name_(std::move(name)), file_(file), stamp_(FileStamp::Of(fileno(file))) {}
 

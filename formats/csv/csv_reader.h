@@ -57,6 +57,10 @@ class CsvRecords {
   CsvDialect dialect_;
 };
 
+// The separator and the decimal mark of a whole text, as CsvReader finds them in a file. Without fractions, a decimal
+// point.
+absl::StatusOr<CsvDialect> DialectOf(std::string_view name, std::string_view text);
+
 class CsvReader {
  public:
   // Bytes. A longer record is reported as a quote that was never closed.
