@@ -31,9 +31,9 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
     Chunk chunk;
     absl::Status status;
   };
-  // More threads than cores, because some of them wait for the disk or a server; a limited number, because they all
+  // One thread more than cores, because some of them wait for the disk or a server; a limited number, because they all
   // share one disk and each has a chunk in memory.
-  const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMaxWorkers) + 2;
+  const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMaxWorkers) + 1;
   std::vector<Slot> slots;
   for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
   std::size_t next = 0;
