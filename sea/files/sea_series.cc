@@ -4,7 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "sea/spectra/spectrum_moments.h"
@@ -57,12 +60,15 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription given) {
 
 void SortByTime(SeaSeries& series) {
   const auto key = [](const SeaRecord& record) { return std::tuple(record.point, record.time.value_or(-INFINITY)); };
-  std::stable_sort(series.records.begin(), series.records.end(),
-                   [&](const SeaRecord& a, const SeaRecord& b) { return key(a) < key(b); });
-  const auto end = std::unique(series.records.begin(), series.records.end(),
-                               [&](const SeaRecord& a, const SeaRecord& b) { return key(a) == key(b); });
-  const auto repeated = series.records.end() - end;
-  series.records.erase(end, series.records.end());
+  std::vector<std::size_t> order(series.records.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(series.records[a]) < key(series.records[b]); });
+  std::vector<SeaRecord> sorted;
+  for (const std::size_t i : order)
+    if (sorted.empty() || key(sorted.back()) != key(series.records[i])) sorted.push_back(std::move(series.records[i]));
+  const std::size_t repeated = series.records.size() - sorted.size();
+  series.records = std::move(sorted);
   if (repeated > 0)
     series.assumed.push_back(absl::StrCat(repeated, " records repeat the time of another one and are left out"));
 }
