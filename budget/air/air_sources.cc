@@ -98,7 +98,6 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
 
 AirConstants::AirConstants(const AirErrors& errors, SurfaceLocation located, double n,
                            const std::array<double, 3>& lever) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const auto single = [](double value) { return static_cast<float>(value); };
   inverse_index = single(1 / n);
   inverse_square_index = single(1 / (n * n));

@@ -17,6 +17,8 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 
 constexpr double kCorrelation = 0.5;  // s, as in the fit of a track.
 constexpr double kCell = 0.05;        // s
+// rad, of rays by waves: slopes of 0.6 along each axis, which break. Rays that scatter more do not belong to the track.
+constexpr double kSteepest = 0.2;
 
 int Parameters(Displacement displacement) {
   return displacement == Displacement::kTime ? 1 : displacement == Displacement::kOffset ? 3 : 4;
@@ -194,7 +196,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   for (int round = 0; round < kAngleRounds; ++round) {
     fit.noise = FitRayNoise(squares, separations, fit.noise, round == 0 ? 10 : 3);
     if (round >= 2)
-      fit.flattening = std::pow(std::min(fit.noise.slopes, 0.1) / facing.gain, 2) * facing.bias / std::sin(incidence);
+      fit.flattening = std::pow(std::min(fit.noise.slopes, kSteepest) / facing.gain, 2) * facing.bias / std::sin(incidence);
     assemble();
     Column right = Column::Zero(size);
     for (const Column& score : scores) right += score;

@@ -178,7 +178,9 @@ class SoundFlights(programs.Test):
         for i in range(FLIGHTS):
             height = 1.5 * i / (FLIGHTS - 1)
             folder = self.folder / str(i)
-            survey = SimulatedSurvey(folder, *FLIGHT, "--wave-height", f"{height:.3f}", "--seed", i + 1)
+            # In a longer one even a small difference is significant.
+            flight = [20 if each == 4 and i % 4 == 3 else each for each in FLIGHT]
+            survey = SimulatedSurvey(folder, *flight, "--wave-height", f"{height:.3f}", "--seed", i + 1)
             level = ("--water-level", survey.water_level)
             for surface in (level, ("--water-classes", 41), (*level, "--water-classes", 41))[i % 3::3]:
                 result = query("las", survey.las, folder / "out.las", "--table", PATHS["shipped_table"],
