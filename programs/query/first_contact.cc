@@ -87,7 +87,7 @@ absl::StatusOr<std::vector<OpenDecision>> OpenOfExample(const LasOptions& option
   if (!settings.wants_total() && FirstOf(suggestions, "sensor") != nullptr) open.push_back({"sensor", ""});
   if (!look.units_message.empty() && !options.beams.metres_per_unit.has_value()) open.push_back({"units", ""});
   if (settings.output.classes.empty() && FirstOf(suggestions, "output") != nullptr) open.push_back({"output", ""});
-  std::ranges::stable_partition(open, [](const OpenDecision& each) { return each.section != "beam size"; });
+  std::stable_partition(open.begin(), open.end(), [](const OpenDecision& each) { return each.section != "beam size"; });
   return open;
 }
 

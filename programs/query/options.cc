@@ -38,8 +38,8 @@ constexpr const char* kInputHelp[annotate::kPulseInputCount] = {
     "",
     "",
     "Angle of the beam from the vertical, in air [degree]",
-    "Horizontal direction of the beam from downwind [degree] (default: the worse of along and across the "
-    "wind)",
+    ("Horizontal direction of the beam from downwind [degree] (default: the worse of along and across the "
+     "wind)"),
     "Diameter of the beam at the mean surface, across its axis [m]",
     "Depth below the surface [m]",
     "Where the beam travels to [degree, true]; with --wind-from instead of --azimuth",

@@ -15,6 +15,7 @@
 #include "absl/strings/str_join.h"
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
+#include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"

@@ -81,7 +81,7 @@ std::vector<std::string> InstalledNames() {
   for (const fs::directory_entry& entry : fs::directory_iterator(SpecificationsDirectory(), error))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::ranges::sort(names);
-  std::ranges::stable_partition(names, [](const std::string& name) { return name == "s44"; });
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name == "s44"; });
   return names;
 }
 
