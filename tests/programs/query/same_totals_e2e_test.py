@@ -38,7 +38,8 @@ def all_sources(located):
 SETTINGS = {
     **{f"{located} and {name}": f"{text}[sigma]\n{name} = {value}\n"
        for located, text in LOCATED.items() for name, value in SOURCES.items()
-       if (located, name) != ("level", "surface_range") and (located == "pulse" or EVERY_CASE)},
+       if (located, name) != ("level", "surface_range")
+       and (EVERY_CASE or located == "pulse" or (located, name) == ("local", "surface_height"))},
     **{f"{located} and all sources": text + all_sources(located) for located, text in LOCATED.items()},
     "no datum": PULSE.replace("sigma = 0.08", "sigma = 0"),
     "mcu": PULSE.replace("sigma = 0.08", "mcu = 0.115\nconfidence = '1sigma'\nregion = 'Delaware Bay'"),
