@@ -23,7 +23,7 @@ NAME = "replicas.test"  # A domain reserved for tests (RFC 6761).
 ADDRESSES = ("127.0.0.1", "127.0.0.2")
 QUERY = sys.argv[3]
 PULSES = 10_000_000  # A few tenths of a second from Python.
-LINES = 3_000_000  # A second or two of CSV.
+LINES = 1_500_000  # About a second of CSV.
 
 
 class Replica(Server):

@@ -1,8 +1,10 @@
 """The server or the client is killed (SIGKILL) repeatedly; the files are byte for byte those made in process.
+ALBTPU_EVERY_CASE kills more often, in longer files.
 
 Usage: killed_test.py NAME=PATH..., see programs.py
 """
 
+import os
 import random
 import shutil
 import signal
@@ -12,7 +14,7 @@ import many_files_e2e_test as many_files
 import programs
 import serving
 
-SERVER_KILLS, CLIENT_KILLS = 20, 12
+SERVER_KILLS, CLIENT_KILLS, LENGTH = (20, 12, 10) if os.environ.get("ALBTPU_EVERY_CASE") else (8, 6, 4)
 
 
 def wait_for_written(process, size):
@@ -60,15 +62,15 @@ class Killed(faults.FaultTest):
         self.assertGreaterEqual(kills, SERVER_KILLS - 1)
 
     def test_killed_server_does_not_change_las_files(self):
-        source = many_files.repeat(self.flight, self.folder / "long.las", 150)
+        source = many_files.repeat(self.flight, self.folder / "long.las", 15 * LENGTH)
         self.assert_survives_kills_of_the_server("las", source, programs.FLAGS)
 
     def test_killed_server_does_not_change_laz_files(self):
-        source = faults.compress(many_files.repeat(self.flight, self.folder / "long.las", 100))
+        source = faults.compress(many_files.repeat(self.flight, self.folder / "long.las", 10 * LENGTH))
         self.assert_survives_kills_of_the_server("las", source, programs.FLAGS)
 
     def test_killed_server_does_not_change_csv_files(self):
-        self.assert_survives_kills_of_the_server("csv", self.make_csv(self.folder / "long.csv", 800_000), ())
+        self.assert_survives_kills_of_the_server("csv", self.make_csv(self.folder / "long.csv", 80_000 * LENGTH), ())
 
     def assert_survives_kills_of_the_client(self, command, flags):
         survey = self.folder / "survey"

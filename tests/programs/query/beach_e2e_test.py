@@ -12,7 +12,7 @@ import numpy as np
 
 import programs
 from las_file import LasFile
-from programs import PATHS, query
+from programs import query
 from simulated_survey import LAND, SimulatedSurvey
 
 FLIGHTS = 80 if os.environ.get("ALBTPU_EVERY_CASE") else 14
@@ -69,7 +69,7 @@ class Beach(programs.Test):
     def fly(self, seed):
         """THU, TVU, horizontal and vertical errors of the dry points, and their lines."""
         flags = ("--seed", seed, "--lines", LINES, "--seconds", 1, "--pulse-rate", 250, "--surface-share", 0,
-                 "--column-share", 0, "--scale", 0.001)
+                 "--column-share", 0, "--scale", 0.001, "--sbet-rate", 50)
         true = SimulatedSurvey(self.folder / "true", *flags)
         reported = SimulatedSurvey(self.folder / "reported", *flags, "--trajectory-errors", "--scan-noise", SCAN,
                                    "--range-noise", RANGE)
@@ -77,8 +77,7 @@ class Beach(programs.Test):
         np.testing.assert_array_equal(truth["time"], reported.truth()["time"])
         survey, annotated = self.folder / "survey.toml", self.folder / "annotated.las"
         survey.write_text(SURVEY.format(flight=reported.folder, level=reported.water_level))
-        query("las", reported.las, annotated, "--survey", survey, "--table", PATHS["shipped_table"], "--overwrite",
-              check=0)
+        query("las", reported.las, annotated, "--survey", survey, "--table", self.table, "--overwrite", check=0)
         columns, land = LasFile(annotated).columns(), truth["kind"] == LAND
         self.assertTrue((columns["share_of"][land] == 1).all())
         errors = (places(LasFile(reported.las)) - places(LasFile(true.las)))[land]

@@ -8,7 +8,7 @@ import numpy as np
 
 import programs
 from las_file import LasFile
-from programs import PATHS, query
+from programs import query
 from simulated_survey import SimulatedSurvey
 
 SURVEY = """[sensor]
@@ -90,6 +90,8 @@ class FalseFiles(programs.Test):
         cls.shared = cls.class_folder()
         cls.survey = SimulatedSurvey(cls.shared / "flight", *FLIGHT)
         cls.sound = cls.survey.las.read_bytes()
+        cls.answers = {}  # Of the sound file, by the flags.
+        cls.quick = programs.make_table(cls.shared / "quick.h5")
         cls.toml_file = cls.shared / "survey.toml"
         cls.toml_file.write_text(SURVEY)
 
@@ -100,7 +102,7 @@ class FalseFiles(programs.Test):
         return pathlib.Path(folder.name)
 
     def flags(self, *surface):
-        return ("--survey", self.toml_file, "--table", PATHS["shipped_table"], "--trajectory", self.survey.sbet,
+        return ("--survey", self.toml_file, "--table", self.quick, "--trajectory", self.survey.sbet,
                 *(surface or ("--water-level", self.survey.water_level)))
 
     def annotated(self, data, *flags, failing=False):
@@ -113,6 +115,12 @@ class FalseFiles(programs.Test):
         self.assertEqual(result.returncode == 0 or failing, target.exists())
         return result.stderr, LasFile(target).columns() if target.exists() else None
 
+    def of_sound(self, *flags):
+        """The columns of the sound file, annotated once for all tests."""
+        if flags not in self.answers:
+            self.answers[flags] = self.annotated(self.sound, *flags)[1]
+        return self.answers[flags]
+
     def assert_same(self, columns, expected, but=()):
         kept = np.ones(len(expected["total_thu"]), bool)
         kept[list(but)] = False
@@ -121,7 +129,7 @@ class FalseFiles(programs.Test):
 
     def mend(self, change, note, *surface, but=None):
         """The numbers of a changed file are those of the sound one, and `note` is among the notes."""
-        _, expected = self.annotated(self.sound, *self.flags(*surface))
+        expected = self.of_sound(*self.flags(*surface))
         points = Points(self.sound)
         changed = change(points)
         printed, columns = self.annotated(bytes(points.data), *self.flags(*surface))

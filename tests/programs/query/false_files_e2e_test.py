@@ -10,7 +10,7 @@ import numpy as np
 import programs
 from false_file import BOUNDS, FLIGHT, OVERLAP, SYNTHETIC, WITHHELD, FalseFiles, Points, geo_keys
 from las_file import LasFile
-from programs import PATHS, query
+from programs import query
 from simulated_survey import SimulatedSurvey
 
 FLIGHTS = 200 if os.environ.get("ALBTPU_EVERY_CASE") else 8
@@ -29,7 +29,7 @@ class Headers(FalseFiles):
                 points.put("<6d", BOUNDS, *wrong)
                 fit = ("--trajectory-from-returns", "--water-level", self.survey.water_level)
                 common = self.flags()[:4]
-                _, expected = self.annotated(self.sound, *common, *fit)
+                expected = self.of_sound(*common, *fit)
                 printed, columns = self.annotated(bytes(points.data), *common, *fit)
                 self.assertIsNotNone(columns, printed)
                 self.assert_same(columns, expected)
@@ -52,7 +52,7 @@ class Flags(FalseFiles):
             points.flag(wrong, WITHHELD)
             return wrong
         # Without them, the surface is made of fewer returns: other heights, by millimetres.
-        _, expected = self.annotated(self.sound, *self.flags(*self.SURFACE))
+        expected = self.of_sound(*self.flags(*self.SURFACE))
         points = Points(self.sound)
         change(points)
         printed, columns = self.annotated(bytes(points.data), *self.flags(*self.SURFACE))
@@ -76,7 +76,7 @@ class Flags(FalseFiles):
         printed, columns = self.annotated(bytes(points.data), *self.flags(), "--points", "bathymetric")
         self.assertIn("are withheld", printed)
         self.assertIsNone(columns)
-        _, expected = self.annotated(self.sound, *self.flags())
+        expected = self.of_sound(*self.flags())
         _, columns = self.annotated(bytes(points.data), *self.flags(), "--use-withheld")
         self.assert_same(columns, expected)
 
@@ -183,7 +183,7 @@ class SoundFlights(programs.Test):
             survey = SimulatedSurvey(folder, *flight, "--wave-height", f"{height:.3f}", "--seed", i + 1)
             level = ("--water-level", survey.water_level)
             for surface in (level, ("--water-classes", 41), (*level, "--water-classes", 41))[i % 3::3]:
-                result = query("las", survey.las, folder / "out.las", "--table", PATHS["shipped_table"],
+                result = query("las", survey.las, folder / "out.las", "--table", self.table,
                                "--classes", 40, "--trajectory", survey.sbet, "--lever-arm", "0.35,-0.12,0.42",
                                "--wind-speed", 6, "--divergence", 1, *surface)
                 if result.returncode != 0:

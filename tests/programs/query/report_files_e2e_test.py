@@ -13,12 +13,16 @@ import programs
 import reported_survey
 from las_file import LasFile
 from programs import query
-from reported_survey import Report, setUpModule  # noqa: F401
+from reported_survey import Report
 
 UNITS = {"m": 1.0, "ft": 0.3048, "us-ft": 1200 / 3937}
 WKT_UNITS = {"m": 'UNIT["metre",1]', "ft": 'UNIT["foot",0.3048]', "us-ft": 'UNIT["US survey foot",0.304800609601219]'}
 AXIS_UNITS = {"m": "m", "ft": "foot", "us-ft": "US_survey_foot"}
 BIT_WITHHELD = 0x04  # Of byte 15 in formats 6 to 10.
+
+
+def setUpModule():
+    reported_survey.make("--no-page")
 
 
 def vlr(user, record, data):

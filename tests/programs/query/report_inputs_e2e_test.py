@@ -6,9 +6,14 @@ import shutil
 import numpy as np
 
 import programs
+import reported_survey
 from las_file import LasFile
 from programs import query
-from reported_survey import Report, annotate, setUpModule  # noqa: F401
+from reported_survey import Report, annotate
+
+
+def setUpModule():
+    reported_survey.make("--no-page")
 
 
 class Runs(Report):

@@ -49,14 +49,14 @@ def annotate(flight, output, table, datum=0.05, coverage="p95"):
 class Survey:
     """A flight of a few lines, annotated and reported once for all tests."""
 
-    def __init__(self, folder):
-        self.flight = SimulatedSurvey(folder / "flight", "--lines", LINES, "--cross-lines", 1, "--seconds", 12,
+    def __init__(self, folder, *flags):
+        self.flight = SimulatedSurvey(folder / "flight", "--lines", LINES, "--cross-lines", 1, "--seconds", 5,
                                       "--pulse-rate", 2500, "--file-for-each-line").folder
         self.annotated = folder / "annotated"
         self.one_table = programs.make_table(folder / "quick.h5")
         annotate(self.flight, self.annotated, self.one_table)
         self.made = folder / "report"
-        self.said = query("report", self.annotated, "--output", self.made, check=0).stdout
+        self.said = query("report", self.annotated, "--output", self.made, *flags, check=0).stdout
         self.json = json.loads((self.made / "report.json").read_text())
         self.points = self.read(self.annotated)
 
@@ -84,7 +84,8 @@ class Report(programs.Test):
 SURVEYS = []
 
 
-def setUpModule():
+def make(*flags):
+    """Makes the survey, for a script's setUpModule; the flags are those of `report`."""
     folder = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(folder.cleanup)
-    SURVEYS.append(Survey(pathlib.Path(folder.name)))
+    SURVEYS.append(Survey(pathlib.Path(folder.name), *flags))

@@ -1,6 +1,11 @@
-"""The same settings give the same total, and the same refusal, from one pulse, CSV, LAS and a server."""
+"""The same settings give the same total, and the same refusal, from one pulse, CSV, LAS and a server.
+
+Of a surface from other returns or of a level, the sources of error are stated together, each of another size;
+with ALBTPU_EVERY_CASE also one by one.
+"""
 
 import json
+import os
 
 import numpy as np
 
@@ -18,10 +23,24 @@ LOCAL, LEVEL = PULSE.replace("'pulse'", "'local'"), PULSE.replace("classes = [41
 # Every source of error that the wire knows, each as [sigma] states it.
 SOURCES = {field.name: "[0.003, 0.004, 0.005]" if field.message_type else "0.0015"
            for field in AirErrors.DESCRIPTOR.fields}
+EVERY_CASE = bool(os.environ.get("ALBTPU_EVERY_CASE"))
+LOCATED = {"pulse": PULSE, "local": LOCAL, "level": LEVEL}
+
+
+def all_sources(located):
+    """The text of all sources that a total may have together, each of its own size."""
+    sizes = {name: 0.0011 + 0.0002 * i for i, name in enumerate(SOURCES)}
+    return "[sigma]\n" + "".join(
+        f"{name} = " + (f"[{size}, {size + 0.003}, {size + 0.005}]\n" if SOURCES[name][0] == "[" else f"{size}\n")
+        for name, size in sizes.items() if name != ("surface_range" if located == "level" else "surface_height"))
+
+
 SETTINGS = {
     **{f"{located} and {name}": f"{text}[sigma]\n{name} = {value}\n"
-       for located, text in (("pulse", PULSE), ("local", LOCAL), ("level", LEVEL)) for name, value in SOURCES.items()
-       if (located, name) != ("level", "surface_range")},
+       for located, text in LOCATED.items() for name, value in SOURCES.items()
+       if (located, name) != ("level", "surface_range")
+       and (EVERY_CASE or located == "pulse" or (located, name) == ("local", "surface_height"))},
+    **{f"{located} and all sources": text + all_sources(located) for located, text in LOCATED.items()},
     "no datum": PULSE.replace("sigma = 0.08", "sigma = 0"),
     "mcu": PULSE.replace("sigma = 0.08", "mcu = 0.115\nconfidence = '1sigma'\nregion = 'Delaware Bay'"),
     "mcu at 95 %": PULSE.replace("sigma = 0.08", "mcu = 0.2\nconfidence = '95%'"),
