@@ -16,6 +16,14 @@ constexpr double kLineSpacing = 240;
 constexpr double kSlowest = 0.1, kFastest = 1;
 constexpr int kTerms = 8;
 constexpr double kSwath = 140;  // m on each side; the cone of 20 degrees reaches 146 m.
+// Lines differ by errors that last for hundreds of metres. A ninth of the bottom shows them as the whole of it does:
+// squares of 10 m, which are four patches each, 30 m apart.
+constexpr double kSquare = 10, kPeriod = 30;  // m
+
+bool InSquare(double x, double y) {
+  const auto in_strip = [](double along) { return along - kPeriod * std::floor(along / kPeriod) < kSquare; };
+  return in_strip(x) && in_strip(y);
+}
 
 // `slope`: the root mean square of that of ridges 150 m apart.
 double Depth(double x, double y, double slope) {
@@ -106,7 +114,7 @@ class Line {
     headings.push_back(course_);
   }
 
-  // Points where another line saw the bottom, too.
+  // Points in the squares where another line saw the bottom, too.
   template <typename Place>
   void Fly(bool whole_swath, const Place& place, std::vector<quality::AnnotatedPoint>& points,
            std::vector<double>& headings) {
@@ -116,7 +124,7 @@ class Line {
         if (!whole_swath && std::abs(across) < kLineSpacing - kSwath) continue;
         const double a = along + jitter(), c = across + jitter();
         const auto [x, y] = place(a, c, middle_);
-        AddPoint(a, c, x, y, points, headings);
+        if (InSquare(x, y)) AddPoint(a, c, x, y, points, headings);
       }
   }
 

@@ -15,7 +15,7 @@ struct SimulatedLines {
   int lines = 12, cross_lines = 3;
   bool to_and_fro = true;      // Otherwise all lines are flown in one direction.
   double length = 3000;        // m
-  double spacing = 2;          // m between points, of each line.
+  double spacing = 2;          // m between points, of each line, in squares that are a ninth of the bottom.
   double wave_slope = 0.05;    // One sigma of each component of the slope of the surface.
   double bottom_slope = 0;     // Root mean square in the direction of x, of ridges, beside gentle slopes.
   double bottom_waves = 0;     // m, one sigma of a rough bottom whose waves are some metres long.
