@@ -27,7 +27,7 @@ struct SurveyPoints {
   std::vector<double> times;          // GPS time as the file states it.
   std::vector<double> scan_angles;    // degree, positive to the right of the flight direction.
   std::vector<double> pulse_surface;  // z of the return from the water surface of the same pulse; NaN if there is none.
-  std::vector<std::uint8_t> dry;      // 1: on land, or of the water surface itself: the beam met no water before it.
+  std::vector<std::uint8_t> dry = {};  // 1: on land, or of the water surface itself: the beam met no water before it.
 
   bool is_dry(std::size_t i) const { return !dry.empty() && dry[i] != 0; }
 

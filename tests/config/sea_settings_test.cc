@@ -127,7 +127,9 @@ TEST(FlagsAndSurveyFile, GiveWavesInPlaceOfAFetch) {
 
 TEST(FlagsAndSurveyFile, GiveATrajectoryEachAndThatOfTheFlagsCounts) {
   SurveySettings flags, file;
-  file.trajectory = {.files = {"a"}, .errors = {"b"}, .time = "utc", .from_returns = {}};
+  file.trajectory.files = {"a"};
+  file.trajectory.errors = {"b"};
+  file.trajectory.time = "utc";
   EXPECT_EQ(Merge(flags, file).trajectory.errors.size(), 1u);
   flags.trajectory.from_returns = true;
   const TrajectorySettings merged = Merge(flags, file).trajectory;

@@ -18,7 +18,7 @@ Eigen::ArrayXd Normals(int count, std::uint32_t realization) {
 }
 
 TEST(Statistics, OfFourNumbersEqualTheCalculationByHand) {
-  const Eigen::ArrayXd sample = (Eigen::ArrayXd(4) << 1, 2, 3, 6).finished();  // deviations -2, -1, 0, 3
+  const Eigen::ArrayXd sample{{1, 2, 3, 6}};  // deviations -2, -1, 0, 3
   EXPECT_DOUBLE_EQ(Mean(sample).value, 3);
   EXPECT_DOUBLE_EQ(Mean(sample).standard_error, std::sqrt(14.0 / 3 / 4));
   EXPECT_DOUBLE_EQ(TwoSigma(sample).value, 2 * std::sqrt(14.0 / 3));
