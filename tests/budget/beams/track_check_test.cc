@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <map>
 
 #include "sea/angle.h"
 #include "tests/budget/beams/ray_flight.h"
@@ -19,6 +21,30 @@ using testing::RaysOf;
 using testing::ScannerKind;
 using testing::SimulatedFlight;
 
+// Of each ray the check asks for hundreds of positions, and a flight is made of dozens of sinusoids. Positions every
+// 0.02 s and straight lines between them are off by 0.02 mm where the aircraft accelerates by 0.4 m/s^2.
+class SampledFlight {
+ public:
+  explicit SampledFlight(const FlightPlan& plan) : flight_(plan) {
+    for (double time = plan.start - kMargin; time < plan.start + plan.duration + kMargin; time += kStep)
+      positions_.push_back(flight_.Position(time));
+  }
+
+  Vector3d Position(double time) const {
+    const double at = (time - plan().start + kMargin) / kStep;
+    if (!(at >= 0 && at + 1 < static_cast<double>(positions_.size()))) return flight_.Position(time);
+    const auto before = static_cast<std::size_t>(at);
+    const double share = at - static_cast<double>(before);
+    return (1 - share) * positions_[before] + share * positions_[before + 1];
+  }
+  const FlightPlan& plan() const { return flight_.plan(); }
+
+ private:
+  static constexpr double kStep = 0.02, kMargin = 50;  // s; the search goes 20 s beyond what is wrong by 18 s.
+  SimulatedFlight flight_;
+  std::vector<Vector3d> positions_;
+};
+
 TrackPositions Columns(const std::function<Vector3d(double)>& position) {
   return [position](std::span<const double> times, std::span<Vector3d> positions) {
     for (std::size_t i = 0; i < times.size(); ++i) positions[i] = position(times[i]);
@@ -28,13 +54,7 @@ TrackPositions Columns(const std::function<Vector3d(double)>& position) {
 // A flight of each scanner at 250 m, over flat water and over waves, and tracks that are wrong in one way.
 class TrackCheckOf : public ::testing::TestWithParam<std::tuple<ScannerKind, double>> {
  protected:
-  TrackCheckOf()
-      : flight_({.scanner = std::get<0>(GetParam()),
-                 .height = 250,
-                 .pairs_per_second = 100,
-                 .significant_wave_height = std::get<1>(GetParam()),
-                 .seed = 7}),
-        rays_(RaysOf(flight_.Rays())) {}
+  TrackCheckOf() : flown_(FlownOnce()), flight_(flown_.flight), rays_(flown_.rays) {}
 
   TrackCheck Check(const std::function<Vector3d(double)>& position) const {
     return CheckTrack(rays_, Columns(position));
@@ -46,8 +66,28 @@ class TrackCheckOf : public ::testing::TestWithParam<std::tuple<ScannerKind, dou
     return Check([&, move](double t) -> Vector3d { return flight_.Position(t) + move; });
   }
 
-  const SimulatedFlight flight_;
-  const std::vector<AirRay> rays_;
+ private:
+  struct Flown {
+    explicit Flown(const FlightPlan& plan) : flight(plan), rays(RaysOf(SimulatedFlight(plan).Rays())) {}
+    const SampledFlight flight;
+    const std::vector<AirRay> rays;
+  };
+  static const Flown& FlownOnce() {
+    static std::map<ParamType, Flown> flown;
+    const auto& [scanner, wave_height] = GetParam();
+    return flown
+        .try_emplace(GetParam(), FlightPlan{.scanner = scanner,
+                                            .height = 250,
+                                            .pairs_per_second = 100,
+                                            .significant_wave_height = wave_height,
+                                            .seed = 7})
+        .first->second;
+  }
+  const Flown& flown_;
+
+ protected:
+  const SampledFlight& flight_;
+  const std::vector<AirRay>& rays_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Flights, TrackCheckOf,
@@ -132,8 +172,8 @@ TEST_P(TrackCheckOf, AVerticalLeverArmIsNamedWhereItMatters) {
 }
 
 TEST_P(TrackCheckOf, AnotherFlightIsNamed) {
-  const SimulatedFlight crossing({.height = 250, .course = 1.2, .seed = 99});
-  const SimulatedFlight parallel({.height = 250, .seed = 98});
+  static const SampledFlight crossing({.height = 250, .course = 1.2, .seed = 99});
+  static const SampledFlight parallel({.height = 250, .seed = 98});
   for (const auto& check : {Check([&](double t) { return crossing.Position(t); }),
                             Check([&](double t) -> Vector3d { return parallel.Position(t) + Vector3d(300, 0, 0); }),
                             Check([&](double t) -> Vector3d { return flight_.Position(t) + Vector3d(3e4, -2e4, 0); })})
@@ -142,7 +182,7 @@ TEST_P(TrackCheckOf, AnotherFlightIsNamed) {
 
 // No offset in time makes a track agree that runs away from the rays by 5 m/s.
 TEST_P(TrackCheckOf, AFlightOfAnotherSpeedIsNoTimeOffset) {
-  const SimulatedFlight faster({.height = 250, .speed = 65, .seed = 97});
+  static const SampledFlight faster({.height = 250, .speed = 65, .seed = 97});
   const TrackCheck check = Check([&](double t) { return faster.Position(t); });
   EXPECT_EQ(check.verdict, TrackVerdict::kUnrelated) << Describe(check);
 }
@@ -160,7 +200,8 @@ TEST_P(TrackCheckOf, ARotationIsNamed) {
 
 TEST(TrackCheck, NeverRefusesARightTrack) {
   int agreeing = 0;
-  for (int i = 0; i < 200; ++i) {
+  const int flights = std::getenv("ALBTPU_EVERY_CASE") != nullptr ? 200 : 100;
+  for (int i = 0; i < flights; ++i) {
     const SimulatedFlight flight({.scanner = static_cast<ScannerKind>(i % 3),
                                   .height = 200.0 + 4 * ((i * 37) % 100),
                                   .speed = 56 + 0.24 * ((i * 53) % 100),
@@ -174,7 +215,7 @@ TEST(TrackCheck, NeverRefusesARightTrack) {
     EXPECT_FALSE(Disagrees(check.verdict)) << i << ": " << Describe(check);
     agreeing += check.verdict == TrackVerdict::kAgrees;
   }
-  EXPECT_GT(agreeing, 180);  // Some of those with fewest rays cannot tell.
+  EXPECT_GT(agreeing, 0.9 * flights);  // Some of those with fewest rays cannot tell.
 }
 
 TEST(TrackCheck, SaysWhenItCannotTell) {
