@@ -49,7 +49,9 @@ std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, st
   sea_case.sea.waves = WindSea{.wind_speed_10m = 5};
   sea_case.beams = {{.footprint = 0.5}, {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
   sea_case.depths = {0, 0.1, 10};
-  sea_case.rays = 1000;  // a quarter of the usual number: the same error of both estimators
+  static const Discretization discretization = ChooseDiscretization(SeaState(sea_case.sea), sea_case.beams);
+  sea_case.discretization = discretization;  // Of all cells; to choose it takes longer than some realizations do.
+  sea_case.rays = 1000;                      // a quarter of the usual number: the same error of both estimators
   return Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
                   5, cell)
       .beams;
