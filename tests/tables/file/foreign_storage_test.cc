@@ -14,6 +14,7 @@ namespace albtpu {
 namespace {
 
 using hdf5::Handle;
+using ::testing::AnyOf;
 using ::testing::EndsWith;
 using testing::ExpectProblems;
 using ::testing::HasSubstr;
@@ -145,7 +146,7 @@ TEST(ForeignStorage, IsRefusedIfItIsSharedTooLargeOrAbsent) {
                    HasSubstr("attribute 'title' is longer than 16777216 bytes")}});
 }
 
-// HDF5 1.10 would read beyond the data, in memory that it does not own.
+// HDF5 1.10 would read beyond the data, in memory that it does not own; 1.14 does not open such a dataset.
 TEST(ForeignStorage, IsRefusedIfDataInTheObjectHeaderIsTooShort) {
   const std::vector<float> values(16, 42.5f);
   std::string file = testing::Forge([&](hid_t root) {
@@ -161,7 +162,8 @@ TEST(ForeignStorage, IsRefusedIfDataInTheObjectHeaderIsTooShort) {
   ASSERT_NE(at, std::string::npos);
   file[at] = 21;
   seal::Apply(file);
-  EXPECT_EQ(testing::Problem(file), "variable 'thu' has 16 values in 21 bytes: expected 64 bytes");
+  EXPECT_THAT(testing::Problem(file),
+              AnyOf("variable 'thu' has 16 values in 21 bytes: expected 64 bytes", "variable 'thu' is not a dataset"));
 }
 
 }  // namespace
