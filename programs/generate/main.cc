@@ -102,7 +102,7 @@ void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
       ->required()
       ->type_name("DIR");
   validate.add_flag("--overwrite", options.overwrite, "Replace the files of an earlier report");
-  validate.add_flag("--quick", options.quick, "Use fewer surfaces: two minutes on two cores instead of ten");
+  validate.add_flag("--quick", options.quick, "Use fewer surfaces: a minute on two cores instead of ten");
   validate.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")->check(Seed());
   AddThreads(validate, threads);
   Group(validate, kFiles, {"--output", "--overwrite"});

@@ -110,10 +110,11 @@ std::vector<VariedArray> PitchesAndDetectors() {
 // Runs experiments and collects their results. Experiments with the same `draw` see the same random waves.
 class Variations {
  public:
-  explicit Variations(std::uint64_t seed) : seed_(seed) {}
+  Variations(int frames, std::uint64_t seed) : frames_(frames), seed_(seed) {}
 
   void Run(TankExperiment experiment, const SeaState& sea, const std::vector<VariedArray>& varied,
            std::uint32_t draw = 0) {
+    experiment.frames = frames_;
     experiment.arrays.clear();
     for (const VariedArray& v : varied) experiment.arrays.push_back(v.array);
     const TankReading reading = ObserveTank(experiment, IndependentFrames(sea, experiment.grid, seed_, draw)).front();
@@ -130,15 +131,16 @@ class Variations {
   std::vector<TankVariation> Take() { return std::move(found_); }
 
  private:
+  int frames_;
   std::uint64_t seed_;
   std::vector<TankVariation> found_;
 };
 
 }  // namespace
 
-std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
+std::vector<TankVariation> TankSensitivity(bool quick, int frames, std::uint64_t seed) {
   const SeaState sea = TankSea(kLightWind, kTankWaveHeight);
-  Variations variations(seed);
+  Variations variations(frames, seed);
 
   std::vector<VariedArray> arrays = Apertures("aperture (cm)");
   for (VariedArray& varied : PitchesAndDetectors()) arrays.push_back(std::move(varied));

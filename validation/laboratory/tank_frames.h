@@ -35,7 +35,7 @@ struct TankVariation {
 // The array of Table 4 at nadir, at 2 m/s and a wave height of 9 mm, with one parameter changed at a time: aperture,
 // pitch, number of detectors, profile and wave height (also at 5.25 m/s), and of the simulation itself the number of
 // rays, the grid, the patch and the random waves.
-std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed);
+std::vector<TankVariation> TankSensitivity(bool quick, int frames, std::uint64_t seed);
 
 DataTable TableOf(const std::vector<TankVariation>& variations);
 
