@@ -196,7 +196,8 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   for (int round = 0; round < kAngleRounds; ++round) {
     fit.noise = FitRayNoise(squares, separations, fit.noise, round == 0 ? 10 : 3);
     if (round >= 2)
-      fit.flattening = std::pow(std::min(fit.noise.slopes, kSteepest) / facing.gain, 2) * facing.bias / std::sin(incidence);
+      fit.flattening =
+          std::pow(std::min(fit.noise.slopes, kSteepest) / facing.gain, 2) * facing.bias / std::sin(incidence);
     assemble();
     Column right = Column::Zero(size);
     for (const Column& score : scores) right += score;
