@@ -116,7 +116,7 @@ TEST(RayTrack, GetsBetterWithMorePairs) {
     std::printf("%8.0f", rate);
     for (int sea = 0; sea < 2; ++sea) {
       const Errors errors =
-          FlyMany(9, {.duration = 20, .pairs_per_second = rate, .significant_wave_height = 0.3 * sea});
+          FlyMany(18, {.duration = 20, .pairs_per_second = rate, .significant_wave_height = 0.3 * sea});
       const double silent = static_cast<double>(errors.uncertain) / (errors.uncertain + errors.windows);
       std::printf("   %.3f %.3f  %.3f %5.1f %%", errors.Rms(), errors.worst, errors.Sigma(), 100 * silent);
       if (rate > 10) {
@@ -131,8 +131,8 @@ TEST(RayTrack, GetsBetterWithMorePairs) {
 // 600 windows have a binomial standard error of 0.9 %.
 TEST(RayTrack, ItsSigmaCoversTheTrueError) {
   for (const auto& [water, flights, plan] :
-       {std::tuple("flat water", 45, FlightPlan{.duration = 30, .pairs_per_second = 150}),
-        {"waves", 45, {.duration = 30, .pairs_per_second = 150, .significant_wave_height = 0.3}},
+       {std::tuple("flat water", 75, FlightPlan{.duration = 30, .pairs_per_second = 150}),
+        {"waves", 75, {.duration = 30, .pairs_per_second = 150, .significant_wave_height = 0.3}},
         {"outliers", 45, {.duration = 30, .pairs_per_second = 150, .significant_wave_height = 0.3, .outliers = 0.3}}}) {
     const Errors errors = FlyMany(flights, plan);
     std::printf("%s: %d windows, %.1f %% within 1.96 sigma\n", water, errors.windows, 100 * errors.Coverage());
