@@ -46,8 +46,8 @@ Derivative DerivativeOf(const TrackedRay& ray, Displacement displacement, const 
 }
 
 // The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kCell, and their
-// products at all lags with Bartlett's weights. Its degrees of freedom are the number of correlation times, less the
-// fitted parameters.
+// products at all lags with Bartlett's weights, widened by WidthOfStudent. Its degrees of freedom are the number of
+// correlation times, less the fitted parameters.
 struct LongRun {
   Square covariance;
   int freedom;
@@ -74,7 +74,8 @@ LongRun LongRunCovariance(std::span<const double> times, int size, const Score& 
       sum += product + product.transpose();
     }
   }
-  return {sum, std::max(1, correlation_times - size)};
+  const int freedom = std::max(1, correlation_times - size);
+  return {sum * std::pow(WidthOfStudent(freedom), 2), freedom};
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TimeSearch FindTimeOffset(std::span<const AirRay> rays, const TrackPositions& tr
 // The largest error of a correction that chance makes as rarely as `significance` standard errors of a normal error. A
 // sigma of few degrees of freedom is itself uncertain, and Student's distribution has wide tails.
 double ReachOf(const Correction& correction, const TrackCheckOptions& options) {
-  return correction.sigma *
+  return correction.sigma / WidthOfStudent(correction.freedom) *
          StudentQuantile(correction.freedom, std::erfc(options.significance / std::numbers::sqrt2) / 2);
 }
 

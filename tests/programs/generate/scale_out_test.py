@@ -142,7 +142,9 @@ class SameBytes(ScaleOut):
 @unittest.skipUnless(MPIRUN, "built without MPI (libopenmpi-dev), or there is no mpirun (openmpi-bin)")
 class Ranks(ScaleOut):
     def test_make_the_same_bytes(self):
-        self.assertEqual(self.succeeds(*ranks(2), *self.make, "--threads", 1), ANSWERS[0])
+        # Open MPI 5 mixes the warnings of ranks into their answers.
+        quiet = ("sh", "-c", 'exec "$@" 2>/dev/null', "sh")
+        self.assertEqual(self.succeeds(*ranks(2), *quiet, *self.make, "--threads", 1), ANSWERS[0])
         self.assert_the_table()
 
     def test_make_the_same_bytes_through_a_work_folder(self):
