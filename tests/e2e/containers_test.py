@@ -30,7 +30,8 @@ CAMPAIGN = SOURCE / "tests/generator/six_seas.toml"
 IMAGES = (SERVE, QUERY, GENERATE)
 PULSE = dict(wind_speed=7, incidence=12, footprint=0.5, depth=8)
 PULSE_FLAGS = [word for name, value in PULSE.items() for word in (f"--{name.replace('_', '-')}", str(value))]
-MOST_BYTES = 120_000_000  # Of the server and the client; the generator has MPI.
+# Of the server and the client; the generator has MPI. The library of netCDF brings 34 MB of Unicode with its XML.
+MOST_BYTES = 145_000_000
 
 
 def query(*arguments):
@@ -75,7 +76,7 @@ class Images(unittest.TestCase):
             found = self.shell(name, f"find / -xdev \\( {names} \\) -print 2>/dev/null; {keys}; true")
             self.assertEqual(found, "", name)
 
-    def test_are_at_most_120_mb(self):
+    def test_are_at_most_145_mb(self):
         sizes = {name: inspect("image", name)["Size"] for name in IMAGES}
         print(", ".join(f"{name}: {size / 1e6:.0f} MB" for name, size in sizes.items()))
         self.assertLessEqual(sizes[SERVE], MOST_BYTES)
