@@ -34,9 +34,6 @@ enum class Displacement {
   kTime,            // Along the velocity [s].
 };
 
-// What sigmas of so many degrees of freedom are multiplied by: Student's 97.5 % quantile exceeds 1.96 by that factor.
-constexpr double WidthOfStudent(int freedom) { return 1 + 1.2 / freedom; }
-
 struct DisplacementFit {
   Eigen::VectorXd values, sigmas;  // With errors that are correlated for up to half a second,
   int freedom = 1;                 // so that the sigmas have the degrees of freedom of so many correlation times.

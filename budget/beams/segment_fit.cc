@@ -218,10 +218,10 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
   const double curvature = std::clamp(response / weight, 0.3, 1.0);
   Eigen::Matrix3d k = whitened(sum) / (curvature * curvature * (1 - f));
   // Each correlation time is one observation of K. A few more observations of K = 1 keep a short segment, whose errors
-  // may cancel by chance, from an optimistic K. Student's 97.5 % quantile exceeds 1.96 by the factor 1 + 1.2 / freedom.
+  // may cancel by chance, from an optimistic K.
   constexpr double kUsual = 4, kLeast = 0.4;
   const double freedom = std::max(1.0, duration / (width * static_cast<double>(lags + 1)));
-  const double student = 1 + 1.2 / (freedom + kUsual);
+  const double student = WidthOfStudent(freedom + kUsual);
   k = (freedom * k + kUsual * Eigen::Matrix3d::Identity()) * (student * student / (freedom + kUsual));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver((k + k.transpose()) / 2);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(kLeast).asDiagonal() * solver.eigenvectors().transpose();
