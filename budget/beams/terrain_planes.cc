@@ -31,8 +31,11 @@ std::int32_t CellOf(double number) { return static_cast<std::int32_t>(std::floor
 
 // Returns relative to the middle of a window.
 struct Window {
-  std::vector<Eigen::Vector3d> points;
+  std::vector<double> x, y, z;
   std::vector<double> weights, distances, sorted;
+
+  std::size_t size() const { return x.size(); }
+  Eigen::Vector3d At(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 // z = a + b x + c y by weighted least squares; none where the points lie nearly on a line. `spread`: the least standard
@@ -40,10 +43,10 @@ struct Window {
 std::optional<Eigen::Vector3d> WeightedPlane(const Window& window, double spread) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < window.points.size(); ++i) {
-    const Eigen::Vector3d row(1, window.points[i].x(), window.points[i].y());
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    const Eigen::Vector3d row(1, window.x[i], window.y[i]);
     normal += window.weights[i] * row * row.transpose();
-    right += window.weights[i] * window.points[i].z() * row;
+    right += window.weights[i] * window.z[i] * row;
   }
   const double sum = normal(0, 0);
   if (!(sum > 0)) return std::nullopt;
@@ -56,14 +59,19 @@ std::optional<Eigen::Vector3d> WeightedPlane(const Window& window, double spread
 }
 
 void FindDistances(const Eigen::Vector3d& plane, Window& window) {
-  for (std::size_t i = 0; i < window.points.size(); ++i) {
-    const Eigen::Vector3d& at = window.points[i];
-    window.distances[i] = std::abs(at.z() - plane[0] - plane[1] * at.x() - plane[2] * at.y());
-  }
+  for (std::size_t i = 0; i < window.size(); ++i)
+    window.distances[i] = std::abs(window.z[i] - plane[0] - plane[1] * window.x[i] - plane[2] * window.y[i]);
 }
 
-double MedianDistance(const Eigen::Vector3d& plane, Window& window) {
-  FindDistances(plane, window);
+// Whether the median of the distances is less than `bound`, without sorting them.
+bool MedianIsLess(const Window& window, double bound) {
+  std::size_t less = 0;
+  for (const double distance : window.distances) less += distance < bound ? 1 : 0;
+  return less > window.size() / 2;
+}
+
+// Of the distances that were found.
+double MedianDistance(Window& window) {
   window.sorted = window.distances;
   const auto middle = window.sorted.begin() + static_cast<std::ptrdiff_t>(window.sorted.size() / 2);
   std::nth_element(window.sorted.begin(), middle, window.sorted.end());
@@ -75,31 +83,32 @@ double MedianDistance(const Eigen::Vector3d& plane, Window& window) {
 std::optional<Eigen::Vector3d> LeastMedianPlane(double area, Window& window) {
   std::optional<Eigen::Vector3d> best;
   double least = std::numeric_limits<double>::infinity();
-  const std::size_t count = window.points.size();
+  const std::size_t count = window.size();
   for (std::uint64_t i = 0; i < kTriples; ++i) {
     const std::uint64_t draw = MixBits(i);
-    const Eigen::Vector3d& a = window.points[draw % count];
-    const Eigen::Vector3d b = window.points[(draw >> 20) % count] - a, c = window.points[(draw >> 40) % count] - a;
+    const Eigen::Vector3d a = window.At(draw % count);
+    const Eigen::Vector3d b = window.At((draw >> 20) % count) - a, c = window.At((draw >> 40) % count) - a;
     const Eigen::Vector3d normal = b.cross(c);
     if (!(std::abs(normal.z()) >= 2 * area)) continue;
     const double x = -normal.x() / normal.z(), y = -normal.y() / normal.z();
     const Eigen::Vector3d plane(a.z() - x * a.x() - y * a.y(), x, y);
-    if (const double median = MedianDistance(plane, window); median < least) {
-      least = median;
-      best = plane;
-    }
+    FindDistances(plane, window);
+    if (!MedianIsLess(window, least)) continue;
+    least = MedianDistance(window);
+    best = plane;
   }
   return best;
 }
 
 std::optional<Eigen::Vector3d> RobustPlane(Window& window, double cell) {
-  const std::size_t count = window.points.size();
+  const std::size_t count = window.size();
   if (count < kReturnsOfPlane) return std::nullopt;
   window.weights.resize(count);
   window.distances.resize(count);
   std::optional<Eigen::Vector3d> plane = LeastMedianPlane(kAreaOfTriple * cell * cell, window);
   for (int i = 0; i < kRefinements && plane.has_value(); ++i) {
-    const double farthest = kFarOut * std::max(kOfMedian * MedianDistance(*plane, window), kSmallest);
+    FindDistances(*plane, window);
+    const double farthest = kFarOut * std::max(kOfMedian * MedianDistance(window), kSmallest);
     std::size_t near = 0;
     for (std::size_t k = 0; k < count; ++k) {
       window.weights[k] = window.distances[k] <= farthest ? 1 : 0;
@@ -170,6 +179,7 @@ std::optional<TerrainPlanes::Gradient> TerrainReturns::PlaneAround(const Place& 
   const double side = cell();
   const double x = (place.first + 0.5) * side, y = (place.second + 0.5) * side;
   Window window;
+  for (std::vector<double>* axis : {&window.x, &window.y, &window.z}) axis->reserve(9 * kKept);
   std::optional<double> z;  // Of any return.
   for (int i = -1; i <= 1; ++i) {
     for (int k = -1; k <= 1; ++k) {
@@ -178,7 +188,9 @@ std::optional<TerrainPlanes::Gradient> TerrainReturns::PlaneAround(const Place& 
       for (const Sample& sample : found->second) {
         if (sample.hash == Sample().hash) continue;
         if (!z.has_value()) z = sample.z;
-        window.points.emplace_back(sample.x - x, sample.y - y, sample.z - *z);
+        window.x.push_back(sample.x - x);
+        window.y.push_back(sample.y - y);
+        window.z.push_back(sample.z - *z);
       }
     }
   }
