@@ -130,7 +130,9 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   for (const TrackedRay& ray : rays) centre += ray.position / static_cast<double>(rays.size());
 
   std::vector<double> times(rays.size()), squares(rays.size()), separations(rays.size()), incidences;
+  std::vector<Derivative> derivatives;
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    derivatives.push_back(DerivativeOf(rays[i], displacement, centre));
     times[i] = rays[i].ray.time;
     separations[i] = rays[i].ray.separation;
     incidences.push_back(std::atan2(rays[i].ray.direction.head<2>().norm(), -rays[i].ray.direction.z()));
@@ -147,7 +149,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
     Column right = Column::Zero(size);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const auto& [ray, position, velocity] = rays[i];
-      const Derivative d = DerivativeOf(rays[i], displacement, centre);
+      const Derivative& d = derivatives[i];
       const Eigen::Vector3d gap = ray.water_point - position;
       const Derivative across = d - ray.direction * (ray.direction.transpose() * d);
       normal += weights[i] * across.transpose() * d;
@@ -155,8 +157,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
     }
     values = normal.ldlt().solve(right);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Eigen::Vector3d at =
-          rays[i].position + DerivativeOf(rays[i], displacement, centre) * values - rays[i].ray.water_point;
+      const Eigen::Vector3d at = rays[i].position + derivatives[i] * values - rays[i].ray.water_point;
       distances[i] = at.cross(rays[i].ray.direction).norm();
     }
     const double scale = std::max(Median(distances), 1e-6);
@@ -168,8 +169,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   std::vector<double> ranges(rays.size());
   const auto look = [&] {
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Eigen::Vector3d to =
-          rays[i].ray.water_point - rays[i].position - DerivativeOf(rays[i], displacement, centre) * values;
+      const Eigen::Vector3d to = rays[i].ray.water_point - rays[i].position - derivatives[i] * values;
       ranges[i] = std::max(to.norm(), 1.0);
       directions[i] = to.normalized();
       residuals[i] = AngleBetween(directions[i], rays[i].ray.direction, fit.flattening);
@@ -184,7 +184,7 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
     response = weight = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const RayWeight w = WeightOf(fit.noise, separations[i], squares[i]);
-      const Derivative d = DerivativeOf(rays[i], displacement, centre);
+      const Derivative& d = derivatives[i];
       const Derivative across = d - directions[i] * (directions[i].transpose() * d);
       normal += w.weight / (ranges[i] * ranges[i]) * across.transpose() * d;
       scores[i] = -w.weight / ranges[i] * (across.transpose() * residuals[i]);
