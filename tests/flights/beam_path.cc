@@ -8,7 +8,7 @@ namespace albtpu::testing {
 namespace {
 
 constexpr double kResolution = 2e-9;  // m; heights are differences of numbers near 6.4e6 m.
-constexpr int kMaxSteps = 50;         // The slopes of waves and seabed make an error at least 5 times smaller a step.
+constexpr int kMaxSteps = 50;         // The slope of the seabed makes an error at least 5 times smaller a step.
 
 }  // namespace
 
@@ -73,7 +73,8 @@ BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Ei
     path.azimuth = std::atan2(beam.dot(east), beam.dot(north));
     const double above = here.height - scene.coast.water_level - local.elevation;
     if (std::abs(above) < kResolution) break;
-    path.slant_range += above / -beam.dot(up);
+    // How fast the beam comes nearer to the tilted surface.
+    path.slant_range += above / -(beam.dot(up) - local.slope.x() * beam.dot(east) - local.slope.y() * beam.dot(north));
   }
   return path;
 }

@@ -32,17 +32,18 @@ Eigen::Vector3d EarthCentred(const Geodetic& point) {
 // tan(latitude) = (z + e^2 N sin(latitude)) / p, from the equations above. Each step makes the error smaller by about
 // e^2 = 0.0067, and the last one changes nothing but rounding.
 Geodetic GeodeticFrom(const Eigen::Vector3d& point) {
-  const double from_axis = std::hypot(point.x(), point.y()), e2 = kEccentricitySquared;
-  double latitude = std::atan2(point.z(), from_axis * (1 - e2));
-  for (double before = 2; std::abs(latitude - before) > 1e-14;) {
-    before = latitude;
-    latitude = std::atan2(point.z() + e2 * PrimeVerticalRadius(latitude) * std::sin(latitude), from_axis);
+  const double p = std::hypot(point.x(), point.y()), e2 = kEccentricitySquared;
+  double upward = point.z() / (1 - e2);  // The tangent of the latitude is this over p.
+  double length = std::sqrt(upward * upward + p * p), sine = upward / length;
+  for (double before = 2 * length; std::abs(upward - before) > 1e-14 * length;) {
+    before = upward;
+    upward = point.z() + e2 * kSemiMajorAxis * sine / std::sqrt(1 - e2 * sine * sine);
+    length = std::sqrt(upward * upward + p * p);
+    sine = upward / length;
   }
   // The height is the distance from the ellipsoid's tangent plane, which divides by nothing small.
-  const double cosine = std::cos(latitude), sine = std::sin(latitude);
-  const double ratio = kSemiMajorAxis / PrimeVerticalRadius(latitude);
-  const double height = from_axis * cosine + point.z() * sine - kSemiMajorAxis * ratio;
-  return {latitude, std::atan2(point.y(), point.x()), height};
+  const double height = p * (p / length) + point.z() * sine - kSemiMajorAxis * std::sqrt(1 - e2 * sine * sine);
+  return {std::atan2(upward, p), std::atan2(point.y(), point.x()), height};
 }
 
 Eigen::Matrix3d EastNorthUp(double latitude, double longitude) {

@@ -52,10 +52,15 @@ std::vector<SimulatedRay> SimulatedFlight::Rays() const {
       return sensor + beam * ((height - sensor.z()) / beam.z());
     };
     const Eigen::Vector3d mean_point = at_height(plan_.water_height);
+    // Newton's method: a step errs by half the curvature times the square of the last, some 1e-4 m after the first.
     Eigen::Vector3d surface = mean_point;
-    for (int step = 0; step < 3; ++step)
-      surface = at_height(plan_.water_height + sea.At(surface.head<2>(), since).elevation);
-    const Eigen::Vector2d slope = sea.At(surface.head<2>(), since).slope;
+    Eigen::Vector2d slope;
+    for (int step = 0; step < 2; ++step) {
+      const WavySurface::Local local = sea.At(surface.head<2>(), since);
+      slope = local.slope;
+      const double above = surface.z() - plan_.water_height - local.elevation;
+      surface -= beam * (above / (beam.z() - slope.dot(beam.head<2>())));
+    }
     const Eigen::Vector3d in_water = Refract(beam, Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized());
     // A sandy bottom of 4 to 14 m, and a return of the water above it.
     const double depth = 9 + 5 * std::sin(surface.x() / 70 + surface.y() / 110);
