@@ -75,8 +75,15 @@ std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams) {
   const auto wider = [](const BeamOptions& a, const BeamOptions& b) {
     return std::pair(-a.incidence, a.azimuth) < std::pair(-b.incidence, b.azimuth);
   };
-  return {*std::min_element(beams.begin(), beams.end(), narrower), *std::min_element(beams.begin(), beams.end(), wider),
-          *std::max_element(beams.begin(), beams.end(), narrower)};
+  std::vector<BeamOptions> outermost;
+  for (const auto& beam :
+       {std::min_element(beams.begin(), beams.end(), narrower), std::min_element(beams.begin(), beams.end(), wider),
+        std::max_element(beams.begin(), beams.end(), narrower)})
+    if (std::none_of(outermost.begin(), outermost.end(), [&](const BeamOptions& other) {
+          return other.incidence == beam->incidence && other.azimuth == beam->azimuth;
+        }))
+      outermost.push_back(*beam);
+  return outermost;
 }
 
 double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams) {

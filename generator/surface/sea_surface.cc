@@ -201,6 +201,21 @@ Eigen::MatrixXd CubicRefinement(int half_nodes, int stride) {
   return refinement;
 }
 
+// refinement * at_nodes, without the elements of CubicRefinement that are zero: all but four of a row.
+Eigen::MatrixXd Refined(const Eigen::MatrixXd& refinement, const Eigen::MatrixXd& at_nodes) {
+  const Eigen::Index intervals = refinement.cols() - 3, stride = (refinement.rows() - 1) / intervals;
+  Eigen::MatrixXd refined(refinement.rows(), at_nodes.cols());
+  for (Eigen::Index i = 0; i < refined.rows(); ++i) {
+    const Eigen::Index node = std::min(i / stride, intervals - 1);
+    const Eigen::Matrix<double, 1, 4> weights = refinement.row(i).segment<4>(node);
+    for (Eigen::Index c = 0; c < refined.cols(); ++c) {
+      const double* const n = &at_nodes(node, c);
+      refined(i, c) = weights[0] * n[0] + weights[1] * n[1] + weights[2] * n[2] + weights[3] * n[3];
+    }
+  }
+  return refined;
+}
+
 }  // namespace
 
 SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest, const Discretization& discretization)
@@ -235,7 +250,7 @@ SeaSurface::LocalSurface SeaSurface::SurfaceUnder(const Beam& beam) const {
   Eigen::MatrixXd at_nodes = SumOfWaves(model_.phase_x_, amplitudes, model_.phase_y_);
   at_nodes.array() -= elevation;
 
-  const Eigen::MatrixXd long_waves = model_.refine_ * at_nodes * model_.refine_.transpose();
+  const Eigen::MatrixXd long_waves = Refined(model_.refine_, Refined(model_.refine_, at_nodes).transpose()).transpose();
   const int points = static_cast<int>(long_waves.rows());
   const int size = model_.patch_.size();
   const int first = ((-(points - 1) / 2) % size + size) % size;  // the patch repeats

@@ -5,31 +5,31 @@
 
 namespace albtpu {
 
-namespace {
-
-// The mean square slope of the grid's triangles over that of the wave, for mode (i, j): from 1 to 4 / pi^2 for the
-// shortest. A triangle has the difference quotient of a wave, sin(kx dx / 2) / (dx / 2), and not its slope kx.
-double SlopeOfTriangles(int i, int j, int size) {
-  const double x = std::numbers::pi * i / size, y = std::numbers::pi * j / size;
-  return (std::pow(std::sin(x), 2) + std::pow(std::sin(y), 2)) / (x * x + y * y);
-}
-
-}  // namespace
-
 WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share)
     : length_(length), size_(size), transform_(size) {
   assert(length > 0);
   const double dk = 2 * std::numbers::pi / length;
-  power_.assign(static_cast<std::size_t>(size) * (size / 2 + 1), 0.0);
+  const int half = size / 2;
+  std::vector<double> phase(half), sine(half);  // of half a cell, by |i|
+  for (int i = 0; i < half; ++i) {
+    phase[i] = std::numbers::pi * i / size;
+    sine[i] = std::sin(phase[i]);
+  }
+  power_.assign(static_cast<std::size_t>(size) * (half + 1), 0.0);
   for (int row = 0; row < size; ++row) {
     const int i = SignedIndex(row, size);
-    if (i == size / 2) continue;
-    for (int j = 0; j < size / 2; ++j) {
+    if (i == half) continue;
+    const double x = phase[std::abs(i)], sine_x = sine[std::abs(i)];
+    for (int j = 0; j < half; ++j) {
       if (i == 0 && j == 0) continue;
       const double k = dk * std::hypot(i, j);
-      if (share(k) == 0) continue;
-      power_[row * (size / 2 + 1) + j] =
-          share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk / SlopeOfTriangles(i, j, size);
+      const double held = share(k);
+      if (held == 0) continue;
+      // The mean square slope of the grid's triangles over that of the wave: from 1 to 4 / pi^2 for the shortest. A
+      // triangle has the difference quotient of a wave, sin(kx dx / 2) / (dx / 2), and not its slope kx.
+      const double y = phase[j];
+      const double of_triangles = (sine_x * sine_x + sine[j] * sine[j]) / (x * x + y * y);
+      power_[row * (half + 1) + j] = held * sea.Psi(k, std::atan2(j, i)) * dk * dk / of_triangles;
     }
   }
 }
@@ -76,14 +76,17 @@ double WavePatchModel::elevation_variance() const {
 Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const {
   const double dk = 2 * std::numbers::pi / length_;
   const double dx = spacing();
+  std::vector<double> quotients(size_ / 2 + 1);  // by |i|; that of -i is its negative
+  for (int i = 0; i <= size_ / 2; ++i) quotients[i] = 2 * std::sin(i * dk * dx / 2) / dx;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   for (int row = 0; row < size_; ++row) {
+    const int i = SignedIndex(row, size_);
+    const double quotient_x = i < 0 ? -quotients[-i] : quotients[i];
     for (int j = 0; j < size_ / 2; ++j) {
       const double power = power_[row * (size_ / 2 + 1) + j];
       if (power == 0) continue;
-      const int i = SignedIndex(row, size_);
       const double phase_x = i * dk * dx / 2, phase_y = j * dk * dx / 2;
-      const Eigen::Vector2d quotient(2 * std::sin(phase_x) / dx, 2 * std::sin(phase_y) / dx);
+      const Eigen::Vector2d quotient(quotient_x, quotients[j]);
       Eigen::Matrix2d squares = quotient * quotient.transpose();
       // The midpoints of a triangle's two sides are half a diagonal apart, in phase by phase_x + phase_y.
       squares(0, 1) *= std::cos(phase_x + phase_y);
