@@ -126,16 +126,14 @@ TEST(Convergence, TheSlopesThatTheFootprintSeesChangeByLessThanOnePercent) {
     const SeaState sea(c.wind_speed, c.fetch);
     const std::vector<BeamOptions> beams = Beams(c);
     const Discretization chosen = Chosen(c);
-    for (const BeamOptions& beam : beams) {
-      const auto seen = [&](const Discretization& discretization) {
-        return SurfaceModel(sea, WidestBeam(beams), discretization).FacetSlopeCovariance([&](double k, double psi) {
-          return FootprintPower(beam, k, psi);
-        });
-      };
-      const Eigen::Matrix2d coarse = seen(chosen);
-      for (const Discretization& refined :
-           {WithTwiceThePatch(chosen), WithHalfTheSpacing(chosen), WithHalfTheSpacing(WithTwiceThePatch(chosen))}) {
-        const Eigen::Matrix2d fine = seen(refined);
+    const SurfaceModel coarse_surface(sea, WidestBeam(beams), chosen);
+    for (const Discretization& refined :
+         {WithTwiceThePatch(chosen), WithHalfTheSpacing(chosen), WithHalfTheSpacing(WithTwiceThePatch(chosen))}) {
+      const SurfaceModel fine_surface(sea, WidestBeam(beams), refined);
+      for (const BeamOptions& beam : beams) {
+        const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+        const Eigen::Matrix2d coarse = coarse_surface.FacetSlopeCovariance(seen);
+        const Eigen::Matrix2d fine = fine_surface.FacetSlopeCovariance(seen);
         for (const int axis : {0, 1}) {
           EXPECT_NEAR(std::sqrt(fine(axis, axis) / coarse(axis, axis)), 1, kAllowed)
               << (axis == 0 ? "along wind, " : "across wind, ") << c;

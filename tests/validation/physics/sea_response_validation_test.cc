@@ -1,5 +1,6 @@
 // The response theory against ray tracing. It tries a twelfth of the beams of the report, or all of them:
 //     ALBTPU_EVERY_BEAM=1 sea_response_validation_test
+// The twelfth that the quick report compares is tested by tests/e2e/validate_test.py.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +37,10 @@ void ExpectAgreement(const std::vector<Comparison>& comparisons) {
 }
 
 TEST(SeaResponse, AgreesWithTracingInAllThatTheReportCompares) {
-  const absl::StatusOr<Study> study = ResponseTheoryStudy({.published = {}, .quick = !EveryBeam(), .seed = kSeed});
+  if (!EveryBeam()) {
+    GTEST_SKIP() << "ALBTPU_EVERY_BEAM=1 runs it; the quick report has a twelfth";
+  }
+  const absl::StatusOr<Study> study = ResponseTheoryStudy({.published = {}, .quick = false, .seed = kSeed});
   ExpectAgreement(study->comparisons);
 }
 
