@@ -51,34 +51,54 @@ void SolveVariances(const Sums& s, RayNoise& noise) {
   noise.points = std::sqrt(points);
 }
 
+// Weights of many rays by one noise. Reciprocals are computed once: they take longer than all else but the exponential.
+class Weights {
+ public:
+  explicit Weights(const RayNoise& noise)
+      : slopes_(noise.slopes * noise.slopes),
+        points_(noise.points * noise.points),
+        outliers_(1 / (noise.outlier_sigma * noise.outlier_sigma)),
+        odds_(noise.outlier_share / (1 - noise.outlier_share)) {}
+
+  struct Of {
+    RayWeight weight;
+    double variance, precision;  // Of a good ray, and its inverse.
+  };
+  // `x`: 1 / separation^2.
+  Of operator()(double x, double square) const {
+    const double variance = slopes_ + points_ * x, precision = 1 / variance;
+    const double bad = std::min(outliers_, precision / (kMinOutlierRatio * kMinOutlierRatio));
+    const double difference = precision - bad;
+    // The odds of an outlier: the ratio of the two densities times that of the fractions.
+    const double odds = odds_ * variance * bad * std::exp(std::min(square * difference / 2, 700.0));
+    const double good = 1 / (1 + odds), weight = good * difference + bad;
+    const double response = weight - square / 2 * good * (1 - good) * difference * difference;
+    return {{.good = good, .weight = weight, .response = response}, variance, precision};
+  }
+
+ private:
+  double slopes_, points_, outliers_, odds_;
+};
+
 }  // namespace
 
 RayWeight WeightOf(const RayNoise& noise, double separation, double square) {
-  const double good_variance = noise.Variance(separation);
-  const double bad_variance =
-      std::max(noise.outlier_sigma * noise.outlier_sigma, kMinOutlierRatio * kMinOutlierRatio * good_variance);
-  const double difference = 1 / good_variance - 1 / bad_variance;
-  // The odds of an outlier: the ratio of the two densities times that of the fractions.
-  const double odds = noise.outlier_share / (1 - noise.outlier_share) * good_variance / bad_variance *
-                      std::exp(std::min(square * difference / 2, 700.0));
-  const double good = 1 / (1 + odds);
-  const double weight = good * difference + 1 / bad_variance;
-  return {
-      .good = good, .weight = weight, .response = weight - square / 2 * good * (1 - good) * difference * difference};
+  return Weights(noise)(1 / (separation * separation), square).weight;
 }
 
 RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations, const RayNoise& start,
                      int steps) {
   RayNoise noise = start;
   for (int step = 0; step < steps; ++step) {
+    const Weights weights(noise);
     const Sums sums = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>(0, squares.size(), 16384), Sums{},
         [&](const tbb::blocked_range<std::size_t>& range, Sums s) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const double good = WeightOf(noise, separations[i], squares[i]).good;
-            const double variance = noise.Variance(separations[i]);
             const double x = 1 / (separations[i] * separations[i]);
-            const double w = good / (variance * variance);
+            const auto [weight, variance, precision] = weights(x, squares[i]);
+            const double good = weight.good;
+            const double w = good * precision * precision;
             s += Sums{.s0 = w,
                       .s1 = w * x,
                       .s2 = w * x * x,
