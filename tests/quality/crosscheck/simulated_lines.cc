@@ -1,6 +1,7 @@
 #include "tests/quality/crosscheck/simulated_lines.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tests/budget/air/air_forward.h"
@@ -44,6 +45,8 @@ Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double
 // The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
 // its own.
 Eigen::Vector3d SeaSigmas(double wave_slope) {
+  static std::map<double, Eigen::Vector3d> known;  // The surveys of a test have the same waves.
+  if (const auto found = known.find(wave_slope); found != known.end()) return found->second;
   RandomNumbers random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
@@ -53,7 +56,7 @@ Eigen::Vector3d SeaSigmas(double wave_slope) {
     sum += error / kDraws;
     squares += error.cwiseAbs2() / kDraws;
   }
-  return (squares - sum.cwiseAbs2()).cwiseSqrt();
+  return known[wave_slope] = (squares - sum.cwiseAbs2()).cwiseSqrt();
 }
 
 class Line {
