@@ -4,9 +4,11 @@ Their paths are the arguments of the test script, NAME=PATH.
 """
 
 import contextlib
+import functools
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "e2e"))
@@ -25,14 +27,26 @@ def query(*arguments, check=None, **keywords):
     return result
 
 
+@functools.cache  # The tests of a script often begin with the same files.
+def written_by(program, options):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "made"
+        subprocess.run([PATHS[program], path, *options], check=True)
+        return path.read_bytes()
+
+
+def make(path, program, options):
+    new = path.with_suffix(".new")
+    new.write_bytes(written_by(program, tuple(map(str, options))))
+    return new.rename(path)
+
+
 def make_table(path, *options):
-    subprocess.run([PATHS["synthetic_table"], str(path), *options], check=True)
-    return path
+    return make(path, "synthetic_table", options)
 
 
 def make_flight(path, *options):
-    subprocess.run([PATHS["simulated_flight"], str(path), *map(str, options)], check=True)
-    return path
+    return make(path, "simulated_flight", options)
 
 
 def laz_copy(source, target, *flags):

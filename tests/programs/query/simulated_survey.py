@@ -1,7 +1,10 @@
 """Simulated surveys of which the truth is known, for tests of albtpu-query (tests/flights)."""
 
+import atexit
 import json
+import shutil
 import subprocess
+import tempfile
 
 import numpy as np
 
@@ -14,12 +17,26 @@ SBET_FIELDS = ("time", "latitude", "longitude", "height", "velocity_x", "velocit
                "heading", "wander")
 
 
+_made = {}  # Folders by flags: the tests of a script often begin with the same survey.
+
+
+def _make(folder, flags):
+    if flags in _made:
+        shutil.copytree(_made[flags], folder, dirs_exist_ok=True)
+        return
+    made = tempfile.TemporaryDirectory(prefix="albtpu_survey_")
+    atexit.register(made.cleanup)
+    subprocess.run([programs.PATHS["simulated_survey"], made.name, *flags], check=True)
+    shutil.copytree(made.name, folder, dirs_exist_ok=True)
+    _made[flags] = made.name
+
+
 class SimulatedSurvey:
-    """A folder that albtpu_simulated_survey wrote with `flags`."""
+    """A folder with what albtpu_simulated_survey writes with `flags`."""
 
     def __init__(self, folder, *flags):
         self.folder = folder
-        subprocess.run([programs.PATHS["simulated_survey"], folder, *map(str, flags)], check=True)
+        _make(folder, tuple(map(str, flags)))
         self.about = json.loads((folder / "survey.json").read_text())
         self.water_level = self.about["water_level"]  # In the unit and datum of the points.
         self.names = self.about["files"]
