@@ -10,6 +10,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
+#include "annotate/seas/sea_correlation.h"
 #include "annotate/seas/sea_facts.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
@@ -99,6 +100,7 @@ absl::Status RunSea(const SeaCommandOptions& options) {
     }
     json["records"].push_back(annotate::Json(facts));
     json["records"].back().update(annotate::Json(slopes));
+    json["records"].back()["correlation"] = annotate::CorrelationJson(seas, record);
   }
   if (options.json)
     std::cout << json.dump(2) << "\n";

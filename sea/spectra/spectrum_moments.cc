@@ -39,6 +39,12 @@ double Shallowness(double k, double depth) {
   return x > 700 ? 0 : x / std::sinh(x);  // sinh(711) overflows
 }
 
+double AngularFrequency(double k, double depth) {
+  assert(k >= 0 && depth > 0);
+  const double squared = kGravity * k + kSurfaceTension / kWaterDensity * k * k * k;
+  return std::sqrt(std::isinf(depth) ? squared : squared * std::tanh(k * depth));
+}
+
 namespace {
 
 // The integral of k^power S from the first sample to `end`, linear in the interval that `end` divides.

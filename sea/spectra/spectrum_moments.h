@@ -1,6 +1,8 @@
-// The dispersion relation of gravity waves, and the moments of a spectrum in samples of wavenumber by the trapezoidal
-// rule in k.
+// The dispersion relations of gravity and of capillary-gravity waves, and the moments of a spectrum in samples of
+// wavenumber by the trapezoidal rule in k.
 #pragma once
+
+#include <limits>
 
 #include "sea/spectra/harmonic_spectrum.h"
 
@@ -22,6 +24,15 @@ double FrequencySlope(double k, double depth);
 
 // 2 k h / sinh(2 k h): 0 in deep water, 1 in shallow.
 double Shallowness(double k, double depth);
+
+// Capillary-gravity waves on clean, fresh water: omega^2 = (g k + (T / rho) k^3) tanh(k h). The phase speed has its
+// minimum at 367 rad/m.
+
+inline constexpr double kSurfaceTension = 0.07274;  // N/m, pure water at 20 C: IAPWS R1-76 (2014)
+inline constexpr double kWaterDensity = 998.2;      // kg/m^3, the same: IAPWS R6-95 (2018)
+
+// omega [rad/s] of k [rad/m], not negative, in water of `depth` [m, above 0].
+double AngularFrequency(double k, double depth = std::numeric_limits<double>::infinity());
 
 double ElevationVariance(const HarmonicSpectrum& spectrum);  // m^2, the integral of S dk
 

@@ -5,12 +5,21 @@
 namespace albtpu {
 namespace {
 
-SeaDescription DescriptionOf(const KnownSea& sea) {
+SeaDescription GivenBy(const KnownSea& sea) {
   return {.wind_speed_10m = sea.wind_speed_10m,
           .wind_from = sea.wind_from,
           .water_depth = sea.water_depth,
           .tail = sea.tail,
           .tail_from = sea.tail_from};
+}
+
+// Of a sea that is not complete.
+SeaDescription WithWaves(const KnownSea& sea) {
+  SeaRecord record;
+  if (std::holds_alternative<std::monostate>(sea.waves)) return GivenBy(sea);
+  if (const auto* const bins = std::get_if<BinnedWaves>(&sea.waves)) record.waves = *bins;
+  if (const auto* const components = std::get_if<WaveComponents>(&sea.waves)) record.waves = *components;
+  return DescriptionOf(record, GivenBy(sea));
 }
 
 }  // namespace
@@ -26,16 +35,18 @@ KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& given, double
   return sea;
 }
 
-absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea) {
-  SeaRecord record;
+DescribedSea Describe(const KnownSea& sea) {
   if (const auto* const whole = std::get_if<WholeSea>(&sea.waves)) {
+    SeaRecord record;
     record.waves = *whole;
-    return compiler.Compile(Describe(record, DescriptionOf(sea)));
+    return Describe(record, GivenBy(sea));
   }
-  if (std::holds_alternative<std::monostate>(sea.waves)) return compiler.Compile(DescriptionOf(sea), sea.record_length);
-  if (const auto* const bins = std::get_if<BinnedWaves>(&sea.waves)) record.waves = *bins;
-  if (const auto* const components = std::get_if<WaveComponents>(&sea.waves)) record.waves = *components;
-  return compiler.Compile(DescriptionOf(record, DescriptionOf(sea)), sea.record_length);
+  return Describe(WithWaves(sea));
+}
+
+absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea) {
+  if (std::holds_alternative<WholeSea>(sea.waves)) return compiler.Compile(Describe(sea));
+  return compiler.Compile(WithWaves(sea), sea.record_length);
 }
 
 }  // namespace albtpu

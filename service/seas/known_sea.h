@@ -31,6 +31,9 @@ struct KnownSea {
 // used.
 KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& given, double record_length);
 
+// Its spectrum, with the assumptions made.
+DescribedSea Describe(const KnownSea& sea);
+
 // The table of the sea. InvalidArgument if it is steeper than any sea (sea_table.h), or if a table cannot hold its
 // numbers.
 absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea);

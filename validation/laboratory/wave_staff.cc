@@ -18,11 +18,6 @@ constexpr double kTensionOverDensity = kSurfaceTension / kWaterDensity;  // m^3/
 
 }  // namespace
 
-double AngularFrequency(double k) {
-  assert(k >= 0);
-  return std::sqrt(kGravity * k + kTensionOverDensity * k * k * k);
-}
-
 // The only real root of k^3 + p k = q, by hyperbolic functions.
 double Wavenumber(double omega) {
   assert(omega >= 0);

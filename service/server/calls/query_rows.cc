@@ -15,6 +15,7 @@
 #include "service/seas/sea_summary.h"
 #include "service/server/calls/query_budget.h"
 #include "service/server/calls/query_columns.h"
+#include "service/server/calls/sea_correlation.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
@@ -226,6 +227,12 @@ absl::Status DescribeSea(AnswerSources& sources, const v1::CompileSeaRequest& re
     return FieldViolation("sea", "sea is missing (its table is what is asked for); send a SeaState");
   ASSIGN_OR_RETURN(const ServedTable* table, sources.Find(request.sea()));
   *response.mutable_table() = WriteTableMessage(*table);
+  if (request.has_correlation()) {
+    ASSIGN_OR_RETURN(const KnownSea sea, ReadSea(request.sea()));
+    absl::StatusOr<v1::SeaCorrelation> correlation = CorrelateSea(sea, request.correlation());
+    if (!correlation.ok()) return Within("correlation", correlation.status());
+    *response.mutable_correlation() = *std::move(correlation);
+  }
   if (!request.with_file()) return absl::OkStatus();
   ASSIGN_OR_RETURN(std::string file, EncodeTable(table->table));
   response.set_file(std::move(file));

@@ -44,6 +44,11 @@ inline constexpr int kMaxBulkCalls = 128;
 inline constexpr std::size_t kMaxSeaSamples = 512;
 inline constexpr std::size_t kMaxSeaComponents = 16;
 
+// Pairs of pulses and cells of one question on the correlation of a sea. A pair takes up to two milliseconds of a
+// processor, a cell a third of one.
+inline constexpr int kMaxSeparations = 256;
+inline constexpr int kMaxCells = 64;
+
 // Wrong fields of a sea that an error lists: its details are metadata, within kMaxMetadataBytes.
 inline constexpr std::size_t kMaxSeaViolations = 8;
 

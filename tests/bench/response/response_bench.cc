@@ -4,6 +4,8 @@
 //   compile/wind        the sea of a wind, whose waves have the harmonic 2 alone, as those of most buoys
 //   compile/components  a wind sea and a swell across it, with all harmonics
 //   compile/calm        no waves at all
+//   correlation         of pulses: the whole of one sea, one beam and one cell of 1 m; and then each further beam, cell
+//                       and pair of pulses
 //   compiler            what is kept for all seas
 //   interpolator        the table laid out for queries
 #include <benchmark/benchmark.h>
@@ -13,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "sea/correlation/pulse_correlation.h"
 #include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
@@ -46,6 +49,44 @@ BENCHMARK_CAPTURE(OneBeam, gaussian, BeamProfile::kGaussian)
     ->Arg(1)
     ->Arg(6)
     ->Unit(benchmark::kMicrosecond);
+
+constexpr BeamOptions kBeam = {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.6};
+
+void CorrelationOfOneCell(benchmark::State& state) {
+  const HarmonicSpectrum spectrum = Sea(state.range(0));
+  for (auto _ : state) {
+    const WaveCorrelation sea(spectrum);
+    const BeamCorrelation beam(sea, kBeam, kRefractiveIndex);
+    benchmark::DoNotOptimize(CorrelationOf(beam.InCell({.side = 1}), beam.pulse()));
+  }
+}
+BENCHMARK(CorrelationOfOneCell)
+    ->Name("correlation/sea_beam_and_cell")
+    ->ArgName("harmonics")
+    ->Arg(1)
+    ->Arg(6)
+    ->Unit(benchmark::kMicrosecond);
+
+void CorrelationOfAnotherBeam(benchmark::State& state) {
+  const WaveCorrelation sea(Sea(6));
+  for (auto _ : state) benchmark::DoNotOptimize(BeamCorrelation(sea, kBeam, kRefractiveIndex));
+}
+BENCHMARK(CorrelationOfAnotherBeam)->Name("correlation/beam")->Unit(benchmark::kMicrosecond);
+
+void CorrelationOfAnotherCell(benchmark::State& state) {
+  const WaveCorrelation sea(Sea(6));
+  const BeamCorrelation beam(sea, kBeam, kRefractiveIndex);
+  for (auto _ : state) benchmark::DoNotOptimize(beam.InCell({.side = 1}));
+}
+BENCHMARK(CorrelationOfAnotherCell)->Name("correlation/cell")->Unit(benchmark::kMicrosecond);
+
+void CorrelationOfTwoPulses(benchmark::State& state, double later) {
+  const WaveCorrelation sea(Sea(6));
+  const BeamCorrelation beam(sea, kBeam, kRefractiveIndex);
+  for (auto _ : state) benchmark::DoNotOptimize(beam.Between({1, 0.5}, later));
+}
+BENCHMARK_CAPTURE(CorrelationOfTwoPulses, at_once, 0)->Name("correlation/pair_at_once")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(CorrelationOfTwoPulses, later, 0.1)->Name("correlation/pair_later")->Unit(benchmark::kMicrosecond);
 
 constexpr double kNotMeasured = std::numeric_limits<double>::infinity();
 

@@ -52,6 +52,26 @@ class Seas(Served):
         answer = self.service.query(sea=CROSSED, incidence=10, footprint=0.5, depth=np.empty((0, 3)))
         self.assertEqual((answer.thu.shape, answer.table.id), ((0, 3), self.service.sea_table(CROSSED).reference.id))
 
+    def test_say_what_neighbouring_pulses_share(self):
+        sides = [0.5, 1, 2, 5]
+        share = CROSSED.correlation(self.service, cell=sides, footprint=0.6, incidence=20)
+        self.assertEqual(share.vertical.shape, (4,))
+        for values in (share.slope_x, share.slope_y, share.horizontal, share.vertical, share.height):
+            self.assertTrue((np.diff(values) < 0).all() and values[0] < 1 and values[-1] > 0, values)
+        along = dict(footprint=0.6, incidence=20)
+        self.assertAlmostEqual(CROSSED.correlation(self.service, (0, 0), **along).vertical[0], 1, places=6)
+        pairs = CROSSED.correlation(self.service, [(1, 0), (-1, 0)], 0.5, **along)
+        self.assertNotAlmostEqual(pairs.vertical[0], pairs.vertical[1], places=3)  # Waves travel.
+        both = CROSSED.correlation(self.service, [(1, 0), (-1, 0)], 0.5, both_ways=True, **along)
+        np.testing.assert_allclose(both.vertical[0], both.vertical[1], atol=1e-6)
+        series = CROSSED.correlation(self.service, (0, 0), [0, 0.1, 0.5], **along)
+        self.assertTrue((np.diff(series.horizontal) < 0).all(), series)
+        for wrong in (dict(), dict(dx=(1, 2, 3)), dict(dx=(1, 0), cell=1), dict(dx=[(1, 0), (2, 0)], dt=[1, 2, 3])):
+            with self.assertRaises(albtpu.ArgumentError):
+                CROSSED.correlation(self.service, **wrong, **along)
+        with self.assertRaisesRegex(albtpu.ServiceError, r"footprint is 0 m \(expected 0.05 to 10\)"):
+            CROSSED.correlation(self.service, (1, 0), footprint=0)
+
     def test_are_refused_by_the_server_with_the_name_of_the_wrong_number(self):
         with self.assertRaisesRegex(albtpu.ServiceError, r"components\[0\]\.peak_period is 0 s"):
             self.service.query(sea=albtpu.Sea.jonswap(hs=1, tp=0, waves_from=0), incidence=10, footprint=0.5, depth=8)

@@ -30,6 +30,18 @@ class SeaFilesTest(sea_states.Test):
             footprint = record["footprints"][1]
             squares = math.radians(math.hypot(footprint["refraction_along"], footprint["refraction_cross"])) ** 2
             self.assertAlmostEqual(squares / (4 * (1 - 1 / 1.33) ** 2 * footprint["slope_variance"]), 1, delta=0.1)
+            for beam in record["correlation"]:
+                cells = beam["cells"]
+                self.assertEqual([cell["side"] for cell in cells], [0.5, 1, 2, 5, 10])
+                for name in ("slope_along", "slope_across", "horizontal", "vertical", "height"):
+                    shares = [cell[name] for cell in cells]
+                    self.assertEqual(shares, sorted(shares, reverse=True))
+                    self.assertTrue(0 < shares[-1] and shares[0] < 1, shares)
+                    self.assertTrue(all(abs(pair[name]) < 1 for pair in beam["lags"]))
+            # The depth at nadir has errors of second order alone.
+            nadir, slanted = record["correlation"]
+            self.assertEqual((nadir["incidence"], slanted["incidence"]), (0, 20))
+            self.assertLess(nadir["cells"][1]["vertical"], slanted["cells"][1]["vertical"])
         self.assertAlmostEqual(seas["records"][1]["hs"] / seas["records"][0]["hs"], math.sqrt(2), places=6)
         text = query("sea", series, *flags, check=0).stdout
         self.assertIn(utc(FLIGHT_START + 3600), text)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
                      TableNotFoundError, UnreachableError)
 from .schema import AXES, QUANTITIES
-from .sea import Sea
+from .sea import Correlation, Sea
 from .source import UncertaintySource
 from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary
 from .uncertainties import Uncertainties

@@ -14,7 +14,8 @@ import os
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, Union
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .arguments import check_name, read_number, read_optional
 from .errors import ArgumentError
@@ -27,6 +28,28 @@ if TYPE_CHECKING:
 TAILS = ("wind", "relax", "level", "none")
 
 Compiled = TypeVar("Compiled", covariant=True)
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """What pulses share of a sea: covariances over the variances of one pulse, one array of each, in the order asked.
+
+    slope_x, slope_y: of the slopes along the axis of the sea and across it, averaged over the footprint.
+    horizontal, vertical: of the errors of the reported points that the sea makes.
+    height:           of the height of the water in the footprint.
+    """
+
+    slope_x: NDArray[np.float64]
+    slope_y: NDArray[np.float64]
+    horizontal: NDArray[np.float64]
+    vertical: NDArray[np.float64]
+    height: NDArray[np.float64]
+
+
+class SeaCorrelator(Protocol):
+    """What computes the correlation of pulses over a sea: an albtpu.Service."""
+
+    def correlation(self, sea: Sea, **question: Any) -> Correlation: ...
 
 
 class SeaCompiler(Protocol[Compiled]):
@@ -137,6 +160,22 @@ class Sea:
         physics of its own.
         """
         return service.compile(self)
+
+    def correlation(self, service: SeaCorrelator, dx: ArrayLike | None = None, dt: ArrayLike = 0.0, *,
+                    footprint: float, incidence: float = 0.0, **question: Any) -> Correlation:
+        """How the errors that this sea makes correlate between two pulses, or R of the mean over cells.
+
+        dx: m, from the first footprint to the second on the water: (x, y), or an array of such pairs. x is the axis of
+            the sea (the attribute `x_azimuth` of its table), y 90 degrees counter-clockwise from it.
+        dt: s, how much later the second pulse is; one for all or one for each.
+
+        Everything else is that of `Service.correlation`, which computes it:
+
+        >>> sea.correlation(service, [(1, 0), (0, 1)], footprint=0.6, incidence=20).vertical    # doctest: +SKIP
+        >>> share = sea.correlation(service, cell=[1, 2, 5], footprint=0.6).horizontal          # doctest: +SKIP
+        >>> variance_of_mean = variance * (share + (1 - share) / pulses)                        # doctest: +SKIP
+        """
+        return service.correlation(self, dx=dx, dt=dt, footprint=footprint, incidence=incidence, **question)
 
     def message(self) -> Any:
         """albtpu.v1.SeaState."""

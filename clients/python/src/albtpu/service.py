@@ -9,7 +9,7 @@ import grpc
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import refuse_unknown_keywords
+from .arguments import read_number, read_optional, refuse_unknown_keywords
 from .budget import Budget, read_budget_query
 from .calls import BudgetCalls, ColumnStream
 from .connection import File, Retries, open_channel
@@ -17,10 +17,11 @@ from .errors import ArgumentError
 from .progress import Progress, show_progress
 from .query import Query, check_table
 from .schema import ONE_SEA, SCALES, SEA_SURFACE
-from .sea import Sea
+from .sea import Correlation, Sea
 from .source import UncertaintySource
 from .tables import Answered, AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
 from .uncertainties import AnswerColumns
+from .v1 import sea_pb2 as sea_wire
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
@@ -80,6 +81,52 @@ class Service(UncertaintySource):
         from .table_file import TableFile
         request = wire.CompileSeaRequest(sea=sea.message(), with_file=True)
         return TableFile("sea", self._call(self._stub.CompileSea, request).file)
+
+    @refuse_unknown_keywords
+    def correlation(self, sea: Sea, *, dx: ArrayLike | None = None, dt: ArrayLike = 0.0, cell: ArrayLike | None = None,
+                    orientation: float = 0.0, footprint: float, incidence: float = 0.0, azimuth: float = 0.0,
+                    gaussian: bool = False, refractive_index: float | None = None,
+                    both_ways: bool = False) -> Correlation:
+        """What pulses of one beam share of a sea: of pairs of pulses by `dx` and `dt`, or of the mean over cells.
+
+        dx, dt:       as in `Sea.correlation`; up to 256 pairs, 60 m and 60 s apart at most.
+        cell:         m, in place of dx and dt: the sides of square cells, up to 64. The answer is R of each: the
+                      variance of the mean of n pulses of one pass is R + (1 - R) / n times that of one.
+        orientation:  degrees from x, of one side of the cells.
+        footprint:    m, diameter of the beam across its axis; of a gaussian beam at 1/e2 of the irradiance.
+        incidence:    degrees from the vertical, in air, 0 to 30.
+        azimuth:      degrees counter-clockwise from x, in which the beam travels.
+        both_ways:    half of the waves travel each way; otherwise towards x.
+
+        Raises ArgumentError for invalid arguments, and ServiceError.
+        """
+        question = sea_wire.CorrelationQuery(
+            incidence=read_number("incidence", incidence), azimuth=read_number("azimuth", azimuth),
+            footprint=read_number("footprint", footprint), gaussian=gaussian,
+            refractive_index=read_optional("refractive_index", refractive_index), waves_travel_both_ways=both_ways)
+        if (dx is None) == (cell is None):
+            raise ArgumentError("dx and cell are both given or both missing (pairs of pulses, or the means over "
+                                "cells): give one of them")
+        if cell is not None:
+            for side in np.atleast_1d(np.asarray(cell, dtype=float)).ravel():
+                question.cells.add(side=side, orientation=read_number("orientation", orientation))
+        else:
+            apart = np.asarray(dx, dtype=float)
+            if apart.shape[-1:] != (2,) or apart.ndim > 2:
+                raise ArgumentError(f"dx has the shape {apart.shape} (expected two numbers, or an array of such "
+                                    "pairs): give x and y of each")
+            pairs, later = np.atleast_2d(apart), np.asarray(dt, dtype=float).ravel()
+            if later.size not in (1, len(pairs)) and len(pairs) != 1:
+                raise ArgumentError(f"dt has {later.size} numbers (expected 1 or {len(pairs)}, as dx has): give one "
+                                    "for each pair")
+            count = max(later.size, len(pairs))
+            for (x, y), seconds in zip(np.broadcast_to(pairs, (count, 2)), np.broadcast_to(later, count)):
+                question.separations.add(x=x, y=y, seconds=seconds)
+        answer = self._call(self._stub.CompileSea,
+                            wire.CompileSeaRequest(sea=sea.message(), correlation=question)).correlation
+        found = answer.separations if cell is None else answer.cells
+        return Correlation(**{name: np.array([getattr(one, name) for one in found])
+                              for name in ("slope_x", "slope_y", "horizontal", "vertical", "height")})
 
     @refuse_unknown_keywords
     def query_budget(self, *, incidence: ArrayLike, footprint: ArrayLike, depth: ArrayLike, altitude: ArrayLike,

@@ -1,0 +1,75 @@
+#include "sea/correlation/pulse_correlation.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "sea/response/slope_covariance.h"
+
+namespace albtpu {
+
+PulseCorrelation CorrelationOf(const SharedWaves& shared, const SharedWaves& pulse) {
+  const auto ratio = [](double part, double whole) { return whole > 0 ? part / whole : 0; };
+  const Eigen::Matrix3d errors = shared.errors(), own = pulse.errors();
+  return {.slope_x = ratio(shared.footprint.slopes(0, 0), pulse.footprint.slopes(0, 0)),
+          .slope_y = ratio(shared.footprint.slopes(1, 1), pulse.footprint.slopes(1, 1)),
+          .horizontal = ratio(errors(0, 0) + errors(1, 1), own(0, 0) + own(1, 1)),
+          .vertical = ratio(errors(2, 2), own(2, 2)),
+          .vertical_first = ratio(shared.first_order(2, 2), pulse.first_order(2, 2)),
+          .vertical_second = ratio(shared.second_order(2, 2), pulse.second_order(2, 2)),
+          .height = ratio(shared.footprint.heights, pulse.footprint.heights)};
+}
+
+WaveCorrelation::WaveCorrelation(const HarmonicSpectrum& spectrum, const WaveMotion& motion)
+    : waves_(spectrum, motion),
+      points_(waves_.AtPoints()),
+      at_once_(points_, motion, 0),
+      slopes_(SlopeSpectrum(spectrum).Covariance()) {}
+
+BeamCorrelation::BeamCorrelation(const WaveCorrelation& sea, const BeamOptions& beam, double refractive_index)
+    : sea_(sea), beam_(beam), waves_(sea.waves().Under(beam)) {
+  assert(std::isinf(beam.source_height));
+  const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth));
+  const Eigen::Matrix2d axes = (Eigen::Matrix2d() << along, Eigen::Vector2d(-along.y(), along.x())).finished();
+  const EffectiveGains gains =
+      EffectiveGainsOf(beam.incidence, refractive_index, axes.transpose() * sea.slopes() * axes);
+
+  // The point is reported at the end of the measured path along the still-water ray: the path times the sine of its
+  // angle ahead, and times its cosine down. Errors are reported minus true.
+  const double refracted = StillWaterRefraction(beam.incidence, refractive_index);
+  Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();  // by (tangent along, tangent across, secant)
+  errors.topLeftCorner<2, 2>() = -axes;
+  errors.topRightCorner<2, 1>() = std::sin(refracted) * along;
+  errors(2, 2) = -std::cos(refracted);
+  gain_ = errors * gains.gain * axes.transpose();
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (int j = 0; j < 3; ++j) sum += errors(i, j) * gains.curvature[j];
+    curvature_[i] = axes * sum * axes.transpose();
+  }
+  pulse_ = Between(Eigen::Vector2d::Zero(), 0);
+}
+
+SharedWaves BeamCorrelation::SharedBy(const WaveCovariance& footprint, const Eigen::Matrix3d& pairs) const {
+  SharedWaves shared{footprint, gain_ * footprint.slopes * gain_.transpose(), {}};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double second = 0.5 * MeanOfForms(curvature_[i], curvature_[j], pairs);
+      shared.second_order(i, j) = shared.second_order(j, i) = second;
+    }
+  }
+  return shared;
+}
+
+SharedWaves BeamCorrelation::Between(const Eigen::Vector2d& apart, double later) const {
+  const LagDensity density(beam_);
+  const WaveCovariance footprint = waves_.Between(apart, later);
+  if (later == 0) return SharedBy(footprint, sea_.at_once().MeanPairs(density, apart));
+  return SharedBy(footprint, SlopeLags(sea_.points(), sea_.waves().motion(), later).MeanPairs(density, apart));
+}
+
+SharedWaves BeamCorrelation::InCell(const Cell& cell) const {
+  return SharedBy(waves_.InCell(cell),
+                  sea_.at_once().MeanPairs(LagDensity(beam_, cell.side, cell.orientation), Eigen::Vector2d::Zero()));
+}
+
+}  // namespace albtpu

@@ -1,0 +1,215 @@
+// The correlation of pulses against tracing through seas that move: many pulses in each realization. A quick run tries
+// two seas; all twelve, with more realizations, by
+//     ALBTPU_EVERY_CASE=1 correlation_validation_test
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <vector>
+
+#include "sea/angle.h"
+#include "sea/correlation/pulse_correlation.h"
+#include "tests/validation/physics/moving_sea.h"
+#include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/response_comparison.h"
+
+namespace albtpu {
+namespace {
+
+constexpr std::uint64_t kSeed = 20261126;
+constexpr int kRays = 60;
+
+bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+
+struct Lag {
+  Eigen::Vector2d apart;
+  std::size_t time;  // in kTimes
+};
+const std::vector<double> kTimes = {0, 0.1, 0.3, 0.8};  // s
+const std::array<Lag, 8> kLags = {{{{0.5, 0}, 0},
+                                   {{0, 1}, 0},
+                                   {{-1.5, 1.5}, 0},
+                                   {{4, -1}, 0},
+                                   {{0, 0}, 1},
+                                   {{0.7, 0}, 2},
+                                   {{-0.7, 0}, 2},
+                                   {{0.5, -1}, 3}}};
+constexpr std::array kSides = {0.5, 1.0, 2.0, 4.0, 8.0};  // m
+constexpr int kPulses = 6;                                // in a cell
+
+struct Case {
+  BeamOptions beam;
+  WaveMotion motion;
+  double orientation;  // of cells
+};
+
+Case CaseOf(int sea) {
+  constexpr std::array kIncidence = {0.0, 20.0, 10.0, 20.0};
+  const bool gaussian = sea % 3 == 1;
+  Case made{{.incidence = RadiansOfDegrees(kIncidence[sea % 4]),
+             .azimuth = RadiansOfDegrees(50.0 * sea),
+             .footprint = gaussian ? 0.5 + 0.1 * (sea % 2) : 0.6 + 0.2 * (sea % 3),
+             .profile = gaussian ? BeamProfile::kGaussian : BeamProfile::kUniform},
+            {.travel = sea % 4 == 3 ? WaveTravel::kBothWays : WaveTravel::kOneWay},
+            0.3 * sea};
+  return made;
+}
+
+// Sums over the pulses of some realizations, and the covariances and variances that follow.
+constexpr int kQuantities = 3;  // horizontal, vertical, height
+using Values = Eigen::Array<double, kQuantities, 1>;
+Values Product(const TracedPulse& a, const TracedPulse& b) {
+  return {a[0] * b[0] + a[1] * b[1], a[2] * b[2], a[3] * b[3]};
+}
+
+struct Sums {
+  double pulses = 0, pairs = 0, cells = 0;
+  TracedPulse mean = TracedPulse::Zero();
+  Values square = Values::Zero();
+  std::array<Values, kLags.size()> pair;
+  std::array<Values, kSides.size()> cell;
+
+  Sums() {
+    pair.fill(Values::Zero());
+    cell.fill(Values::Zero());
+  }
+  void Add(const Sums& other, double sign = 1) {
+    pulses += sign * other.pulses;
+    pairs += sign * other.pairs;
+    cells += sign * other.cells;
+    mean += sign * other.mean;
+    square += sign * other.square;
+    for (std::size_t i = 0; i < pair.size(); ++i) pair[i] += sign * other.pair[i];
+    for (std::size_t i = 0; i < cell.size(); ++i) cell[i] += sign * other.cell[i];
+  }
+};
+
+// Of lags and of means over cells, over the variance of a pulse.
+using Ratios = Eigen::Array<double, kQuantities, kLags.size() + kSides.size()>;
+Ratios RatiosOf(const Sums& sums) {
+  const TracedPulse mean = sums.mean / sums.pulses;
+  const Values bias = Product(mean, mean), variance = sums.square / sums.pulses - bias;
+  Ratios ratios;
+  for (std::size_t i = 0; i < kLags.size(); ++i) ratios.col(i) = (sums.pair[i] / sums.pairs - bias) / variance;
+  for (std::size_t i = 0; i < kSides.size(); ++i)
+    ratios.col(kLags.size() + i) = (sums.cell[i] / sums.cells - bias) / variance;
+  return ratios;
+}
+
+Sums Trace(const MovingSea& sea, const Case& made, std::uint32_t cell, std::uint32_t realization) {
+  constexpr int kAnchors = 60, kCells = 30;
+  const std::vector<HeightField> surfaces = sea.Draw(NormalStream(kSeed, cell, realization), kTimes);
+  const PulseTracer tracer(made.beam, kRefractiveIndex, kRays);
+  UniformStream random(kSeed, cell, realization, 5000);
+  // A metre and a half is left beside the edge, for the footprint and for the heights of the waves.
+  const auto place = [&](double margin) {
+    const double room = MovingSea::kLength / 2 - 1.5 - margin;
+    const double x = room * (2 * random.Next() - 1), y = room * (2 * random.Next() - 1);
+    return Eigen::Vector2d(x, y);
+  };
+  Sums sums;
+  const auto count = [&](const TracedPulse& pulse) {
+    sums.pulses += 1;
+    sums.mean += pulse;
+    sums.square += Product(pulse, pulse);
+  };
+  for (int a = 0; a < kAnchors; ++a) {
+    const Eigen::Vector2d at = place(4);
+    const TracedPulse first = tracer(surfaces[0], at);
+    count(first);
+    sums.pairs += 1;
+    for (std::size_t i = 0; i < kLags.size(); ++i) {
+      const TracedPulse second = tracer(surfaces[kLags[i].time], at + kLags[i].apart);
+      count(second);
+      sums.pair[i] += Product(first, second);
+    }
+  }
+  const Eigen::Vector2d x(std::cos(made.orientation), std::sin(made.orientation)), y(-x.y(), x.x());
+  for (int c = 0; c < kCells; ++c) {
+    sums.cells += 1;
+    for (std::size_t i = 0; i < kSides.size(); ++i) {
+      const Eigen::Vector2d centre = place(kSides[i] * std::numbers::sqrt2 / 2);
+      TracedPulse mean = TracedPulse::Zero();
+      for (int p = 0; p < kPulses; ++p) {
+        const double u = random.Next() - 0.5, v = random.Next() - 0.5;
+        const TracedPulse pulse = tracer(surfaces[0], centre + kSides[i] * (u * x + v * y));
+        count(pulse);
+        mean += pulse / kPulses;
+      }
+      sums.cell[i] += Product(mean, mean);
+    }
+  }
+  return sums;
+}
+
+Ratios Theory(const HarmonicSpectrum& spectrum, const Case& made) {
+  const WaveCorrelation sea(spectrum, made.motion);
+  const BeamCorrelation beam(sea, made.beam, kRefractiveIndex);
+  Ratios ratios;
+  for (std::size_t i = 0; i < kLags.size(); ++i) {
+    const PulseCorrelation found = CorrelationOf(beam.Between(kLags[i].apart, kTimes[kLags[i].time]), beam.pulse());
+    ratios.col(i) << found.horizontal, found.vertical, found.height;
+  }
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    const PulseCorrelation found = CorrelationOf(beam.InCell({kSides[i], made.orientation}), beam.pulse());
+    ratios.col(kLags.size() + i) << MeanOfPulses(found.horizontal, kPulses), MeanOfPulses(found.vertical, kPulses),
+        MeanOfPulses(found.height, kPulses);
+  }
+  return ratios;
+}
+
+TEST(PulseCorrelation, AgreesWithTracingThroughMovingSeas) {
+  const std::vector<ResponseSea> seas = ResponseSeas();
+  const char* const quantity[] = {"horizontal", "vertical", "height"};
+  const int realizations = EveryCase() ? 240 : 40;
+  const std::vector<int> chosen =
+      EveryCase() ? std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11} : std::vector<int>{2, 5};
+  const int comparisons = static_cast<int>(chosen.size()) * Ratios::SizeAtCompileTime;
+  const double k = StandardErrorsFor(comparisons);
+  double squares = 0;
+  int beyond = 0;
+  for (const int s : chosen) {
+    const Case made = CaseOf(s);
+    const HarmonicSpectrum spectrum = WithoutShortWaves(seas[s].spectrum);
+    const MovingSea sea(spectrum, made.motion);
+    std::vector<Sums> parts(realizations);
+    tbb::parallel_for(0, realizations, [&](int r) { parts[r] = Trace(sea, made, s, r); });
+    Sums all;
+    for (const Sums& part : parts) all.Add(part);
+    const Ratios traced = RatiosOf(all), theory = Theory(spectrum, made);
+    // The jackknife over realizations, which are independent.
+    Ratios scatter = Ratios::Zero();
+    for (const Sums& part : parts) {
+      Sums others = all;
+      others.Add(part, -1);
+      scatter += (RatiosOf(others) - traced).square();
+    }
+    const Ratios errors = (scatter * (realizations - 1.0) / realizations).sqrt();
+    std::printf("%s, %.0f degrees, %.1f m\n", seas[s].name.c_str(), DegreesOfRadians(made.beam.incidence),
+                made.beam.footprint);
+    for (int q = 0; q < kQuantities; ++q) {
+      std::printf("  %-10s", quantity[q]);
+      for (Eigen::Index i = 0; i < traced.cols(); ++i) {
+        const double departure = theory(q, i) - traced(q, i);
+        std::printf(" %6.3f%+.3f(%.0f)", theory(q, i), -departure, 1000 * errors(q, i));
+        squares += std::pow(departure / errors(q, i), 2);
+        if (std::abs(departure) > 3 * errors(q, i)) ++beyond;
+        EXPECT_LE(std::abs(departure), std::max(0.01, k * errors(q, i)))
+            << seas[s].name << ", " << quantity[q] << ", " << i << ": theory " << theory(q, i) << ", traced "
+            << traced(q, i) << ", standard error " << errors(q, i);
+      }
+      std::printf("\n");
+    }
+  }
+  std::printf("%d comparisons: rms %.2f standard errors, %d beyond 3\n", comparisons, std::sqrt(squares / comparisons),
+              beyond);
+}
+
+}  // namespace
+}  // namespace albtpu
