@@ -30,7 +30,7 @@ PulseCorrelation CorrelatedPulses::Between(double x, double y, double later) con
   return CorrelationOf(parts_->beam.Between({x, y}, later), parts_->beam.pulse());
 }
 
-PulseCorrelation CorrelatedPulses::InCell(const Cell& cell) const {
+PulseCorrelation CorrelatedPulses::InCell(const SurfaceCell& cell) const {
   return CorrelationOf(parts_->beam.InCell(cell), parts_->beam.pulse());
 }
 

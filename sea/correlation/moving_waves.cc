@@ -194,7 +194,7 @@ WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double late
   return {SlopesOf(slopes[0], slopes[1], slopes[2]), heights};
 }
 
-WaveCovariance FootprintWaves::InCell(const Cell& cell) const {
+WaveCovariance FootprintWaves::InCell(const SurfaceCell& cell) const {
   const Eigen::ArrayXXd window = CellWindowOf(cell.side);
   Eigen::ArrayXXd weights(window.rows(), 2 * window.cols());  // of the real and the imaginary part
   for (Eigen::Index m = 0; m < window.cols(); ++m) {

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-#include "sea/correlation/correlated_pulses.h"
+#include "sea/correlation/correlation.h"
 #include "sea/response/closed_form.h"
 #include "sea/spectra/harmonic_spectrum.h"
 
@@ -39,7 +39,7 @@ class FootprintWaves {
 
   // The variance of the mean over the cell, at one instant: the mean of Between() over all pairs of its points, the
   // integral of Psi k k^T W^2 W_a^2 dk with W_a = sinc(k_x a / 2) sinc(k_y a / 2) on the axes of the cell.
-  WaveCovariance InCell(const Cell& cell) const;
+  WaveCovariance InCell(const SurfaceCell& cell) const;
 
   const WaveHarmonics& harmonics() const { return harmonics_; }
 

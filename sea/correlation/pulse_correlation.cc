@@ -67,7 +67,7 @@ SharedWaves BeamCorrelation::Between(const Eigen::Vector2d& apart, double later)
   return SharedBy(footprint, SlopeLags(sea_.points(), sea_.waves().motion(), later).MeanPairs(density, apart));
 }
 
-SharedWaves BeamCorrelation::InCell(const Cell& cell) const {
+SharedWaves BeamCorrelation::InCell(const SurfaceCell& cell) const {
   return SharedBy(waves_.InCell(cell),
                   sea_.at_once().MeanPairs(LagDensity(beam_, cell.side, cell.orientation), Eigen::Vector2d::Zero()));
 }

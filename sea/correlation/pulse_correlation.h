@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "sea/correlation/correlation.h"
 #include "sea/correlation/moving_waves.h"
 #include "sea/correlation/slope_lags.h"
 
@@ -54,7 +55,7 @@ class BeamCorrelation {
   SharedWaves Between(const Eigen::Vector2d& apart, double later) const;
 
   // Of the mean over a cell, of pulses that see the sea at one instant.
-  SharedWaves InCell(const Cell& cell) const;
+  SharedWaves InCell(const SurfaceCell& cell) const;
 
  private:
   SharedWaves SharedBy(const WaveCovariance& footprint, const Eigen::Matrix3d& pairs) const;

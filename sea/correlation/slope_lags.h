@@ -21,8 +21,8 @@ class SlopeLags {
   // R_xx, R_xy and R_yy at the vector `lag`, 1 mm to 90 m long.
   Eigen::Array3d At(const Eigen::Vector2d& lag) const;
 
-  // The means over `density` of products of R_xx, R_xy and R_yy, as MeanOfForms() takes them (slope_covariance.h), where
-  // the second of the two footprints lies `apart`. The density reaches 90 m at most.
+  // The means over `density` of products of R_xx, R_xy and R_yy, as MeanOfForms() takes them (slope_covariance.h),
+  // where the second of the two footprints lies `apart`. The density reaches 90 m at most.
   Eigen::Matrix3d MeanPairs(const LagDensity& density, const Eigen::Vector2d& apart) const;
 
  private:
