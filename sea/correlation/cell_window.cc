@@ -136,10 +136,9 @@ LagDensity::LagDensity(const BeamOptions& beam, double side, double orientation)
       along_(std::cos(beam.azimuth), std::sin(beam.azimuth)),
       side_(side),
       axis_(std::cos(orientation), std::sin(orientation)) {
-  const double width =
-      beam.footprint * (beam.profile == BeamProfile::kGaussian ? kGaussianReach : 1) / std::cos(beam.incidence);
-  reach_ = width + std::numbers::sqrt2 * side;
-  over_cell_ = side < width / 2;
+  width_ = beam.footprint * (beam.profile == BeamProfile::kGaussian ? kGaussianReach : 1) / std::cos(beam.incidence);
+  reach_ = width_ + std::numbers::sqrt2 * side;
+  over_cell_ = side < width_ / 2;
   nodes_ = over_cell_ && side > 0 ? SquareNodes(side, axis_) : OverlapNodes(beam, along_);
 }
 
@@ -159,6 +158,11 @@ double LagDensity::operator()(const Eigen::Vector2d& lag) const {
   }
   const Eigen::Vector2d other(-axis_.y(), axis_.x());
   const double x = axis_.dot(lag) / side_, y = other.dot(lag) / side_;
+  // Beyond the cell and a footprint there is nothing, and where no edge is within a footprint the mean is the value.
+  const double far_x = std::abs(x), far_y = std::abs(y), margin = width_ / side_;
+  if (std::max(far_x, far_y) >= 1 + margin) return 0;
+  if (std::min(far_x, far_y) >= margin && std::max(far_x, far_y) <= 1 - margin)
+    return (1 - far_x) * (1 - far_y) / (side_ * side_);
   const double ax = axis_.x() / side_, ay = axis_.y() / side_;
   for (const Node& node : nodes_) {
     const double to_x = std::abs(x - ax * node.at.x() - ay * node.at.y());

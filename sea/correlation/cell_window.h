@@ -45,7 +45,7 @@ class LagDensity {
   Eigen::Vector2d along_;  // the unit vector of the azimuth
   double side_ = 0;        // 0: no cell
   Eigen::Vector2d axis_ = {1, 0};
-  double reach_;
+  double width_, reach_;     // m, of the footprint's density and of the whole
   bool over_cell_ = false;   // the convolution is a sum over the cell, which is narrower, and not over the footprint
   std::vector<Node> nodes_;  // of the narrower of the two
 };

@@ -148,9 +148,19 @@ FootprintWaves MovingWaves::Under(const BeamOptions& beam) const {
   return {Weighted(weights.array().square().matrix()), motion_};
 }
 
+WaveCovariance FootprintWaves::Whole() const {
+  const auto total = [](const Eigen::MatrixXcd& harmonics) -> Eigen::ArrayXd {
+    return 2 * std::numbers::pi * harmonics.col(0).real().array();
+  };
+  const Eigen::ArrayXd sum = total(harmonics_.sum);
+  return {SlopesOf(sum.sum(), total(harmonics_.cosine).sum(), total(harmonics_.sine).sum()),
+          (sum / HankelLattice::Shared().wavenumbers().square()).sum()};
+}
+
 // With z = k |apart| and the direction beta of `apart`, the integral over psi of F cos(z cos(psi - beta) - omega later)
 // is 2 pi times the sum over n of J_n(z) Re(i^n f_n exp(i n beta) exp(-i omega later)), where n and -n add alike.
 WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double later) const {
+  if (apart.isZero(0) && later == 0) return Whole();
   const HankelLattice& lattice = HankelLattice::Shared();
   const double distance = apart.norm(), beta = distance == 0 ? 0 : std::atan2(apart.y(), apart.x());
   const double time = std::abs(later);

@@ -37,6 +37,9 @@ class FootprintWaves {
   // A tenth of a millisecond.
   WaveCovariance Between(const Eigen::Vector2d& apart, double later) const;
 
+  // Of one footprint with itself.
+  WaveCovariance Whole() const;
+
   // The variance of the mean over the cell, at one instant: the mean of Between() over all pairs of its points, the
   // integral of Psi k k^T W^2 W_a^2 dk with W_a = sinc(k_x a / 2) sinc(k_y a / 2) on the axes of the cell.
   WaveCovariance InCell(const SurfaceCell& cell) const;
@@ -64,7 +67,7 @@ class MovingWaves {
  private:
   // The harmonics of the waves times `weights` at kDirections directions of the half plane; one column for all
   // directions, or one for each.
-  static constexpr int kDirections = 32;
+  static constexpr int kDirections = 24;
   WaveHarmonics Weighted(const Eigen::MatrixXd& weights) const;
 
   WaveMotion motion_;

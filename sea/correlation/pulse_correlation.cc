@@ -23,7 +23,7 @@ WaveCorrelation::WaveCorrelation(const HarmonicSpectrum& spectrum, const WaveMot
     : waves_(spectrum, motion),
       points_(waves_.AtPoints()),
       at_once_(points_, motion, 0),
-      slopes_(SlopeSpectrum(spectrum).Covariance()) {}
+      slopes_(points_.Whole().slopes) {}
 
 BeamCorrelation::BeamCorrelation(const WaveCorrelation& sea, const BeamOptions& beam, double refractive_index)
     : sea_(sea), beam_(beam), waves_(sea.waves().Under(beam)) {

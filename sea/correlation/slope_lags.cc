@@ -45,6 +45,9 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
   Eigen::MatrixXf columns(lattice.size(), 6);
   for (int n = 0; n < kHarmonicOrders; ++n) {
     if (symmetric_ && n % 2 == 1) continue;
+    // Seas have few harmonics: beyond the last ones there is rounding alone.
+    const double part = waves.sum.col(n).cwiseAbs().sum() + waves.cosine.col(n).cwiseAbs().sum();
+    if (part < 1e-10 * waves.sum.col(0).cwiseAbs().sum()) continue;
     const double sign = (n % 4 < 2 ? 1 : -1) * (n % 2 == 1 && later < 0 ? -1 : 1);
     const Eigen::ArrayXd factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign * turns.col(n % 2);
     const Eigen::ArrayXcd functions[] = {0.5 * (waves.sum.col(n) + waves.cosine.col(n)), 0.5 * waves.sine.col(n),

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <string>
-#include <string_view>
 
 #include "absl/strings/str_cat.h"
 #include "sea/angle.h"
@@ -19,18 +18,18 @@ constexpr double kFarthest = 60;  // m, of two pulses
 class Checks {
  public:
   // sea.proto states the same ranges.
-  void InRange(const std::string& path, double number, double lowest, double highest, std::string_view unit) {
+  void InRange(const std::string& path, double number, double lowest, double highest, const char* unit) {
     if (number >= lowest && number <= highest) return;
     Add(path, absl::StrCat(path, " is ", number, unit, " (expected ", lowest, " to ", highest, "); correct it"));
   }
-  void AtMost(std::string_view path, int count, int most) {
+  void AtMost(const std::string& path, int count, int most) {
     if (count > most)
       Add(path, absl::StrCat(path, " has ", count, " entries (", most, " at most); send several requests"));
   }
   absl::Status ToStatus() const { return violations_.ToStatus(); }
 
  private:
-  void Add(std::string_view path, std::string_view text) {
+  void Add(const std::string& path, const std::string& text) {
     if (count_++ < kMaxSeaViolations) violations_.Add(path, text);
   }
 

@@ -56,6 +56,7 @@ WaveCovariance SumOfWaves(const HarmonicSpectrum& sea, const BeamOptions& beam, 
                           const Eigen::Vector2d& apart, double later, const SurfaceCell* cell = nullptr) {
   WaveCovariance sum{Eigen::Matrix2d::Zero(), 0};
   ForEachWave(Finer(sea, 8), 96, [&](double variance, const Eigen::Vector2d& k) {
+    if (std::abs(variance) < 1e-12) return;  // of 3e-3 in all
     const double psi = std::atan2(k.y(), k.x()), c = std::cos(psi - motion.towards);
     if (motion.travel == WaveTravel::kOneWay) variance *= 1 + 2 * c / (1 + c * c);
     double power = variance * FootprintPower(beam, k.norm(), psi) *

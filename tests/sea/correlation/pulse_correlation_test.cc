@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sea/correlation/correlated_pulses.h"
 #include "sea/response/sea_response.h"
 #include "sea/spectra/described_sea.h"
 #include "tests/sea/response/seas.h"

@@ -11,6 +11,26 @@ TAIL_RULE_RELAX: TailRule
 TAIL_RULE_UNSPECIFIED: TailRule
 TAIL_RULE_WIND: TailRule
 
+class CorrelationQuery(_message.Message):
+    __slots__ = ["azimuth", "cells", "footprint", "gaussian", "incidence", "refractive_index", "separations", "waves_travel_both_ways"]
+    AZIMUTH_FIELD_NUMBER: _ClassVar[int]
+    CELLS_FIELD_NUMBER: _ClassVar[int]
+    FOOTPRINT_FIELD_NUMBER: _ClassVar[int]
+    GAUSSIAN_FIELD_NUMBER: _ClassVar[int]
+    INCIDENCE_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
+    SEPARATIONS_FIELD_NUMBER: _ClassVar[int]
+    WAVES_TRAVEL_BOTH_WAYS_FIELD_NUMBER: _ClassVar[int]
+    azimuth: float
+    cells: _containers.RepeatedCompositeFieldContainer[SurfaceCell]
+    footprint: float
+    gaussian: bool
+    incidence: float
+    refractive_index: float
+    separations: _containers.RepeatedCompositeFieldContainer[PulseSeparation]
+    waves_travel_both_ways: bool
+    def __init__(self, incidence: _Optional[float] = ..., azimuth: _Optional[float] = ..., footprint: _Optional[float] = ..., gaussian: bool = ..., refractive_index: _Optional[float] = ..., waves_travel_both_ways: bool = ..., separations: _Optional[_Iterable[_Union[PulseSeparation, _Mapping]]] = ..., cells: _Optional[_Iterable[_Union[SurfaceCell, _Mapping]]] = ...) -> None: ...
+
 class FrequencySpectrum(_message.Message):
     __slots__ = ["cosines", "densities", "frequencies", "record_length", "sines", "trusted_up_to"]
     COSINES_FIELD_NUMBER: _ClassVar[int]
@@ -26,6 +46,38 @@ class FrequencySpectrum(_message.Message):
     sines: _containers.RepeatedScalarFieldContainer[float]
     trusted_up_to: float
     def __init__(self, frequencies: _Optional[_Iterable[float]] = ..., densities: _Optional[_Iterable[float]] = ..., cosines: _Optional[_Iterable[float]] = ..., sines: _Optional[_Iterable[float]] = ..., trusted_up_to: _Optional[float] = ..., record_length: _Optional[float] = ...) -> None: ...
+
+class PulseCorrelation(_message.Message):
+    __slots__ = ["height", "horizontal", "slope_x", "slope_y", "vertical"]
+    HEIGHT_FIELD_NUMBER: _ClassVar[int]
+    HORIZONTAL_FIELD_NUMBER: _ClassVar[int]
+    SLOPE_X_FIELD_NUMBER: _ClassVar[int]
+    SLOPE_Y_FIELD_NUMBER: _ClassVar[int]
+    VERTICAL_FIELD_NUMBER: _ClassVar[int]
+    height: float
+    horizontal: float
+    slope_x: float
+    slope_y: float
+    vertical: float
+    def __init__(self, slope_x: _Optional[float] = ..., slope_y: _Optional[float] = ..., horizontal: _Optional[float] = ..., vertical: _Optional[float] = ..., height: _Optional[float] = ...) -> None: ...
+
+class PulseSeparation(_message.Message):
+    __slots__ = ["seconds", "x", "y"]
+    SECONDS_FIELD_NUMBER: _ClassVar[int]
+    X_FIELD_NUMBER: _ClassVar[int]
+    Y_FIELD_NUMBER: _ClassVar[int]
+    seconds: float
+    x: float
+    y: float
+    def __init__(self, x: _Optional[float] = ..., y: _Optional[float] = ..., seconds: _Optional[float] = ...) -> None: ...
+
+class SeaCorrelation(_message.Message):
+    __slots__ = ["cells", "separations"]
+    CELLS_FIELD_NUMBER: _ClassVar[int]
+    SEPARATIONS_FIELD_NUMBER: _ClassVar[int]
+    cells: _containers.RepeatedCompositeFieldContainer[PulseCorrelation]
+    separations: _containers.RepeatedCompositeFieldContainer[PulseCorrelation]
+    def __init__(self, separations: _Optional[_Iterable[_Union[PulseCorrelation, _Mapping]]] = ..., cells: _Optional[_Iterable[_Union[PulseCorrelation, _Mapping]]] = ...) -> None: ...
 
 class SeaState(_message.Message):
     __slots__ = ["components", "frequency_spectrum", "tail_from", "tail_rule", "water_depth", "wavenumber_spectrum", "wind_from", "wind_speed"]
@@ -64,6 +116,14 @@ class SeaSummary(_message.Message):
     wind_speed: float
     x_azimuth: float
     def __init__(self, x_azimuth: _Optional[float] = ..., significant_wave_height: _Optional[float] = ..., wind_speed: _Optional[float] = ..., water_depth: _Optional[float] = ..., tail_from: _Optional[float] = ..., share_measured: _Optional[float] = ..., assumptions: _Optional[_Iterable[str]] = ...) -> None: ...
+
+class SurfaceCell(_message.Message):
+    __slots__ = ["orientation", "side"]
+    ORIENTATION_FIELD_NUMBER: _ClassVar[int]
+    SIDE_FIELD_NUMBER: _ClassVar[int]
+    orientation: float
+    side: float
+    def __init__(self, side: _Optional[float] = ..., orientation: _Optional[float] = ...) -> None: ...
 
 class WaveComponent(_message.Message):
     __slots__ = ["gamma", "peak_period", "significant_wave_height", "spread", "travels_towards"]

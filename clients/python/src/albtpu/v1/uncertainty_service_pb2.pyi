@@ -11,20 +11,24 @@ from typing import ClassVar as _ClassVar, Iterable as _Iterable, Mapping as _Map
 DESCRIPTOR: _descriptor.FileDescriptor
 
 class CompileSeaRequest(_message.Message):
-    __slots__ = ["sea", "with_file"]
+    __slots__ = ["correlation", "sea", "with_file"]
+    CORRELATION_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     WITH_FILE_FIELD_NUMBER: _ClassVar[int]
+    correlation: _sea_pb2.CorrelationQuery
     sea: _sea_pb2.SeaState
     with_file: bool
-    def __init__(self, sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., with_file: bool = ...) -> None: ...
+    def __init__(self, sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., with_file: bool = ..., correlation: _Optional[_Union[_sea_pb2.CorrelationQuery, _Mapping]] = ...) -> None: ...
 
 class CompileSeaResponse(_message.Message):
-    __slots__ = ["file", "table"]
+    __slots__ = ["correlation", "file", "table"]
+    CORRELATION_FIELD_NUMBER: _ClassVar[int]
     FILE_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
+    correlation: _sea_pb2.SeaCorrelation
     file: bytes
     table: _table_pb2.Table
-    def __init__(self, table: _Optional[_Union[_table_pb2.Table, _Mapping]] = ..., file: _Optional[bytes] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.Table, _Mapping]] = ..., file: _Optional[bytes] = ..., correlation: _Optional[_Union[_sea_pb2.SeaCorrelation, _Mapping]] = ...) -> None: ...
 
 class GetTableRequest(_message.Message):
     __slots__ = ["table"]

@@ -172,9 +172,9 @@ class UncertaintyServiceServicer(object):
 
     def CompileSea(self, request, context):
         """The table of a sea: axes, quantities and provenance, and on request all values as a file. Queries with the same sea
-        are answered from this table.
+        are answered from this table. On request also what neighbouring pulses share of the sea.
 
-        Errors: those of a sea, as for `QueryPulses`.
+        Errors: those of a sea, as for `QueryPulses`. INVALID_ARGUMENT: a field of `correlation` that is out of its range.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
