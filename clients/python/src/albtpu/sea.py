@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, Union
 
@@ -49,7 +50,8 @@ class Correlation:
 class SeaCorrelator(Protocol):
     """What computes the correlation of pulses over a sea: an albtpu.Service."""
 
-    def correlation(self, sea: Sea, **question: Any) -> Correlation: ...
+    @property
+    def correlation(self) -> Callable[..., Correlation]: ...
 
 
 class SeaCompiler(Protocol[Compiled]):
