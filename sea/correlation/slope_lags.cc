@@ -43,11 +43,13 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
   const WaveHarmonics& waves = points.harmonics();
   for (Eigen::MatrixXd& sum : sum_) sum = Eigen::MatrixXd::Zero(lags, 2 * kHarmonicOrders);
   Eigen::MatrixXf columns(lattice.size(), 6);
+  int used = 0;  // orders up to the last harmonic of the sea
   for (int n = 0; n < kHarmonicOrders; ++n) {
     if (symmetric_ && n % 2 == 1) continue;
     // Seas have few harmonics: beyond the last ones there is rounding alone.
     const double part = waves.sum.col(n).cwiseAbs().sum() + waves.cosine.col(n).cwiseAbs().sum();
     if (part < 1e-10 * waves.sum.col(0).cwiseAbs().sum()) continue;
+    used = n + 1;
     const double sign = (n % 4 < 2 ? 1 : -1) * (n % 2 == 1 && later < 0 ? -1 : 1);
     const Eigen::ArrayXd factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign * turns.col(n % 2);
     const Eigen::ArrayXcd functions[] = {0.5 * (waves.sum.col(n) + waves.cosine.col(n)), 0.5 * waves.sine.col(n),
@@ -70,7 +72,7 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
       harmonics(2 * n + 1, d) = -std::sin(n * beta);
     }
   }
-  for (int f = 0; f < 3; ++f) on_rings_[f] = sum_[f] * harmonics;
+  for (int f = 0; f < 3; ++f) on_rings_[f] = sum_[f].leftCols(2 * used) * harmonics.topRows(2 * used);
 }
 
 Eigen::Array3d SlopeLags::At(const Eigen::Vector2d& lag) const {

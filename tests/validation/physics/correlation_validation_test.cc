@@ -14,8 +14,8 @@
 
 #include "sea/angle.h"
 #include "sea/correlation/pulse_correlation.h"
+#include "sea/samples.h"
 #include "tests/validation/physics/moving_sea.h"
-#include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/response_comparison.h"
 
 namespace albtpu {
@@ -172,7 +172,8 @@ Ratios Theory(const HarmonicSpectrum& spectrum, const Case& made) {
   return ratios;
 }
 
-// Bounds of 0.01, and of as many standard errors as the greatest of the deviations of all seas has.
+// Bounds of 0.01, or of as many standard errors, from so many realizations, as the greatest of the deviations of all
+// seas exceeds with a probability of 5 %.
 class PulseCorrelations : public testing::TestWithParam<int> {};
 
 TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
@@ -197,7 +198,7 @@ TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
   }
   const Ratios errors = (scatter * (realizations - 1.0) / realizations).sqrt();
   const Ratios departures = theory - traced;
-  const double k = StandardErrorsFor(kSeas * Ratios::SizeAtCompileTime);
+  const double k = StudentQuantile(realizations - 1, 0.025 / (kSeas * Ratios::SizeAtCompileTime));
   const char* const quantity[] = {"horizontal", "vertical", "height"};
   std::printf("%s, %.0f degrees, %.1f m %s; theory, traced - theory and 1000 standard errors of lags, then cells\n",
               known.name.c_str(), DegreesOfRadians(made.beam.incidence), made.beam.footprint,
