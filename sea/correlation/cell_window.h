@@ -31,7 +31,7 @@ class LagDensity {
   // Beyond it the density is 0, or below 1e-7 of its maximum, m.
   double reach() const { return reach_; }
 
-  // The density of a footprint as points of equal distance to others, with weights that add up to 1.
+  // The density of the footprint, or of the cell where that is narrower, as points with weights that add up to 1.
   struct Node {
     Eigen::Vector2d at;
     double weight;
