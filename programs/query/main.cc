@@ -36,6 +36,7 @@ int Main(int argc, char** argv) {
   AddLasCommand(program, run);
   AddPlanCommand(program, run);
   AddReportCommand(program, run);
+  AddSurfaceCommand(program, run);
   AddCrossCheckCommand(program, run);
   AddTrajectoryCommand(program, run);
   AddSeaCommand(program, run);

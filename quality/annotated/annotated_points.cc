@@ -59,6 +59,8 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"CovarianceXZ", &AnnotatedPoint::covariance_xz},
                                 FloatOfPoint{"CovarianceYZ", &AnnotatedPoint::covariance_yz},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
+                                FloatOfPoint{"beam_azimuth", &AnnotatedPoint::beam_azimuth},
+                                FloatOfPoint{"footprint", &AnnotatedPoint::footprint},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
 constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m

@@ -58,7 +58,8 @@ struct AnnotatedPoint {
   float thu_sea = 0;
   float variance_x = 0, variance_y = 0, variance_z = 0;
   float covariance_xy = 0, covariance_xz = 0, covariance_yz = 0;
-  float incidence = 0;  // degree
+  float incidence = 0, beam_azimuth = 0;  // degree; clockwise from north, where the beam travels to.
+  float footprint = 0;                    // m
   float depth = 0;
 };
 

@@ -1,0 +1,111 @@
+#include "quality/surface/node.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quality/crosscheck/flight_lines.h"
+#include "sea/angle.h"
+
+namespace albtpu::quality {
+namespace {
+
+// The sea's share of the points of one pass, and of the whole error what is left without it.
+struct PassSea {
+  double of_point = 0, shared = 0;  // Of the vertical error at a fixed place: one point, the mean of many.
+  Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();  // Of a point's error.
+};
+
+struct MeanBeam {
+  double incidence = 0, azimuth = 0, footprint = 0, squared_depth = 0, sea = 0;
+
+  explicit MeanBeam(std::span<const SurfacePoint> points) {
+    double north = 0, east = 0;
+    for (const SurfacePoint& point : points) {
+      incidence += point.incidence;
+      footprint += point.footprint;
+      squared_depth += point.depth * point.depth;
+      sea += point.sea;
+      // Near nadir the azimuth matters little, and scatters.
+      north += point.incidence * std::cos(RadiansOfDegrees(point.azimuth));
+      east += point.incidence * std::sin(RadiansOfDegrees(point.azimuth));
+    }
+    const auto n = static_cast<double>(points.size());
+    incidence /= n, footprint /= n, squared_depth /= n, sea /= n;
+    azimuth = DegreesOfRadians(std::atan2(east, north));
+  }
+};
+
+PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, const NodeSources& sources) {
+  const MeanBeam beam(points);
+  PassSea sea;
+  if (!(beam.sea > 0)) return sea;  // Of dry points.
+  const SeaInCell waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint);
+  // Slopes of waves shift points with the depth. What the stated variance has beyond that is the height of unseen
+  // waves, of a surface that is not that of the pulse.
+  const double of_slopes = beam.squared_depth * waves.pulse(2, 2);
+  const double of_heights = waves.height_pulse > 0 ? std::max(beam.sea - of_slopes, 0.0) : 0;
+  const double scale = of_slopes > 0 ? (beam.sea - of_heights) / of_slopes * beam.squared_depth : 0;
+  const double heights_shared = of_heights > 0 ? of_heights * waves.height_cell / waves.height_pulse : 0;
+  sea.whole = scale * waves.pulse;
+  sea.whole(2, 2) += of_heights;
+  sea.of_point = g.dot(sea.whole * g);
+  sea.shared = scale * g.dot(waves.cell * g) + heights_shared;
+  return sea;
+}
+
+}  // namespace
+
+double NodeVariance::within_cell(std::size_t points) const {
+  const auto n = static_cast<double>(points);
+  return points > 1 ? n / (n - 1) * std::max(of_point - apart_from_survey(), 0.0) : 0;
+}
+
+NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope,
+                        const NodeSources& sources) {
+  const Eigen::Vector3d g(-slope.x(), -slope.y(), 1);
+  const auto n = static_cast<double>(points.size());
+  NodeVariance variance;
+  double of_line = 0, of_survey = 0;  // Sums of standard deviations.
+  const auto end_line = [&] {
+    variance.line += of_line * of_line / (n * n);
+    of_line = 0;
+  };
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    const SurfacePoint& first = points[begin];
+    if (begin > 0 && (first.flight_line != points[begin - 1].flight_line ||
+                      first.time - points[begin - 1].time > FlightLines::kPause))
+      end_line();
+    for (end = begin + 1; end < points.size(); ++end) {
+      const SurfacePoint& next = points[end];
+      if (next.flight_line != first.flight_line || next.time - points[end - 1].time > kPassPause) break;
+    }
+    const std::span<const SurfacePoint> pass = points.subspan(begin, end - begin);
+    const auto of_pass = static_cast<double>(pass.size());
+    ++variance.passes;
+    const PassSea sea = SeaOf(pass, g, sources);
+    variance.sea += of_pass * (of_pass * sea.shared + (sea.of_point - sea.shared)) / (n * n);
+    variance.of_point += of_pass / n * sea.of_point;
+
+    const HorizontalGroups groups = sources.groups(first.source);
+    for (const SurfacePoint& point : pass) {
+      Eigen::Matrix3d rest;
+      rest << point.xx, point.xy, point.xz, point.xy, point.yy, point.yz, point.xz, point.yz, 0;
+      rest -= sea.whole;
+      rest(2, 2) = 0;
+      const double by_slope = g.dot(rest * g);
+      const auto with_slope = [&](double of_height, double fraction) {
+        return std::max(of_height + fraction * by_slope, 0.0);
+      };
+      const double pulse = with_slope(point.pulse, groups.pulse), line = with_slope(point.line, groups.line);
+      variance.pulse += pulse / (n * n);
+      of_line += std::sqrt(line);
+      of_survey += std::sqrt(with_slope(point.survey, groups.survey));
+      variance.of_point += (pulse + line) / n;
+    }
+  }
+  end_line();
+  variance.survey = of_survey * of_survey / (n * n);
+  return variance;
+}
+
+}  // namespace albtpu::quality

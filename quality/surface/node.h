@@ -1,0 +1,59 @@
+// A node of the surface from the points of its cell, and its uncertainty.
+//
+// With weights 1 / N, and the vertical error of a point at a fixed place, g^T e with g = (-dz/dx, -dz/dy, 1),
+//     var(node) = sum over passes of (n / N)^2 (R + (1 - R) / n) S  +  sum over points of P / N^2
+//               + sum over lines of (n / N)^2 L  +  U:
+// S the sea, P what is drawn anew for each pulse, L what a line shares, U what the survey shares. R is the correlation
+// of the sea's share over the cell (sea/correlation). A pass is what one line sees of the cell at once: the fore and
+// the aft part of a scan see other waves. Bias is not averaged away, and stays apart. docs/surface.md derives this.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "quality/surface/surface_point.h"
+
+namespace albtpu::quality {
+
+// What the sea does to the pulses of one beam: of one pulse, and of the mean over a cell at one instant. On the axes
+// east, north, up.
+struct SeaInCell {
+  Eigen::Matrix3d pulse = Eigen::Matrix3d::Zero(), cell = Eigen::Matrix3d::Zero();  // Of the error, per depth^2.
+  double height_pulse = 0, height_cell = 0;                                         // Of the height of the water, m^2.
+};
+
+// Of the horizontal variance of points without the sea's share: the fractions of the groups, which add up to 1.
+struct HorizontalGroups {
+  double pulse = 1, line = 0, survey = 0;
+};
+
+// What a node needs to know of the sources of its points, by SurfacePoint::source.
+struct NodeSources {
+  // `incidence` and `azimuth` in degree, `footprint` in m.
+  std::function<SeaInCell(std::uint16_t source, double incidence, double azimuth, double footprint)> sea;
+  std::function<HorizontalGroups(std::uint16_t source)> groups;
+};
+
+// Waves are other ones after this time: at 6 m/s and a footprint of 0.6 m the correlation of slopes is 0.92 after 0.1 s
+// and below 0 after 0.5 s. The fore and the aft part of a scan are seconds apart.
+inline constexpr double kPassPause = 0.5;  // s
+
+// Variances at 1 sigma, m^2.
+struct NodeVariance {
+  double pulse = 0, sea = 0, line = 0, survey = 0;
+  int passes = 0;
+  double of_point = 0;  // Of one point, without what the survey shares: the mean.
+
+  double apart_from_survey() const { return pulse + sea + line; }
+  double total() const { return apart_from_survey() + survey; }
+  // Of the heights of `points` points about their mean: what the sample variance estimates.
+  double within_cell(std::size_t points) const;
+};
+
+// Of the mean of `points`, one at least, which are in the order of SurfacePoint::Order. `slope` is that of the bottom,
+// m per m. The points count as spread evenly over the cell.
+NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope, const NodeSources& sources);
+
+}  // namespace albtpu::quality

@@ -1,0 +1,56 @@
+// The seas over which the points of a survey were measured, and what pulses in one cell share of each.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/synchronization/mutex.h"
+#include "quality/surface/node.h"
+#include "sea/correlation/pulse_correlation.h"
+#include "sea/spectra/harmonic_spectrum.h"
+
+namespace albtpu::quality {
+
+// A sea at the time of a file.
+struct SeaOfSource {
+  HarmonicSpectrum spectrum;
+  double x_azimuth = 0;    // rad: the compass direction of the spectrum's axis x
+  double water_index = 0;  // The refractive index that the points were computed with.
+};
+
+// Any number of threads may use it at a time, once all seas are added.
+class SeaSharing {
+ public:
+  explicit SeaSharing(double cell) : cell_(cell) {}  // m
+
+  // The number of the sea.
+  std::uint16_t Add(const SeaOfSource& sea);
+  std::size_t size() const { return seas_.size(); }
+
+  // Angles in degree, `footprint` in m. Between beams at steps of incidence and azimuth it is interpolated, and the
+  // footprint is rounded to 4 %, which changes the correlation by less than 0.01.
+  SeaInCell operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const;
+
+ private:
+  static constexpr int kIncidenceStep = 5, kAzimuths = 16;  // degree; of a turn
+  static constexpr double kMostIncidence = 30;              // degree
+
+  struct Sea {
+    WaveCorrelation waves;
+    double x_azimuth, water_index;
+  };
+  using Key = std::tuple<std::uint16_t, int, int, int>;  // Sea, steps of incidence, azimuth and ln footprint.
+
+  const SeaInCell& At(const Key& key) const;
+
+  double cell_;
+  std::vector<std::unique_ptr<const Sea>> seas_;
+  mutable absl::Mutex mutex_;
+  mutable std::map<Key, std::unique_ptr<const SeaInCell>> known_ ABSL_GUARDED_BY(mutex_);
+};
+
+}  // namespace albtpu::quality

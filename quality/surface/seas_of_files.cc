@@ -1,0 +1,79 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "absl/strings/str_cat.h"
+#include "quality/surface/survey_surface.h"
+#include "sea/angle.h"
+#include "sea/files/sea_series.h"
+#include "sea/sea_state.h"
+#include "sea/sea_time.h"
+
+namespace albtpu::quality {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<double> NumberOf(const Json& in, const char* key) {
+  const Json number = in.is_object() ? in.value(key, Json()) : Json();
+  return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
+}
+
+// In the middle of the records of the sea that the summary names, s since 1970.
+std::optional<double> TimeOf(const Json& sea) {
+  std::optional<double> middle;
+  for (const char* const key : {"first", "last"}) {
+    const Json record = sea.value(key, Json());
+    const Json text = record.is_object() ? record.value("time", Json()) : Json();
+    const std::optional<double> time = text.is_string() ? ParseSeaTime(text.get<std::string>()) : std::nullopt;
+    if (!time.has_value()) return std::nullopt;
+    middle = middle.has_value() ? (*middle + *time) / 2 : *time;
+  }
+  return middle;
+}
+
+absl::Status NeedsTheSea(const AnnotatedLasFile& file, const std::string& why) {
+  return absl::InvalidArgumentError(absl::StrCat(
+      file.path().string(), ": ", why,
+      "; give the sea that it was annotated with by --survey, or by the same flags as albtpu-query las was given"));
+}
+
+}  // namespace
+
+absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annotate::SeaTimeline* seas) {
+  const Json& parameters = file.summary()["parameters"];
+  const Json of_input = file.summary()["input"].value("sea", Json());
+  const Json stated = of_input.is_object() ? of_input : parameters.value("sea", Json());
+  const double index = NumberOf(parameters, "water_index").value_or(kRefractiveIndex);
+  if (seas != nullptr) {
+    if (!stated.is_object()) return NeedsTheSea(file, "was annotated for a wind, not for the waves that are given");
+    std::size_t record = 0;
+    if (seas->by_time()) {
+      const std::optional<double> time = TimeOf(stated);
+      const std::optional<annotate::BetweenRecords> between = time.has_value() ? seas->At(*time) : std::nullopt;
+      if (!between.has_value()) return NeedsTheSea(file, "was not annotated with a time of the sea that is given");
+      record = between->weight < 0.5 ? between->first : between->second;
+    } else {
+      record = seas->fixed().weight < 0.5 ? seas->fixed().first : seas->fixed().second;
+    }
+    DescribedSea sea = Describe(seas->record(record), seas->settings().description());
+    return SeaOfSource{.spectrum = std::move(sea.spectrum), .x_azimuth = sea.x_azimuth, .water_index = index};
+  }
+  if (stated.is_object()) return NeedsTheSea(file, "was annotated for waves, which its summary does not have");
+  const std::optional<double> wind = NumberOf(parameters, "wind_speed");
+  if (!wind.has_value()) return NeedsTheSea(file, "does not state the wind");
+  const double from = NumberOf(parameters, "wind_from").value_or(0);
+  SeaOfSource sea{.spectrum = {}, .x_azimuth = RadiansOfDegrees(from) + std::numbers::pi, .water_index = index};
+  if (*wind > 0) {
+    const WindSea waves{.wind_speed_10m = *wind,
+                        .fetch = NumberOf(parameters, "fetch").value_or(kFullyDeveloped),
+                        .model = &kElfouhailyModel};
+    sea.spectrum = Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics);
+  } else {
+    sea.spectrum = FlatSea(SeaWavenumbers(), 1);
+  }
+  return sea;
+}
+
+}  // namespace albtpu::quality

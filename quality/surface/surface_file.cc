@@ -1,0 +1,105 @@
+#include "quality/surface/surface_file.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "tables/coverage.h"
+#include "tables/s44.h"
+
+namespace albtpu::quality {
+namespace {
+
+const double k95 = VerticalFactor(Coverage::kP95);
+
+struct FloatLayer {
+  const char *name, *long_name;
+  double (*value)(const SurfaceNode& node);
+};
+
+constexpr std::array kFloats = {
+    FloatLayer{"elevation", "elevation of the bottom, upwards, in the vertical datum of the points",
+               [](const SurfaceNode& n) { return n.elevation; }},
+    FloatLayer{"depth", "depth of the bottom, downwards, in the vertical datum of the points",
+               [](const SurfaceNode& n) { return -n.elevation; }},
+    FloatLayer{"water_depth", "mean depth of the points below the water surface",
+               [](const SurfaceNode& n) { return double{n.depth}; }},
+    FloatLayer{"uncertainty", "uncertainty of the elevation at 95 %, without its bias",
+               [](const SurfaceNode& n) { return k95 * std::sqrt(n.variance.total()); }},
+    FloatLayer{"uncertainty_1sigma", "standard deviation of the elevation",
+               [](const SurfaceNode& n) { return std::sqrt(n.variance.total()); }},
+    FloatLayer{"sigma_pulse", "part of the standard deviation: what is drawn anew for each pulse, but for the sea",
+               [](const SurfaceNode& n) { return std::sqrt(n.variance.pulse); }},
+    FloatLayer{"sigma_sea", "part of the standard deviation: the waves, which neighbouring pulses share",
+               [](const SurfaceNode& n) { return std::sqrt(n.variance.sea); }},
+    FloatLayer{"sigma_line", "part of the standard deviation: what the points of a line share",
+               [](const SurfaceNode& n) { return std::sqrt(n.variance.line); }},
+    FloatLayer{"sigma_survey", "part of the standard deviation: what all points share",
+               [](const SurfaceNode& n) { return std::sqrt(n.variance.survey); }},
+    FloatLayer{"bias", "bias of the elevation, which is not taken away", [](const SurfaceNode& n) { return n.bias; }},
+    FloatLayer{"shoalest", "elevation of the highest point", [](const SurfaceNode& n) { return n.shoalest; }},
+    FloatLayer{"shoalest_uncertainty", "uncertainty of the highest point at 95 %",
+               [](const SurfaceNode& n) { return k95 * n.shoalest_sigma; }},
+    FloatLayer{"deviation", "standard deviation of the points about their plane",
+               [](const SurfaceNode& n) { return n.deviation; }},
+    FloatLayer{"predicted_deviation", "the same as the errors of the points predict it",
+               [](const SurfaceNode& n) { return n.points > 1 ? std::sqrt(n.variance.within_cell(n.points)) : NAN; }}};
+
+struct CountLayer {
+  const char *name, *long_name;
+  int (*value)(const SurfaceNode& node);
+};
+
+constexpr std::array kCounts = {
+    CountLayer{"points", "points that the node is made of",
+               [](const SurfaceNode& n) { return static_cast<int>(n.points); }},
+    CountLayer{"left_out", "points that lie too far from the others",
+               [](const SurfaceNode& n) { return static_cast<int>(n.left_out); }},
+    CountLayer{"passes", "times that a line saw the cell", [](const SurfaceNode& n) { return n.variance.passes; }}};
+
+}  // namespace
+
+std::uint8_t OrderOf(const SurfaceNode& node) {
+  const double tvu = k95 * std::sqrt(node.variance.total()) + std::abs(node.bias);
+  const std::optional<S44Order> order = BestOrder(node.thu, tvu, node.depth);
+  return static_cast<std::uint8_t>(1 + (order.has_value() ? static_cast<std::size_t>(*order) : kS44Orders.size()));
+}
+
+SurfaceFile::SurfaceFile(const std::filesystem::path& path, const GridFrame& frame)
+    : file_(path, frame, kTileCells, "Nodes of a survey by airborne lidar bathymetry, and their uncertainty") {
+  for (const FloatLayer& layer : kFloats) {
+    floats_.push_back(file_.Floats(layer.name, layer.long_name, "m"));
+    const std::string_view name = layer.name;
+    if (name == "elevation" || name == "shoalest") file_.Text(floats_.back(), "positive", "up");
+    if (name == "depth") file_.Text(floats_.back(), "positive", "down");
+  }
+  for (const CountLayer& layer : kCounts) counts_.push_back(file_.Counts(layer.name, layer.long_name));
+  order_ = file_.Codes("order_met", "order of IHO S-44 that the node meets", kS44Orders.size() + 1,
+                       "exclusive special order_1a order_1b order_2 none");
+  file_.EndDefinitions();
+}
+
+void SurfaceFile::Put(const TilePlace& tile, std::span<const SurfaceNode> nodes) {
+  const GridFrame& frame = file_.frame();
+  const std::int64_t south = tile.row * kTileCells - frame.first_row;
+  const auto row = static_cast<std::size_t>(static_cast<std::int64_t>(frame.rows) - south - kTileCells);
+  const auto column = static_cast<std::size_t>(tile.column * kTileCells - frame.first_column);
+  const auto put = [&](int variable, auto none, auto value) {
+    std::vector<decltype(none)> values(nodes.size(), none);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::size_t from_north = kTileCells - 1 - i / kTileCells;
+      values[from_north * kTileCells + i % kTileCells] = value(nodes[i]);
+    }
+    file_.Put(variable, row, column, kTileCells, values);
+  };
+  for (std::size_t k = 0; k < kFloats.size(); ++k)
+    put(floats_[k], NetcdfGrid::kNoValue, [&](const SurfaceNode& node) {
+      const double value = node.points > 0 ? kFloats[k].value(node) : NAN;
+      return std::isfinite(value) ? static_cast<float>(value) : NetcdfGrid::kNoValue;
+    });
+  for (std::size_t k = 0; k < kCounts.size(); ++k) put(counts_[k], 0, kCounts[k].value);
+  put(order_, NetcdfGrid::kNoCode,
+      [](const SurfaceNode& node) { return node.points > 0 ? OrderOf(node) : NetcdfGrid::kNoCode; });
+}
+
+}  // namespace albtpu::quality

@@ -1,0 +1,35 @@
+// The surface of a survey from its annotated files: a grid of nodes, and a summary of it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/json_box.h"
+#include "annotate/seas/sea_timeline.h"
+#include "quality/annotated/annotated_points.h"
+#include "quality/surface/sea_sharing.h"
+
+namespace albtpu::quality {
+
+// The sea over which a file was measured: that of `seas` at the time of the file, or, where that is null, the one of
+// the wind and the fetch of its summary. InvalidArgument: what is missing or does not agree with the summary.
+absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annotate::SeaTimeline* seas);
+
+struct SurfaceOptions {
+  double cell = 1;                              // m, 0.1 to 20
+  const annotate::SeaTimeline* seas = nullptr;  // Null: the seas of the winds that the files state.
+};
+
+// Writes surface.nc into `folder`, and returns surface.json. Points lie in a file of that folder meanwhile, which is
+// removed. Memory is that of the points of some tiles. FailedPrecondition where no point has a number.
+absl::StatusOr<annotate::JsonBox> MakeSurface(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
+                                              const std::filesystem::path& folder);
+
+// For the user, some lines.
+std::string SurfaceText(const nlohmann::ordered_json& surface);
+
+}  // namespace albtpu::quality
