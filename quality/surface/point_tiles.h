@@ -15,8 +15,8 @@
 
 namespace albtpu::quality {
 
-// A square of the map of kTileCells by kTileCells cells: column and row of cells begin at multiples of it, eastwards and
-// northwards. In the order of rows, then of columns.
+// A square of the map of kTileCells by kTileCells cells: its first column and row of cells are multiples of that, east
+// and north. In the order of rows, then of columns.
 struct TilePlace {
   std::int64_t row = 0, column = 0;
   auto operator<=>(const TilePlace&) const = default;
