@@ -146,7 +146,7 @@ double LagDensity::OfFootprint(const Eigen::Vector2d& lag) const {
   const double cosine = std::cos(beam_.incidence);
   const double along = cosine * along_.dot(lag), across = along_.x() * lag.y() - along_.y() * lag.x();
   const double area = std::numbers::pi / 4 * beam_.footprint * beam_.footprint;
-  return cosine / area * FootprintOverlap(beam_.profile, std::hypot(along, across) / beam_.footprint);
+  return cosine / area * FootprintOverlap(beam_.profile, std::sqrt(along * along + across * across) / beam_.footprint);
 }
 
 double LagDensity::operator()(const Eigen::Vector2d& lag) const {

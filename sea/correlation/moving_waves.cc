@@ -108,16 +108,18 @@ WaveHarmonics MovingWaves::Weighted(const Eigen::MatrixXd& weights) const {
     all.col(n).real() = parts.col(2 * n);
     all.col(n).imag() = parts.col(2 * n + 1);
   }
-  WaveHarmonics harmonics{all.leftCols(kLast + 1), Eigen::MatrixXcd(all.rows(), kLast + 1),
-                          Eigen::MatrixXcd(all.rows(), kLast + 1)};
-  for (int n = 0; n <= kLast; ++n) {
-    const Eigen::ArrayXcd after = all.col(n + 2);
-    const Eigen::ArrayXcd before =
-        n >= 2 ? Eigen::ArrayXcd(all.col(n - 2)) : Eigen::ArrayXcd(all.col(2 - n).conjugate());
-    harmonics.cosine.col(n) = (before + after) / 2;
-    harmonics.sine.col(n) = (before - after) * std::complex<double>(0, -0.5);
-  }
-  return harmonics;
+  return WaveHarmonics(std::move(all));
+}
+
+Eigen::ArrayXcd WaveHarmonics::cosine(int n) const {
+  if (n >= 2) return (sum(n - 2) + sum(n + 2)) / 2;
+  return (sum(2 - n).conjugate() + sum(n + 2)) / 2;
+}
+
+Eigen::ArrayXcd WaveHarmonics::sine(int n) const {
+  const std::complex<double> half(0, -0.5);
+  if (n >= 2) return (sum(n - 2) - sum(n + 2)) * half;
+  return (sum(2 - n).conjugate() - sum(n + 2)) * half;
 }
 
 FootprintWaves MovingWaves::AtPoints() const { return {Weighted(Eigen::MatrixXd::Ones(power_.rows(), 1)), motion_}; }
@@ -149,11 +151,9 @@ FootprintWaves MovingWaves::Under(const BeamOptions& beam) const {
 }
 
 WaveCovariance FootprintWaves::Whole() const {
-  const auto total = [](const Eigen::MatrixXcd& harmonics) -> Eigen::ArrayXd {
-    return 2 * std::numbers::pi * harmonics.col(0).real().array();
-  };
-  const Eigen::ArrayXd sum = total(harmonics_.sum);
-  return {SlopesOf(sum.sum(), total(harmonics_.cosine).sum(), total(harmonics_.sine).sum()),
+  const double turn = 2 * std::numbers::pi;
+  const Eigen::ArrayXd sum = turn * harmonics_.sum(0).real();
+  return {SlopesOf(sum.sum(), turn * harmonics_.cosine(0).real().sum(), turn * harmonics_.sine(0).real().sum()),
           (sum / HankelLattice::Shared().wavenumbers().square()).sum()};
 }
 
@@ -171,9 +171,9 @@ WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double late
     const double sign = n % 4 < 2 ? 1 : -1, factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign;
     // A negative `later` turns the sine, which odd orders have.
     const std::complex<double> turn = std::polar(n % 2 == 1 && later < 0 ? -factor : factor, n * beta);
-    rows.row(n) = (harmonics_.sum.col(n) * turn).real().transpose();
-    rows.row(kCount + n) = (harmonics_.cosine.col(n) * turn).real().transpose();
-    rows.row(2 * kCount + n) = (harmonics_.sine.col(n) * turn).real().transpose();
+    rows.row(n) = (harmonics_.sum(n) * turn).real().matrix().transpose();
+    rows.row(kCount + n) = (harmonics_.cosine(n) * turn).real().matrix().transpose();
+    rows.row(2 * kCount + n) = (harmonics_.sine(n) * turn).real().matrix().transpose();
   }
   Eigen::Array3d slopes = Eigen::Array3d::Zero();
   double heights = 0;
@@ -213,17 +213,18 @@ WaveCovariance FootprintWaves::InCell(const SurfaceCell& cell) const {
     weights.col(2 * m) = factor * std::cos(angle) * window.col(m);
     weights.col(2 * m + 1) = -factor * std::sin(angle) * window.col(m);
   }
-  const auto power = [&](const Eigen::MatrixXcd& harmonics) {
+  const auto power = [&](const auto& harmonic) {
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(window.rows());
-    for (Eigen::Index m = 0; m < window.cols(); ++m) {
-      sum += weights.col(2 * m) * harmonics.col(4 * m).real().array() +
-             weights.col(2 * m + 1) * harmonics.col(4 * m).imag().array();
+    for (int m = 0; m < window.cols(); ++m) {
+      const Eigen::ArrayXcd factors = harmonic(4 * m);
+      sum += weights.col(2 * m) * factors.real() + weights.col(2 * m + 1) * factors.imag();
     }
     return sum;
   };
-  const Eigen::ArrayXd sum = power(harmonics_.sum);
-  return {SlopesOf(sum.sum(), power(harmonics_.cosine).sum(), power(harmonics_.sine).sum()),
-          (sum / HankelLattice::Shared().wavenumbers().square()).sum()};
+  const Eigen::ArrayXd sum = power([this](int n) { return harmonics_.sum(n); });
+  const double cosine = power([this](int n) { return harmonics_.cosine(n); }).sum();
+  const double sine = power([this](int n) { return harmonics_.sine(n); }).sum();
+  return {SlopesOf(sum.sum(), cosine, sine), (sum / HankelLattice::Shared().wavenumbers().square()).sum()};
 }
 
 }  // namespace albtpu

@@ -18,12 +18,21 @@ struct WaveCovariance {
 };
 
 // Harmonics over directions of the waves on HankelLattice::Shared(): with F the slope variance in a step of ln k and
-// d(psi), the factors of exp(i n psi), n from 0 to kLast, in F, F cos(2 psi) and F sin(2 psi). Those of -n are the
-// conjugates.
-struct WaveHarmonics {
+// d(psi), the factors of exp(i n psi), n from 0 to kLast, in F, F cos(2 psi) and F sin(2 psi) at all wavenumbers. Those
+// of -n are the conjugates.
+class WaveHarmonics {
+ public:
   static constexpr int kLast = 19;
 
-  Eigen::MatrixXcd sum, cosine, sine;  // wavenumber, n
+  // `factors` of F: wavenumbers, and n from 0 to kLast + 2.
+  explicit WaveHarmonics(Eigen::MatrixXcd factors) : factors_(std::move(factors)) {}
+
+  auto sum(int n) const { return factors_.col(n).array(); }
+  Eigen::ArrayXcd cosine(int n) const;
+  Eigen::ArrayXcd sine(int n) const;
+
+ private:
+  Eigen::MatrixXcd factors_;
 };
 
 // The waves of one sea under the footprint of one beam. Immutable.

@@ -47,13 +47,13 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
   for (int n = 0; n < kHarmonicOrders; ++n) {
     if (symmetric_ && n % 2 == 1) continue;
     // Seas have few harmonics: beyond the last ones there is rounding alone.
-    const double part = waves.sum.col(n).cwiseAbs().sum() + waves.cosine.col(n).cwiseAbs().sum();
-    if (part < 1e-10 * waves.sum.col(0).cwiseAbs().sum()) continue;
+    const double part = waves.sum(n).abs().sum() + waves.cosine(n).abs().sum();
+    if (part < 1e-10 * waves.sum(0).abs().sum()) continue;
     used = n + 1;
     const double sign = (n % 4 < 2 ? 1 : -1) * (n % 2 == 1 && later < 0 ? -1 : 1);
     const Eigen::ArrayXd factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign * turns.col(n % 2);
-    const Eigen::ArrayXcd functions[] = {0.5 * (waves.sum.col(n) + waves.cosine.col(n)), 0.5 * waves.sine.col(n),
-                                         0.5 * (waves.sum.col(n) - waves.cosine.col(n))};
+    const Eigen::ArrayXcd sum = waves.sum(n), cosine = waves.cosine(n);
+    const Eigen::ArrayXcd functions[] = {0.5 * (sum + cosine), 0.5 * waves.sine(n), 0.5 * (sum - cosine)};
     for (int f = 0; f < 3; ++f) {
       columns.col(2 * f) = (factor * functions[f].real()).cast<float>();
       columns.col(2 * f + 1) = (factor * functions[f].imag()).cast<float>();
