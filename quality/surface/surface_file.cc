@@ -85,19 +85,20 @@ void SurfaceFile::Put(const TilePlace& tile, std::span<const SurfaceNode> nodes)
   const auto row = static_cast<std::size_t>(static_cast<std::int64_t>(frame.rows) - south - kTileCells);
   const auto column = static_cast<std::size_t>(tile.column * kTileCells - frame.first_column);
   const auto put = [&](int variable, auto none, auto value) {
-    std::vector<decltype(none)> values(nodes.size(), none);
+    std::vector<decltype(none)> values(std::size_t{kTileCells} * kTileCells, none);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::size_t from_north = kTileCells - 1 - i / kTileCells;
       values[from_north * kTileCells + i % kTileCells] = value(nodes[i]);
     }
     file_.Put(variable, row, column, kTileCells, values);
   };
+  for (std::size_t k = 0; k < kCounts.size(); ++k) put(counts_[k], 0, kCounts[k].value);
+  if (nodes.empty()) return;  // The other variables have their fill values.
   for (std::size_t k = 0; k < kFloats.size(); ++k)
     put(floats_[k], NetcdfGrid::kNoValue, [&](const SurfaceNode& node) {
       const double value = node.points > 0 ? kFloats[k].value(node) : NAN;
       return std::isfinite(value) ? static_cast<float>(value) : NetcdfGrid::kNoValue;
     });
-  for (std::size_t k = 0; k < kCounts.size(); ++k) put(counts_[k], 0, kCounts[k].value);
   put(order_, NetcdfGrid::kNoCode,
       [](const SurfaceNode& node) { return node.points > 0 ? OrderOf(node) : NetcdfGrid::kNoCode; });
 }

@@ -14,19 +14,18 @@ namespace albtpu::quality {
 // Variables of (y, x); rows begin in the north. All but counts have the fill value where there is no node.
 //
 //   elevation depth water_depth              m; upwards; the same downwards; of the water, the mean of the points
-//   uncertainty uncertainty_1sigma           m; the first at 95 %: 1.96 standard deviations of the node, without its bias
+//   uncertainty uncertainty_1sigma           m; the first at 95 %, 1.96 standard deviations of the node; without bias
 //   sigma_pulse sigma_sea sigma_line sigma_survey   m, 1 sigma: the parts of it
 //   bias                                     m, of the elevation, which is not taken away
 //   points left_out passes                   int
 //   shoalest shoalest_uncertainty            m, upwards, the highest point; m, at 95 %, of that point alone
 //   deviation predicted_deviation            m, of the points about the plane: the sample's, and what is predicted
-//   order_met                                byte, S-44, by the uncertainty and the bias of the node, and the THU of its
-//                                            points
+//   order_met                                byte, S-44: by uncertainty and bias of the node, and the THU of its points
 class SurfaceFile {
  public:
   SurfaceFile(const std::filesystem::path& path, const GridFrame& frame);
 
-  // Nodes of NodesOf(). Each tile once.
+  // Nodes of NodesOf(), or none. Each tile of the frame once.
   void Put(const TilePlace& tile, std::span<const SurfaceNode> nodes);
   absl::Status Close() { return file_.Close(); }
   bool ok() const { return file_.ok(); }

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -171,40 +172,55 @@ struct TileResult {
   std::vector<SurfaceNode> nodes;
 };
 
-GridFrame FrameOf(const std::vector<TilePlace>& tiles, double cell, const AnnotatedLasFile& first) {
+constexpr double kMostCells = 4e8;  // Of the rectangle around all points.
+
+absl::StatusOr<GridFrame> FrameOf(const std::vector<TilePlace>& tiles, double cell, const AnnotatedLasFile& first) {
   std::int64_t west = tiles.front().column, east = west;
   for (const TilePlace& tile : tiles) west = std::min(west, tile.column), east = std::max(east, tile.column);
   const std::int64_t south = tiles.front().row, north = tiles.back().row;
-  return {.first_column = west * kTileCells,
-          .first_row = south * kTileCells,
-          .columns = static_cast<std::size_t>(east - west + 1) * kTileCells,
-          .rows = static_cast<std::size_t>(north - south + 1) * kTileCells,
-          .cell = cell,
-          .crs_name = first.crs_name(),
-          .crs_wkt = first.crs_wkt(),
-          .metres_per_unit = first.metres_per_unit()};
+  const GridFrame frame = {.first_column = west * kTileCells,
+                           .first_row = south * kTileCells,
+                           .columns = static_cast<std::size_t>(east - west + 1) * kTileCells,
+                           .rows = static_cast<std::size_t>(north - south + 1) * kTileCells,
+                           .cell = cell,
+                           .crs_name = first.crs_name(),
+                           .crs_wkt = first.crs_wkt(),
+                           .metres_per_unit = first.metres_per_unit()};
+  if (static_cast<double>(frame.columns) * static_cast<double>(frame.rows) > kMostCells)
+    return absl::ResourceExhaustedError(
+        absl::StrFormat("the surface is too large (points lie %d x %d cells apart); give "
+                        "larger cells by --cell, or fewer files at a time",
+                        frame.columns, frame.rows));
+  return frame;
 }
 
-// Nodes of all tiles, some at a time, written from the north-west: as the file has them.
-absl::Status WriteNodes(const PointTiles& points, double cell, double metres_per_unit, const NodeSources& sources,
-                        SurfaceFile& file, SurfaceTally& tally) {
-  std::vector<TilePlace> order = points.tiles();
-  std::ranges::stable_sort(order, [](const TilePlace& a, const TilePlace& b) {
-    return std::pair(-a.row, a.column) < std::pair(-b.row, b.column);
-  });
+// All tiles of the frame from the north-west, as the file has them; those with points some at a time.
+absl::Status WriteNodes(const PointTiles& points, const GridFrame& frame, const NodeSources& sources, SurfaceFile& file,
+                        SurfaceTally& tally) {
+  const std::int64_t west = frame.first_column / kTileCells, south = frame.first_row / kTileCells;
+  const auto across = static_cast<std::int64_t>(frame.columns) / kTileCells;
+  const std::int64_t down = static_cast<std::int64_t>(frame.rows) / kTileCells;
+  const auto has_points = [&](const TilePlace& tile) { return std::ranges::binary_search(points.tiles(), tile); };
   absl::Status status;
-  std::size_t next = 0;
+  std::atomic<bool> failed = false;
+  std::int64_t next = 0;
   tbb::parallel_pipeline(
       kTilesAtOnce,
       tbb::make_filter<void, TilePlace>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
-        if (next < order.size() && status.ok() && file.ok()) return order[next++];
-        control.stop();
-        return TilePlace{};
+        if (next == across * down || failed) {
+          control.stop();
+          return TilePlace{};
+        }
+        const TilePlace tile = {.row = south + down - 1 - next / across, .column = west + next % across};
+        ++next;
+        return tile;
       }) & tbb::make_filter<TilePlace, TileResult*>(tbb::filter_mode::parallel, [&](const TilePlace& tile) {
         auto result = std::make_unique<TileResult>(TileResult{.tile = tile, .status = {}, .nodes = {}});
+        if (!has_points(tile)) return result.release();
         absl::StatusOr<std::vector<SurfacePoint>> of_tile = points.Read(tile);
         result->status = of_tile.status();
-        if (of_tile.ok()) result->nodes = NodesOf(tile, *std::move(of_tile), cell, metres_per_unit, sources);
+        if (of_tile.ok())
+          result->nodes = NodesOf(tile, *std::move(of_tile), frame.cell, frame.metres_per_unit, sources);
         return result.release();
       }) & tbb::make_filter<TileResult*, void>(tbb::filter_mode::serial_in_order, [&](TileResult* made) {
         const std::unique_ptr<TileResult> result(made);
@@ -243,8 +259,9 @@ absl::StatusOr<annotate::JsonBox> MakeSurface(const std::vector<AnnotatedLasFile
   if (with == 0) return NoBathymetricPoint(files);
   ASSIGN_OR_RETURN(const PointTiles points, PointTiles::Open({points_path}, cell));
   SurfaceTally tally;
-  SurfaceFile file(folder / kSurfaceFile, FrameOf(points.tiles(), cell, first));
-  RETURN_IF_ERROR(WriteNodes(points, cell, first.metres_per_unit(), sources.node_sources(), file, tally));
+  ASSIGN_OR_RETURN(const GridFrame frame, FrameOf(points.tiles(), cell, first));
+  SurfaceFile file(folder / kSurfaceFile, frame);
+  RETURN_IF_ERROR(WriteNodes(points, frame, sources.node_sources(), file, tally));
   RETURN_IF_ERROR(file.Close());
   std::error_code not_removed;
   fs::remove(points_path, not_removed);

@@ -1,0 +1,137 @@
+"""albtpu-query surface, from outside: its nodes against a computation of their own, its grid in other programs."""
+
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import netCDF4
+import numpy as np
+
+import programs
+import reported_survey
+from programs import query
+from simulated_survey import SimulatedSurvey
+
+CELL = 2
+FACTOR = 1.959964
+
+
+def setUpModule():
+    global annotated, made, said
+    folder = pathlib.Path(tempfile.mkdtemp())
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 5000,
+                             "--file-for-each-line", "--range-noise", 0.02).folder
+    annotated, made = folder / "annotated", folder / "surface"
+    reported_survey.annotate(flight, annotated, programs.PATHS["shipped_table"])
+    said = query("surface", annotated, "--output", made, "--cell", CELL, check=0).stdout
+
+
+class Grid(programs.Test):
+    def setUp(self):
+        super().setUp()
+        self.grid = netCDF4.Dataset(made / "surface.nc")
+        self.addCleanup(self.grid.close)
+        self.json = json.loads((made / "surface.json").read_text())
+        points = reported_survey.Survey.read(annotated)
+        self.points = {name: values[points["total_tvu"] >= 0] for name, values in points.items()}
+
+    def layer(self, name):
+        return self.grid[name][:].filled(np.nan) if self.grid[name].dtype.kind == "f" else self.grid[name][:].data
+
+    def cells(self):
+        """Of the points, row and column in the grid; each lies in the cell of its node."""
+        x, y = self.grid["x"][:].data, self.grid["y"][:].data
+        column = np.floor(self.points["x"] / CELL).astype(int) - round(x[0] / CELL - 0.5)
+        row = round(y[0] / CELL - 0.5) - np.floor(self.points["y"] / CELL).astype(int)
+        self.assertLessEqual(abs(x[column] - self.points["x"]).max(), CELL / 2 + 1e-3)
+        self.assertLessEqual(abs(y[row] - self.points["y"]).max(), CELL / 2 + 1e-3)
+        return row, column
+
+    def test_counts_every_point(self):
+        row, column = self.cells()
+        counts = np.zeros(self.layer("points").shape, int)
+        np.add.at(counts, (row, column), 1)
+        np.testing.assert_array_equal(self.layer("points") + self.layer("left_out"), counts)
+        self.assertEqual(self.json["points_with_number"], len(row))
+        self.assertLess(self.layer("left_out").sum(), 0.001 * len(row))
+        self.assertEqual(self.json["nodes"], (self.layer("points") > 0).sum())
+
+    def test_has_the_planes_of_least_squares(self):
+        row, column = self.cells()
+        x, y, elevation = self.grid["x"][:].data, self.grid["y"][:].data, self.layer("elevation")
+        places = np.argwhere(self.layer("points") > 4)
+        compared = 0
+        for r, c in places[:: max(len(places) // 60, 1)]:
+            around = (abs(row - r) <= 1) & (abs(column - c) <= 1)
+            own = (row == r) & (column == c)
+            if len(set(zip(row[around], column[around]))) < 9 or self.layer("left_out")[r - 1:r + 2, c - 1:c + 2].any():
+                continue
+            at = np.column_stack([self.points["x"] - x[c], self.points["y"] - y[r], np.ones(len(row))])
+            slope = np.linalg.lstsq(at[around], self.points["z"][around], rcond=None)[0][:2]
+            residuals = self.points["z"][own] - at[own, :2] @ slope
+            self.assertAlmostEqual(elevation[r, c], residuals.mean(), delta=1e-4)
+            self.assertAlmostEqual(self.layer("deviation")[r, c], residuals.std(ddof=1), delta=1e-4)
+            self.assertAlmostEqual(self.layer("shoalest")[r, c], self.points["z"][own].max(), delta=1e-4)
+            compared += 1
+        self.assertGreater(compared, 20)
+
+    def test_adds_up_the_parts_of_the_uncertainty(self):
+        parts = [self.layer(f"sigma_{part}") for part in ("pulse", "sea", "line", "survey")]
+        sigma = self.layer("uncertainty_1sigma")
+        np.testing.assert_allclose(np.sqrt(sum(part**2 for part in parts)), sigma, rtol=1e-5)
+        np.testing.assert_allclose(self.layer("uncertainty"), FACTOR * sigma, rtol=1e-5)
+        np.testing.assert_array_equal(self.layer("depth"), -self.layer("elevation"))
+        # A node is better than a point, but not as if its points were independent.
+        compared = self.json["for_comparison"]
+        self.assertLess(compared["points_taken_as_independent_95"], 0.95 * self.json["uncertainty_95"])
+        self.assertLess(self.json["uncertainty_95"], compared["mean_tvu_of_points_95"])
+        # Where one line sees a cell once, the line's share is that of its points.
+        row, column = self.cells()
+        once = (self.layer("passes") == 1) & (self.layer("points") > 3)
+        taken = once[row, column]
+        mean = np.zeros(once.shape)
+        np.add.at(mean, (row[taken], column[taken]), self.points["tvu_line"][taken] / FACTOR)
+        with np.errstate(invalid="ignore"):
+            mean /= self.layer("points")
+        self.assertGreater(once.sum(), 50)
+        ratio = self.layer("sigma_line")[once] / mean[once]
+        self.assertAlmostEqual(np.median(ratio), 1, delta=0.02)
+
+    def test_says_what_it_is(self):
+        self.assertEqual(self.grid["elevation"].positive, "up")
+        self.assertEqual(self.grid["depth"].positive, "down")
+        self.assertEqual(self.grid["elevation"].units, "m")
+        self.assertIn("WGS 84 / UTM zone 17N", self.grid["crs"].crs_wkt)
+        self.assertIn("nodes of 2 m", said)
+
+
+class Command(programs.Test):
+    def test_does_not_depend_on_the_order_of_the_files(self):
+        other = self.folder / "annotated"
+        shutil.copytree(annotated, other)
+        files = sorted(other.glob("*.las"))
+        for old, new in zip(files, reversed("abc")):
+            for suffix in ("", ".json"):
+                pathlib.Path(f"{old}{suffix}").rename(other / f"{new}.las{suffix}")
+        query("surface", other, "--output", self.folder / "surface", "--cell", CELL, check=0)
+        self.assertEqual((self.folder / "surface/surface.nc").read_bytes(), (made / "surface.nc").read_bytes())
+
+    def test_keeps_what_is_there(self):
+        before = (made / "surface.nc").read_bytes()
+        self.assert_fails(query("surface", annotated, "--output", made), 1, "surface")
+        self.assertEqual((made / "surface.nc").read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in made.iterdir()), ["surface.json", "surface.nc"])
+
+    def test_wants_the_sea_of_the_annotation(self):
+        self.assert_fails(query("surface", annotated, "--output", self.folder / "new", "--hs", 1, "--tp", 5,
+                                "--waves-from", 250, "--wind-speed", 5), 2)
+        self.assert_fails(query("surface", annotated, "--output", self.folder / "new", "--hs", 1, "--tp", 5,
+                                "--waves-from", 250), 1, "was annotated for a wind")
+        self.assertFalse((self.folder / "new").exists())
+
+
+if __name__ == "__main__":
+    programs.main()
