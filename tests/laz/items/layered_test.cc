@@ -122,7 +122,7 @@ TEST_P(LayeredRoundTrip, PointsAreDecodedAsTheyWere) {
   LayeredDecoder decoder(record);
   std::string chunk, decoded;
   // What points are and how many are decoded at a time are independent: a long chunk is decoded in one way only.
-  std::vector<std::size_t> steps = {points, 509, points < 2000 ? 1 : 20011};
+  std::vector<std::size_t> steps = {points, 509, std::size_t{points < 2000 ? 1U : 20011U}};
   for (const std::string& records :
        {BusyRecords({format, extra_bytes}, points), CalmRecords({format, extra_bytes}, points),
         BusyRecords({format, extra_bytes}, points, 2)}) {
