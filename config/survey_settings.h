@@ -16,6 +16,7 @@
 #include "config/sea_settings.h"
 #include "config/sensor_channels.h"
 #include "config/sensors/sensor.h"
+#include "sea/water_index.h"
 #include "tables/s44.h"
 
 namespace albtpu::config {
@@ -183,6 +184,7 @@ inline constexpr std::array<Key<SurfaceSettings>, 6> kSurfaceKeys = {{
 }};
 // Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
 // and the salt of the ocean 45 at most; it freezes above -2.
+static_assert(kSeaWaterIndex == 1.34);  // As the text of the index says.
 inline constexpr std::array<Key<WaterSettings>, 21> kWaterKeys = {{
     {{"index", "--water-index", kWaterIndex, "by temperature and salinity, or 1.34", "Refractive index of the water"},
      &WaterSettings::index},

@@ -82,8 +82,8 @@ double Axis(const DescribedSea& sea) {
 double FootprintWeight(double k) { return FootprintPower({.footprint = kReferenceFootprint}, k, 0); }
 
 // The axis x, 2 sigma.
-double RefractionAlong(const HarmonicSpectrum& spectrum, const std::vector<FootprintKernel>& footprint) {
-  const SeaResponse response(spectrum, kRefractiveIndex);
+double RefractionAlong(const HarmonicSpectrum& spectrum, double index, const std::vector<FootprintKernel>& footprint) {
+  const SeaResponse response(spectrum, index);
   return DegreesOfRadians(response.AlongDirection(0, 0, footprint)[0].refraction_along_wind());
 }
 
@@ -174,7 +174,7 @@ std::string Text(const SeaFacts& facts) {
   return text;
 }
 
-SlopeSurvey::SlopeSurvey() {
+SlopeSurvey::SlopeSurvey(double index) : index_(index) {
   for (const double diameter : kDiameters) footprints_.emplace_back(BeamProfile::kUniform, diameter);
   one_footprint_.emplace_back(BeamProfile::kUniform, kReferenceFootprint);
 }
@@ -185,7 +185,7 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
   facts.mean_square_slope = MeanSquareSlope(sea.spectrum);
   facts.below_11 = MeanSquareSlopeBelow(sea.spectrum, 11);
   facts.below_20 = MeanSquareSlopeBelow(sea.spectrum, 20);
-  const SeaResponse response(sea.spectrum, kRefractiveIndex);
+  const SeaResponse response(sea.spectrum, index_);
   const std::vector<BeamResponse> beams = response.AlongDirection(0, 0, footprints_);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     HarmonicSpectrum under = sea.spectrum;
@@ -200,7 +200,7 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
   for (const std::string_view rule : config::kTailRules) {
     settings.tail = rule;
     facts.by_tail_rule.push_back(
-        RefractionAlong(Describe(seas.record(record), settings.description()).spectrum, one_footprint_));
+        RefractionAlong(Describe(seas.record(record), settings.description()).spectrum, index_, one_footprint_));
   }
   return facts;
 }

@@ -52,11 +52,12 @@ class SlopeSurvey {
  public:
   static constexpr double kDiameters[] = {0.2, 0.6, 1, 2, 5};  // m
 
-  SlopeSurvey();
+  explicit SlopeSurvey(double index);  // of the water
 
   SlopeFacts operator()(const SeaTimeline& seas, std::size_t record) const;
 
  private:
+  double index_;
   std::vector<FootprintKernel> footprints_, one_footprint_;
 };
 

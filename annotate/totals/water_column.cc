@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
+#include "budget/total/reported_point.h"
 #include "sea/angle.h"
 #include "status/status_macros.h"
 #include "tables/default_tables.h"
@@ -194,6 +195,8 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
   const auto add = [](float& bias, double more) { bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more); };
   std::vector<float>& along = answers.values[Index(Quantity::kBiasAlongBeam)];
   std::vector<float>& vertical = answers.values[Index(Quantity::kBiasVertical)];
+  for (std::size_t i = 0; i < along.size(); ++i)
+    along[i] = ReportedBiasAlong(along[i], vertical[i], pulses.coordinate(AxisId::kIncidence, i), plan.index);
   if (plan.of_water.has_value()) {
     for (std::size_t i = 0; i < pulses.size; ++i) {
       const IndexBias bias =

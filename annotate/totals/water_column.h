@@ -11,6 +11,7 @@
 #include "budget/water/refractive_index.h"
 #include "budget/water/water_contribution.h"
 #include "config/survey_settings.h"
+#include "sea/water_index.h"
 
 namespace albtpu::annotate {
 
@@ -25,7 +26,7 @@ struct StatedNumber {
 struct WaterPlan {
   std::shared_ptr<const WaterContribution> share;  // null: left out
   std::optional<double> photons;                   // counted in an echo
-  double index = 1.34;                             // of the phase
+  double index = kSeaWaterIndex;                   // of the phase
   // Where the processing used another index than that of the water.
   std::optional<WaterIndex> of_water;
   double processed_with = 0;
@@ -38,6 +39,8 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
 
 // The index that the user gives, or that of the temperature and salinity if both are given (refractive_index.h).
 std::optional<double> IndexOf(const config::WaterSettings& water);
+// The same, or that of sea water: the index of the geometry, of the air side and of the sea's share.
+inline double IndexOrUsual(const config::WaterSettings& water) { return IndexOf(water).value_or(kSeaWaterIndex); }
 
 // The value of the environment variable `ALBTPU_WATER_TABLE`. If it is empty or not set,
 // PREFIX/share/albtpu/water/water_column.h5 for a program that runs as PREFIX/bin/NAME.
@@ -50,8 +53,9 @@ struct WaterBatch {
       stretch;  // of scattering alone, as far as it is in the points
 };
 
-// Finds the share of pulses that have an answer of the sea, and adds the water's biases to those of the sea. A pulse
-// that the share does not know gets the outcome kNoWater.
+// Restates the biases of the sea, as a table answers them, for the reported point (budget/total/reported_point.h);
+// finds the water's share of pulses that have an answer of the sea, and adds its biases. Call it once for each answer.
+// A pulse that the share does not know gets the outcome kNoWater.
 void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water);
 
 }  // namespace albtpu::annotate

@@ -95,6 +95,7 @@ struct AirNumbers {
 
 // The directions of beams that other shares need, too.
 struct BeamNumbers {
+  F cosine, inverse_index;             // Of the angle in air; 1 / n.
   F sine_refracted, cosine_refracted;  // Of the angle in water.
   F north, east;                       // Where the beam travels to, of length 1.
   Ned surface;                         // What one metre of the height of the surface does: -k / c.
@@ -191,7 +192,7 @@ HWY_INLINE AirContribution AirContributionOf(const AirNumbers& pulse, const AirC
   own.Add(Constant(is.surface_height[0]) * surface);
   line.Add(Constant(is.surface_height[1]) * surface);
   survey.Add(Constant(is.surface_height[2]) * surface);
-  contribution.beam = {sine_refracted, down, north, east, surface};
+  contribution.beam = {c, inverse_index, sine_refracted, down, north, east, surface};
   return contribution;
 }
 

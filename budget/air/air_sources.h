@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "budget/air/air_errors.h"
+#include "sea/water_index.h"
 
 namespace albtpu {
 
@@ -22,7 +23,7 @@ struct AirPulse {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   // m/s; north, east, down.
   Eigen::Vector3d rates = Eigen::Vector3d::Zero();      // degree/s; about the axes of the aircraft.
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  // m; from the trajectory's point to the sensor, aircraft axes.
-  double index = 1.34;                                  // Refractive index of the water: 1 or more.
+  double index = kSeaWaterIndex;                        // Refractive index of the water: 1 or more.
 };
 
 // What a source contributes: the error of the reported point is `columns` times independent standard normal numbers.

@@ -4,12 +4,9 @@
 
 #include <cmath>
 
-namespace albtpu {
+#include "sea/water_index.h"
 
-// The refractive index of sea water at 532 nm, for the directions of rays. Quan and Fry (1995), Eq. 3,
-// doi:10.1364/AO.34.003477, gives 1.3415 at 20 degrees C and a salinity of 35, and 1.3350 without salt. The tables of
-// the sea surface are made with 1.33 (kRefractiveIndex).
-inline constexpr double kSeaWaterIndex = 1.34;
+namespace albtpu {
 
 // Water of refractive index n >= 1, and the numbers derived from n that the steps below need.
 struct StillWater {

@@ -9,6 +9,8 @@
 #include <memory>
 #include <thread>
 
+#include "budget/total/reported_point.h"
+
 namespace albtpu {
 namespace {
 
@@ -91,6 +93,14 @@ void Sum(const float* sea, std::span<const float> water, std::size_t begin, std:
     column[begin + i] = sea[i] + (water.empty() ? 0 : water[water.size() == 1 ? 0 : i]);
 }
 
+// From the biases of the table to those of the reported point.
+void TakeReportedPoint(std::span<const float> incidence, std::size_t count, double index, Scratch& scratch) {
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch.bias_along_beam[i] = ReportedBiasAlong(scratch.bias_along_beam[i], scratch.bias_vertical[i],
+                                                   incidence[incidence.size() == 1 ? 0 : i], index);
+  }
+}
+
 // Answers up to kGrain pulses from `begin` on.
 void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all, const BudgetOptions& options,
                  std::size_t begin, std::size_t count, const BudgetAnswers& answers, Scratch& scratch) {
@@ -106,9 +116,11 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   sea.values[Index(Quantity::kTvu)] = scratch.sea_tvu;
   sea.values[Index(Quantity::kRefractionAlongWind)] = scratch.along;
   sea.values[Index(Quantity::kRefractionCrossWind)] = scratch.cross;
-  if (asks_order || bias_along_beam != nullptr) sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
-  if (asks_order || bias_vertical != nullptr) sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
+  const bool asks_along = asks_order || bias_along_beam != nullptr;
+  if (asks_along) sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
+  if (asks_along || bias_vertical != nullptr) sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
   interpolator.Interpolate({.coverage = Coverage::kTwoSigma, .s44_order = {}}, piece.pulses, 0, count, sea);
+  if (asks_along) TakeReportedPoint(piece.pulses[AxisId::kIncidence], count, options.index, scratch);
   Sum(scratch.bias_along_beam, piece.aircraft[BudgetInput::kWaterBiasAlong], begin, count, bias_along_beam);
   Sum(scratch.bias_vertical, piece.aircraft[BudgetInput::kWaterBiasVertical], begin, count, bias_vertical);
 

@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "budget/air/air_covariance-inl.h"
+#include "budget/total/sea_covariance-inl.h"
 
 #ifndef ALBTPU_BUDGET_TOTAL_BLOCK
 #define ALBTPU_BUDGET_TOTAL_BLOCK
@@ -56,49 +57,6 @@ HWY_INLINE void Store(const NedCovariance& c, CovarianceBlock& block, std::size_
   hn::Store(c.ed, d, block.ed + i);
 }
 
-// The covariance of the horizontal errors along (x) and to the right of (y) the axis of a sea, from their variances. In
-// the plane of the beam, the tangent of the refracted direction answers to a slope 1 / cos^2 r as much as across it
-// (Snell's law to first order), and slopes on the axes of the sea are uncorrelated. With the response G on these axes,
-//     var_x = Gxx^2 s_x + Gxy^2 s_y,  var_y = Gxy^2 s_x + Gyy^2 s_y,  cov = Gxy (Gxx s_x + Gyy s_y).
-HWY_INLINE F CovarianceOnAxes(F var_x, F var_y, F cosine, F sine, F cosine_refracted) {
-  const F one = Constant(1), zero = hn::Zero(Floats());
-  const F more = one / (cosine_refracted * cosine_refracted) - one;
-  const F gxx = one + more * (cosine * cosine), gyy = one + more * (sine * sine), gxy = more * (cosine * sine);
-  const F gxx2 = gxx * gxx, gyy2 = gyy * gyy, gxy2 = gxy * gxy;
-  const F scale = one / (gxx2 * gyy2 - gxy2 * gxy2);
-  const F slope_x = hn::Max(zero, (var_x * gyy2 - var_y * gxy2) * scale);
-  const F slope_y = hn::Max(zero, (var_y * gxx2 - var_x * gxy2) * scale);
-  return gxy * (gxx * slope_x + gyy * slope_y);
-}
-
-// The contribution of the sea surface.
-HWY_INLINE NedCovariance SeaContributionOf(F thu, F tvu, F along, F cross, F axis, F wave_height,
-                                           const BeamNumbers& beam) {
-  const Floats d;
-  const F along2 = along * along, sum = along2 + cross * cross, one = Constant(1), quarter = Constant(0.25f);
-  const auto known = hn::And(axis == axis, sum > hn::Zero(d));
-  const F share = hn::IfThenElse(known, along2 / sum, Constant(0.5f));
-  const F trace = quarter * (thu * thu);
-  const F on_axis = trace * share, across_axis = trace * (one - share);
-  const SineAndCosine turn = SineAndCosineOfDegrees(hn::IfThenElseZero(known, axis));
-  const F from_axis_cosine = beam.north * turn.cosine + beam.east * turn.sine;
-  const F from_axis_sine = beam.east * turn.cosine - beam.north * turn.sine;
-  const F covariance = hn::IfThenElseZero(
-      known, CovarianceOnAxes(on_axis, across_axis, from_axis_cosine, from_axis_sine, beam.cosine_refracted));
-  const F c2 = turn.cosine * turn.cosine, s2 = turn.sine * turn.sine, sc = turn.sine * turn.cosine;
-  const F mixed = Constant(2) * (covariance * sc);
-  NedCovariance c;
-  c.nn = on_axis * c2 + across_axis * s2 - mixed;
-  c.ee = on_axis * s2 + across_axis * c2 + mixed;
-  c.ne = (on_axis - across_axis) * sc + covariance * (c2 - s2);
-  c.dd = quarter * (tvu * tvu);
-  const F to_down = hn::Neg(beam.sine_refracted * beam.cosine_refracted);
-  c.nd = to_down * (c.nn * beam.north + c.ne * beam.east);
-  c.ed = to_down * (c.ne * beam.north + c.ee * beam.east);
-  c.Add(wave_height * beam.surface);
-  return c;
-}
-
 // The error of the water column that is common to all pulses of a survey. A positive vertical error is too shallow.
 HWY_INLINE NedCovariance WaterContributionOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
   const F held = hn::Max(Constant(-1), hn::Min(correlation, Constant(1)));
@@ -136,9 +94,14 @@ void ComputeBlock(const AirConstants& is, CommonVariances common, Block& block) 
          .pitch_sigma = in(BudgetInput::kPitchSigma),
          .heading_sigma = in(BudgetInput::kHeadingSigma)},
         is);
-    const NedCovariance sea = SeaContributionOf(in(BudgetInput::kSeaThu), in(BudgetInput::kSeaTvu),
-                                                in(BudgetInput::kRefractionAlong), in(BudgetInput::kRefractionCross),
-                                                in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
+    NedCovariance sea = SeaContributionOf({.thu = in(BudgetInput::kSeaThu),
+                                           .tvu = in(BudgetInput::kSeaTvu),
+                                           .along = in(BudgetInput::kRefractionAlong),
+                                           .cross = in(BudgetInput::kRefractionCross),
+                                           .axis = in(BudgetInput::kSeaAxis),
+                                           .depth = in(BudgetInput::kDepth)},
+                                          air.beam);
+    sea.Add(in(BudgetInput::kWaveHeight)*air.beam.surface);
     NedCovariance survey = air.survey;
     survey.nn = survey.nn + Constant(common.horizontal);
     survey.ee = survey.ee + Constant(common.horizontal);

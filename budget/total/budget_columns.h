@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "budget/air/air_errors.h"
+#include "sea/water_index.h"
 #include "tables/coverage.h"
 
 namespace albtpu {
@@ -43,7 +44,7 @@ enum class BudgetInput : std::uint8_t {
   kSeaTvu,           // m
   kRefractionAlong,  // degree, along the axis of the sea.
   kRefractionCross,  // degree, across it.
-  kBiasAlongBeam,    // m. None or NaN: not known, taken as 0.
+  kBiasAlongBeam,    // m, of the reported point (reported_point.h). None or NaN: not known, taken as 0.
   kBiasVertical,     // m. None or NaN: not known, taken as 0.
   kSeaAxis,     // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
   kWaveHeight,  // m, standard deviation of the waves that the located surface does not follow. None: 0.
@@ -92,7 +93,7 @@ struct BudgetOptions {
   AirErrors errors = {};
   SurfaceLocation located = SurfaceLocation::kPulse;
   std::array<double, 3> lever_arm = {};  // m; forward, right, down, from the trajectory's point to the sensor.
-  double index = 1.34;                   // Refractive index of the water: 1 or more.
+  double index = kSeaWaterIndex;         // Refractive index of the water: 1 or more.
   double datum = 0;                      // m, standard deviation of the height of the vertical datum.
   // m, standard deviations that are added to all points, common to a survey. The horizontal one is radial, as THU at 1
   // sigma: the root of the sum of the variances along north and east, which are equal.
@@ -128,11 +129,12 @@ struct BudgetOutputs {
 //
 // C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2, variances along and across the axis of the sea
 // in the proportion of the squared refractions, and the covariance of the two that Snell's law makes of uncorrelated
-// slopes (docs/budget.md); its covariance with up is sin r cos r (r: the angle in water) times the covariance with the
-// direction of the beam, because the table's errors are those of a spot that moves on a level bottom; vertically
-// (TVU/2)^2. Waves that the located surface does not follow add as an error of its height. C_water is in the plane of
-// the beam: the uncertainty of the water's bias, common to all pulses, and the noise of a range along the refracted
-// ray. Biases are in no covariance.
+// slopes; vertically (TVU/2)^2; the covariance of the two is that of Snell's law to second order in slope
+// (docs/budget.md). All this is of the table's spot on a level bottom, and is restated for the reported point
+// (reported_point.h), of which all outputs are. Waves
+// that the located surface does not follow add as an error of its height. C_water is in the plane of the beam: the
+// uncertainty of the water's bias, common to all pulses, and the noise of a range along the refracted ray. Biases are
+// in no covariance.
 //
 // Errors of rounding are below 1e-5 of the standard deviations.
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);

@@ -14,6 +14,7 @@
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/beam.h"
 #include "sea/sea_state.h"
+#include "sea/water_index.h"
 #include "tables/uncertainty_table.h"
 #include "tables/water/water_schema.h"
 
@@ -35,7 +36,7 @@ struct Campaign {
   UncertaintyTable::Axes axes;
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
-  double refractive_index = 1.33;
+  double refractive_index = kRefractiveIndex;
   WindSea wind_sea;  // without wind and fetch, which are axes
   // In its place, of a table of the water column (water_cases.h).
   std::optional<WaterWork> water;

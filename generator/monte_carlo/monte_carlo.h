@@ -10,6 +10,7 @@
 #include "generator/surface/beam.h"
 #include "generator/surface/discretization.h"
 #include "sea/sea_state.h"
+#include "sea/water_index.h"
 
 namespace albtpu {
 
@@ -35,7 +36,7 @@ inline constexpr int kBatch = 64;
 // One sea with all beams that are traced on the same surfaces: they share footprint, profile and source.
 struct SeaCase {
   SeaOptions sea;
-  double refractive_index = 1.33;
+  double refractive_index = kRefractiveIndex;
   std::vector<BeamOptions> beams;                // not empty
   std::vector<double> depths;                    // m, not negative
   std::optional<int> rays;                       // of each beam; chosen from sea and beams where absent

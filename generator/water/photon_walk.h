@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "sea/water_index.h"
+
 namespace albtpu {
 
 // The scattering of light by water: phase functions, their moments, and random angles from them.
@@ -66,8 +68,8 @@ struct Crossings {
 };
 
 struct WalkSetup {
-  double refracted = 0;            // angle in the water, from the vertical [radian, 0 to 1]
-  double refractive_index = 1.34;  // of phase: the surface reflects from below beyond its critical angle
+  double refracted = 0;                      // angle in the water, from the vertical [radian, 0 to 1]
+  double refractive_index = kSeaWaterIndex;  // of phase: the surface reflects from below beyond its critical angle
   // Half angle [radian] of a cone around the beam, from which photons start as a diffuse surface emits them; a tube
   // that accepts such a cone receives what leaves the water within it. 0: all start along the beam.
   double cone = 0;

@@ -16,8 +16,8 @@ namespace albtpu {
 
 // The shape of a pulse in water: everything that the relative bias depends on. Lengths are over the depth z.
 struct WaterColumn {
-  double incidence = 0;            // in air [radian, below 1]
-  double refractive_index = 1.34;  // of phase
+  double incidence = 0;                      // in air [radian, below 1]
+  double refractive_index = kSeaWaterIndex;  // of phase
   double group_index = 1.36;
   double scattering = 0;            // b z, above 0
   double absorption = 0;            // a / b

@@ -11,6 +11,7 @@
 #include "absl/status/status.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/spectral_tail.h"
+#include "sea/water_index.h"
 
 namespace albtpu::programs {
 
@@ -66,7 +67,7 @@ struct PointOptions {
   double footprint = 0;                // m
   std::vector<double> depth;           // m
   std::string profile = "uniform";     // or "gaussian"
-  double refractive_index = 1.33;
+  double refractive_index = kRefractiveIndex;
   double relative_error = 0.01;
   std::string estimator = "control_variate";  // or "plain"
   std::uint64_t seed = 1;

@@ -68,7 +68,6 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
       {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
       {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
       {"--crs", options.crs.has_value(), kTrajectory | kReturns},
-      {"--water-index", flags.water.index.has_value(), kTrajectory | kReturns},
       {"--flight-direction", options.flight_direction.has_value(), kScanner},
       {"--beam-azimuth", options.beam_azimuth.has_value(), kIncidence},
       {"--altitude", options.altitude.has_value(), kScanner | kIncidence},
@@ -227,9 +226,7 @@ void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
 
 void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
   AddWays(command, options, flags);
-  AddFlags(command,
-           {"--water-level", "--level-datum", "--level-offset", "--level-hours-from-utc", "--water-classes",
-            "--water-index"},
+  AddFlags(command, {"--water-level", "--level-datum", "--level-offset", "--level-hours-from-utc", "--water-classes"},
            group::kSea, flags);
   for (const annotate::PulseInput input : {annotate::PulseInput::kFootprint, annotate::PulseInput::kAzimuth})
     AddInput(command, input, options.fixed);
@@ -313,7 +310,7 @@ absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const Su
   plan.wind_speed = wind[annotate::PulseInput::kWindSpeed].value_or(0);
   plan.fetch = wind[annotate::PulseInput::kFetch];
   plan.metres_per_unit = options.metres_per_unit;
-  if (plan.has_track()) plan.refractive_index = annotate::IndexOf(settings.water).value_or(kSeaWaterIndex);
+  if (plan.has_track()) plan.refractive_index = annotate::IndexOrUsual(settings.water);
   RETURN_IF_ERROR(SetWater(settings.surface, plan));
   RETURN_IF_ERROR(SetFootprint(options, details, plan));
   RETURN_IF_ERROR(SetAzimuth(options, sea, details, plan));

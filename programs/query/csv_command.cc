@@ -186,7 +186,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
   if (total.has_value())
     style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
   ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, annotate::FindJobs("csv", {".csv"}, options.files));
-  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source, annotate::IndexOrUsual(settings.water)));
   RETURN_IF_ERROR(answerer.CheckOneTime("csv"));
   const annotate::AnswerSource source = answerer.source();
   if (total.has_value() && !sea.has_waves()) {
@@ -220,6 +220,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
                                    text + notes};
   };
   nlohmann::ordered_json parameters = CsvParameters(options, sea);
+  parameters["sea_index"] = annotate::IndexOrUsual(settings.water);
   if (total.has_value()) {
     parameters["details"] = total->details;
     parameters["total"] = Parameters(total->plan);

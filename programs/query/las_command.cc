@@ -203,7 +203,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
     channel.plan.trajectories = annotation.plan.trajectories;
     channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
   }
-  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source));
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source, annotate::IndexOrUsual(settings.water)));
   annotation.seas = answerer.timeline();
   const annotate::AnswerSource source = answerer.source();
   if (annotation.total.has_value() && !sea.has_waves()) {
@@ -215,12 +215,14 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   LasFiles files(options, annotation, kind, source, !options.files.output_folder.empty() || jobs.size() > 1);
   std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
+  nlohmann::ordered_json parameters = Parameters(annotation, sea, options.format);
+  parameters["sea_index"] = annotate::IndexOrUsual(settings.water);
   const absl::Status status = annotate::AnnotateFiles(
       jobs,
       {.command = "las",
        .records = "points",
        .record = "chosen point",
-       .parameters = annotate::JsonBox(Parameters(annotation, sea, options.format)),
+       .parameters = annotate::JsonBox(std::move(parameters)),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,

@@ -158,7 +158,7 @@ class Planner {
   }
 
   absl::Status Open(const config::SeaSettings& sea) {
-    ASSIGN_OR_RETURN(Answerer opened, Answerer::Open(sea, options_.source));
+    ASSIGN_OR_RETURN(Answerer opened, Answerer::Open(sea, options_.source, annotate::IndexOrUsual(settings_.water)));
     answerer_ = std::make_unique<Answerer>(std::move(opened));
     return absl::OkStatus();
   }

@@ -90,7 +90,8 @@ absl::Status RunPulse(const PulseOptions& options) {
         "pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
   }
   ASSIGN_OR_RETURN(const annotate::FixedCoordinates coordinates, annotate::CoordinatesOf(inputs));
-  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(settings.sea, options.source));
+  ASSIGN_OR_RETURN(Answerer answerer,
+                   Answerer::Open(settings.sea, options.source, annotate::IndexOrUsual(settings.water)));
   RETURN_IF_ERROR(answerer.CheckOneTime("pulse"));
   const bool from_north = inputs.any_sea && inputs[annotate::PulseInput::kBeamAzimuth].has_value();
   if (settings.wants_total()) return PrintTotal(options, total, coordinates, inputs, from_north, answerer);
@@ -229,9 +230,25 @@ absl::StatusOr<PulseAnswer> AskPulse(const annotate::FixedCoordinates& pulse, an
   return answer;
 }
 
+namespace {
+
+std::string WaterText(const client::TableSummary& table) {
+  const auto made = table.attributes.find("refractive_index");
+  const std::string index = absl::StrCat(table.refractive_index);
+  std::string text = absl::StrCat("refractive index ", index);
+  if (made == table.attributes.end())
+    absl::StrAppend(&text, "; the table states none: ", kRefractiveIndex, " is assumed");
+  else if (made->second != index)
+    absl::StrAppend(&text, ", scaled from ", made->second);
+  return text;
+}
+
+}  // namespace
+
 std::string PulseText(const PulseAnswer& answer, const client::TableSummary& table, const std::string& sea) {
   std::string text =
       Line("table", absl::StrCat(table.id, " ", table.version, ": ", table.title)) + Line("digest", table.digest);
+  text += Line("water", WaterText(table));
   if (!sea.empty()) text += absl::StrCat("the sea", sea, "\n");
   for (const AxisId axis : kAxes) {
     if (!sea.empty() && annotate::IsOfSea(annotate::InputOf(axis))) continue;
@@ -259,6 +276,7 @@ std::string PulseJson(const PulseAnswer& answer, const client::TableSummary& tab
   object["table"] = table.id;
   object["version"] = table.version;
   object["digest"] = table.digest;
+  object["refractive_index"] = table.refractive_index;
   object["coverage"] = annotate::CoverageName(answer.style.coverage);
   AddInterpolationErrors(table, object);
   object.update(sea);

@@ -67,7 +67,7 @@ std::vector<std::size_t> RecordsOf(const annotate::SeaTimeline& seas) {
   return records;
 }
 
-absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions& options) {
+absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions& options, double index) {
   const std::vector<std::size_t> records = RecordsOf(seas);
   if (records.size() != 1) {
     return formats::UsageError(
@@ -77,7 +77,7 @@ absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions
                      "--sea-time, such as ",
                      SeaTimeText(*seas.record(records.back()).time)));
   }
-  ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(SeaCompiler(), seas.sea(records.front())));
+  ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(SeaCompiler(), seas.sea(records.front()), index));
   return WriteTable(table, options.output, options.existing);
 }
 
@@ -86,8 +86,9 @@ absl::Status RunSea(const SeaCommandOptions& options) {
   if (!settings.sea.has_waves())
     return formats::UsageError("sea: no waves are given; give a FILE, --survey, or --hs and --tp");
   ASSIGN_OR_RETURN(const annotate::SeaTimeline seas, annotate::SeaTimeline::Open(settings.sea));
-  if (!options.output.empty()) RETURN_IF_ERROR(WriteSea(seas, options));
-  const annotate::SlopeSurvey slopes_of;
+  const double index = annotate::IndexOrUsual(settings.water);
+  if (!options.output.empty()) RETURN_IF_ERROR(WriteSea(seas, options, index));
+  const annotate::SlopeSurvey slopes_of(index);
   ordered_json json = annotate::SeasHeadJson(seas);
   json["records"] = ordered_json::array();
   if (!options.json) std::cout << kHeading;

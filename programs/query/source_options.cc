@@ -23,10 +23,10 @@ absl::Status CheckName(const SourceOptions& options) {
   return formats::UsageError("--table-name cannot be used with --table (a file holds one table); leave it out");
 }
 
-absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string name,
-                                                                    const std::filesystem::path& path) {
+absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string name, const std::filesystem::path& path,
+                                                                    double index) {
   ASSIGN_OR_RETURN(UncertaintyTable table, ReadTable(path));
-  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), table));
+  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), table, index));
 }
 
 // Adds the other ways to choose a table, for when no installed table answers.
@@ -72,25 +72,25 @@ bool HasName(const client::TableSummary& table, const std::string& name) {
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options) {
+absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options, double index) {
   RETURN_IF_ERROR(CheckName(options));
-  if (!options.file.empty()) return OpenFile("", options.file);
-  if (!options.server.empty()) return client::OpenServer(options.server, options.name, {}, options.credentials);
+  if (!options.file.empty()) return OpenFile("", options.file, index);
+  if (!options.server.empty()) return client::OpenServer(options.server, options.name, {}, options.credentials, index);
   ASSIGN_OR_RETURN(const std::vector<TableFile> tables, InstalledTables());
   const absl::StatusOr<std::size_t> chosen = ChooseTable(tables, options.name);
   if (!chosen.ok()) return Advised(chosen.status());
-  return OpenFile(tables[*chosen].FullName(), tables[*chosen].path);
+  return OpenFile(tables[*chosen].FullName(), tables[*chosen].path, index);
 }
 
-absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options) {
+absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options, double index) {
   for (const auto& [flag, value] : {std::pair("--table", &options.file), {"--table-name", &options.name}}) {
     if (value->empty()) continue;
     return formats::UsageError(absl::StrCat(flag,
                                             " cannot be used with a sea (its table is compiled from its waves); leave "
                                             "out one of them"));
   }
-  if (options.server.empty()) return client::LocalSeas();
-  return client::ServerSeas(options.server, {}, options.credentials);
+  if (options.server.empty()) return client::LocalSeas(index);
+  return client::ServerSeas(options.server, {}, options.credentials, index);
 }
 
 absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions& options) {
@@ -111,13 +111,13 @@ absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions
   return tables;
 }
 
-absl::StatusOr<Answerer> Answerer::Open(const config::SeaSettings& sea, const SourceOptions& options) {
+absl::StatusOr<Answerer> Answerer::Open(const config::SeaSettings& sea, const SourceOptions& options, double index) {
   Answerer answerer;
   if (!sea.has_waves()) {
-    ASSIGN_OR_RETURN(answerer.table_, OpenSource(options));
+    ASSIGN_OR_RETURN(answerer.table_, OpenSource(options, index));
     return answerer;
   }
-  ASSIGN_OR_RETURN(std::unique_ptr<client::SeaSources> sources, OpenSeaSources(options));
+  ASSIGN_OR_RETURN(std::unique_ptr<client::SeaSources> sources, OpenSeaSources(options, index));
   ASSIGN_OR_RETURN(annotate::SeaTimeline timeline, annotate::SeaTimeline::Open(sea));
   answerer.timeline_ = std::make_shared<const annotate::SeaTimeline>(std::move(timeline));
   ASSIGN_OR_RETURN(answerer.seas_, annotate::SeaAnswers::Open(answerer.timeline_, std::move(sources)));

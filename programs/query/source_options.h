@@ -10,6 +10,7 @@
 #include "annotate/answers/batch.h"
 #include "annotate/seas/sea_answers.h"
 #include "config/sea_settings.h"
+#include "sea/water_index.h"
 #include "service/client/credentials.h"
 #include "service/client/sea_sources.h"
 #include "service/client/uncertainty_source.h"
@@ -24,10 +25,11 @@ struct SourceOptions {
   std::string name = {};                 // NAME or NAME/VERSION; empty for the default table
 };
 
-absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options);
+absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenSource(const SourceOptions& options,
+                                                                      double index = kSeaWaterIndex);
 
 // Where seas are compiled: in this process, or on the server. UsageError if a table is named, too.
-absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options);
+absl::StatusOr<std::unique_ptr<client::SeaSources>> OpenSeaSources(const SourceOptions& options, double index);
 
 // All tables of the source, or those that `options.name` names.
 absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions& options);
@@ -35,8 +37,8 @@ absl::StatusOr<std::vector<client::TableSummary>> ListTables(const SourceOptions
 // What answers the pulses of a command: a table, or the sea.
 class Answerer {
  public:
-  // Opens a table, unless `sea` has waves. UsageError if both are given.
-  static absl::StatusOr<Answerer> Open(const config::SeaSettings& sea, const SourceOptions& options);
+  // Opens a table, unless `sea` has waves, in water of the index. UsageError if both are given.
+  static absl::StatusOr<Answerer> Open(const config::SeaSettings& sea, const SourceOptions& options, double index);
 
   annotate::AnswerSource source() { return seas_ != nullptr ? seas_->source() : annotate::AnswerSource(*table_); }
   // Null where a table answers.

@@ -101,6 +101,7 @@ void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::str
         AddFlag(command, key.declaration.flag, group::kSea, flags.settings);
   });
   AddSwell(command, flags.settings.sea);
+  AddFlags(command, {"--water-index"}, group::kSea, flags);
 }
 
 void AddTotalFlags(CLI::App& command, SurveyFlags& flags) {

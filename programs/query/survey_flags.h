@@ -23,7 +23,7 @@ struct SurveyFlags {
 
 // Each adds flags under a heading of --help. `flags` must live as long as `command`.
 void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading, SurveyFlags& flags);
-// --survey and those of [sea] and [[sea.waves]], but for some.
+// --survey, those of [sea] and [[sea.waves]], but for some, and --water-index.
 void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without);
 // --sensor and those that go with it on all commands.
 void AddTotalFlags(CLI::App& command, SurveyFlags& flags);

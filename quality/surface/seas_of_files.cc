@@ -9,6 +9,7 @@
 #include "sea/files/sea_series.h"
 #include "sea/sea_state.h"
 #include "sea/sea_time.h"
+#include "sea/water_index.h"
 
 namespace albtpu::quality {
 namespace {
@@ -45,7 +46,7 @@ absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annota
   const Json& parameters = file.summary()["parameters"];
   const Json of_input = file.summary()["input"].value("sea", Json());
   const Json stated = of_input.is_object() ? of_input : parameters.value("sea", Json());
-  const double index = NumberOf(parameters, "water_index").value_or(kRefractiveIndex);
+  const double index = NumberOf(parameters, "water_index").value_or(kSeaWaterIndex);
   if (seas != nullptr) {
     if (!stated.is_object()) return NeedsTheSea(file, "was annotated for a wind, not for the waves that are given");
     std::size_t record = 0;

@@ -4,8 +4,6 @@
 
 namespace albtpu {
 
-static_assert(CorrelatedBeam().refractive_index == kRefractiveIndex);
-
 struct CorrelatedPulses::Parts {
   WaveCorrelation sea;
   BeamCorrelation beam;

@@ -15,6 +15,7 @@
 
 #include "sea/correlation/correlation.h"
 #include "sea/spectra/harmonic_spectrum.h"
+#include "sea/water_index.h"
 
 namespace albtpu {
 
@@ -24,7 +25,7 @@ struct CorrelatedBeam {
   double azimuth = 0;     // rad from x, of the horizontal direction of travel
   double footprint = 0;   // m, diameter at the mean surface, across the axis, 0.01 to 10
   bool gaussian = false;  // `footprint` is then the diameter at 1/e^2 of the irradiance
-  double refractive_index = 1.33;
+  double refractive_index = kSeaWaterIndex;
 };
 
 // The pulses of one beam over one sea. Immutable.

@@ -11,13 +11,11 @@
 #include <string_view>
 
 #include "sea/sea_state.h"
+#include "sea/water_index.h"
 
 namespace albtpu {
 
 // Refraction at the air-water interface: Snell's law for one ray, and its response to small slopes.
-
-// The refractive index of water at 532 nm, the wavelength of laser bathymetry, as in Birkebak et al. (2018), Eq. 17.
-inline constexpr double kRefractiveIndex = 1.33;
 
 // The direction of the ray `incident` after it has entered water of index `n` (air is 1) through a surface with the
 // upward normal `normal`. Both are unit vectors, with incident . normal < 0; the result is a unit vector.

@@ -70,9 +70,9 @@ Estimate TwoSigma(double in_proportion, double to_its_square, double relative) {
 Estimate Scaled(double value, double relative) { return {value, relative * std::abs(value)}; }
 
 // TOML of what the sea was compiled from.
-std::string CampaignText(const std::map<std::string, AttributeValue>& sea, const SeaTableOptions& options) {
-  std::string text = absl::StrFormat("refractive_index = %.17g\nbeam_profile = \"%s\"\n\n[sea]\n",
-                                     options.refractive_index, std::string(Name(options.profile)));
+std::string CampaignText(const std::map<std::string, AttributeValue>& sea, BeamProfile profile, double index) {
+  std::string text =
+      absl::StrFormat("refractive_index = %.17g\nbeam_profile = \"%s\"\n\n[sea]\n", index, std::string(Name(profile)));
   for (const auto& [name, value] : sea)
     if (const auto* number = std::get_if<double>(&value))
       absl::StrAppendFormat(&text, "%s = %.17g\n", name, *number);
@@ -120,7 +120,8 @@ SeaCompiler::SeaCompiler(const SeaTableOptions& options)
   for (const double footprint : options_.nodes.footprints) footprints_.emplace_back(options_.profile, footprint);
 }
 
-absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const SeaDescription& sea, double record_length) const {
+absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const SeaDescription& sea, double record_length,
+                                                      double index) const {
   const SeaErrors error_of(sea, record_length);
   RelativeErrors errors;
   for (const double footprint : options_.nodes.footprints) {
@@ -128,11 +129,11 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const SeaDescription& sea,
     errors.push_back(error_of([&](double k) { return FootprintPower(beam, k, 0); }).total);
   }
   errors.push_back(error_of([](double) { return 1; }).total);
-  return Compile(Describe(sea), sea.waves ? std::optional(sea.tail) : std::nullopt, errors);
+  return Compile(Describe(sea), sea.waves ? std::optional(sea.tail) : std::nullopt, errors, index);
 }
 
-absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea) const {
-  return Compile(sea, std::nullopt, std::nullopt);
+absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, double index) const {
+  return Compile(sea, std::nullopt, std::nullopt, index);
 }
 
 absl::StatusOr<UncertaintyTable::Axes> SeaCompiler::AxesFor(double wind_speed) const {
@@ -147,32 +148,32 @@ absl::StatusOr<UncertaintyTable::Axes> SeaCompiler::AxesFor(double wind_speed) c
                                 MakeAxis(AxisId::kDepth, nodes.depths)};
 }
 
-Provenance SeaCompiler::ProvenanceOf(const DescribedSea& sea, std::optional<TailRule> tail) const {
+Provenance SeaCompiler::ProvenanceOf(const DescribedSea& sea, std::optional<TailRule> tail, double index) const {
   std::map<std::string, AttributeValue> attributes = AttributesOf(sea, tail);
   Provenance provenance{.id = "sea",
                         .version = "1",
                         .title = absl::StrFormat("One sea: waves of %.2f m, wind of %.1f m/s",
                                                  SignificantWaveHeight(sea.spectrum), sea.wind_speed_10m),
-                        .campaign = CampaignText(attributes, options_),
+                        .campaign = CampaignText(attributes, options_.profile, index),
                         .attributes = std::move(attributes)};
   provenance.attributes.emplace("source", "response theory of a Gaussian sea");
   provenance.attributes.emplace("program_version", std::string(Version()));
-  provenance.attributes.emplace("refractive_index", options_.refractive_index);
+  provenance.attributes.emplace("refractive_index", index);
   provenance.attributes.emplace("beam_profile", std::string(Name(options_.profile)));
   return provenance;
 }
 
-std::vector<BeamResponse> SeaCompiler::ResponsesOf(const HarmonicSpectrum& spectrum) const {
+std::vector<BeamResponse> SeaCompiler::ResponsesOf(const HarmonicSpectrum& spectrum, double index) const {
   if (MeanSquareSlope(spectrum) == 0) {  // exactly nothing, not what rounding leaves
     const BeamResponse none{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero(),
                             Eigen::Vector2d::Zero()};
     return std::vector<BeamResponse>(directions_.size() * footprints_.size(), none);
   }
-  return directions_.ResponsesOf(SeaResponse(WithoutEmptyHarmonics(spectrum), options_.refractive_index), footprints_);
+  return directions_.ResponsesOf(SeaResponse(WithoutEmptyHarmonics(spectrum), index), footprints_);
 }
 
 absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, std::optional<TailRule> tail,
-                                                      const std::optional<RelativeErrors>& errors) const {
+                                                      const std::optional<RelativeErrors>& errors, double index) const {
   const auto refused = [&](const absl::Status& status) {
     return absl::InvalidArgumentError(
         absl::StrFormat("the sea has no table (its mean square slope is %g, its wind %g m/s; %s); check its heights, "
@@ -183,7 +184,7 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, s
     return refused(absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kMaxMeanSquareSlope)));
   absl::StatusOr<UncertaintyTable::Axes> axes = AxesFor(sea.wind_speed_10m);
   if (!axes.ok()) return refused(axes.status());
-  const std::vector<BeamResponse> responses = ResponsesOf(sea.spectrum);
+  const std::vector<BeamResponse> responses = ResponsesOf(sea.spectrum, index);
   UncertaintyTable::Variables variables;
   variables.fill(Variable());
   const SeaTableNodes& nodes = options_.nodes;
@@ -208,7 +209,7 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, s
     }
   }
   absl::StatusOr<UncertaintyTable> table =
-      UncertaintyTable::Create(kOneSea, *std::move(axes), std::move(variables), ProvenanceOf(sea, tail));
+      UncertaintyTable::Create(kOneSea, *std::move(axes), std::move(variables), ProvenanceOf(sea, tail, index));
   if (!table.ok()) return refused(table.status());
   return table;
 }

@@ -26,7 +26,7 @@ struct SeaTableNodes {
 };
 
 struct SeaTableOptions {
-  double refractive_index = kRefractiveIndex;
+  double refractive_index = kSeaWaterIndex;
   BeamProfile profile = BeamProfile::kUniform;
   SeaTableNodes nodes = {};
 };
@@ -48,21 +48,28 @@ class SeaCompiler {
   //
   // Fails with InvalidArgument if the mean square slope is above kMaxMeanSquareSlope, or if a table cannot hold a
   // number, which it names: one that is not finite or above 1e6.
-  absl::StatusOr<UncertaintyTable> Compile(const SeaDescription& sea, double record_length) const;
+  absl::StatusOr<UncertaintyTable> Compile(const SeaDescription& sea, double record_length) const {
+    return Compile(sea, record_length, options_.refractive_index);
+  }
+  // In water of another index than that of the options.
+  absl::StatusOr<UncertaintyTable> Compile(const SeaDescription& sea, double record_length, double index) const;
 
   // Of a sea whose uncertainty is not known: without standard errors.
-  absl::StatusOr<UncertaintyTable> Compile(const DescribedSea& sea) const;
+  absl::StatusOr<UncertaintyTable> Compile(const DescribedSea& sea) const {
+    return Compile(sea, options_.refractive_index);
+  }
+  absl::StatusOr<UncertaintyTable> Compile(const DescribedSea& sea, double index) const;
 
  private:
   // The relative errors of V for each footprint, then that of the mean square slope.
   using RelativeErrors = std::vector<double>;
 
   absl::StatusOr<UncertaintyTable> Compile(const DescribedSea& sea, std::optional<TailRule> tail,
-                                           const std::optional<RelativeErrors>& errors) const;
+                                           const std::optional<RelativeErrors>& errors, double index) const;
   // By (incidence, azimuth without the last, footprint).
-  std::vector<BeamResponse> ResponsesOf(const HarmonicSpectrum& spectrum) const;
+  std::vector<BeamResponse> ResponsesOf(const HarmonicSpectrum& spectrum, double index) const;
   absl::StatusOr<UncertaintyTable::Axes> AxesFor(double wind_speed) const;
-  Provenance ProvenanceOf(const DescribedSea& sea, std::optional<TailRule> tail) const;
+  Provenance ProvenanceOf(const DescribedSea& sea, std::optional<TailRule> tail, double index) const;
 
   SeaTableOptions options_;
   BeamDirections directions_;

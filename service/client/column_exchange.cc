@@ -46,6 +46,7 @@ class Call {
   Call(grpc::GenericStub& stub, const ColumnTask& task, std::size_t begin)
       : task_(task), sent_(begin), answered_(begin) {
     request_without_pulses_.mutable_options()->set_table(task.table);
+    request_without_pulses_.mutable_options()->set_refractive_index(task.refractive_index);
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;
     ToWire(task.query, task.answers, request_without_pulses_);
     stream_ = stub.PrepareCall(&context_, kMethod, &events_);

@@ -26,6 +26,7 @@ struct Task {
   const std::string& table;         // Its name; empty for a sea.
   const std::string& digest;        // The digest that every answer must come from.
   const albtpu::v1::SeaState* sea;  // Null for a table of the server's.
+  const double refractive_index;
   const Options& query;
   const Pulses& pulses;
   const Answers& answers;

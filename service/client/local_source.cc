@@ -6,6 +6,7 @@
 #include "absl/strings/str_join.h"
 #include "budget/query/query_check.h"
 #include "sea/table/sea_table.h"
+#include "sea/table/table_at_index.h"
 #include "service/client/sea_sources.h"
 #include "service/seas/sea_summary.h"
 #include "status/status_macros.h"
@@ -24,20 +25,23 @@ struct AsText {
 
 class LocalSeaSources final : public SeaSources {
  public:
+  explicit LocalSeaSources(double index) : index_(index) {}
+
   absl::StatusOr<std::unique_ptr<UncertaintySource>> Open(const KnownSea& sea) override {
-    ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(compiler_, sea));
-    return std::make_unique<LocalSource>("", table);
+    ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(compiler_, sea, index_));
+    return std::make_unique<LocalSource>("", table, index_);
   }
 
  private:
+  const double index_;
   const SeaCompiler compiler_;
 };
 
 }  // namespace
 
-std::unique_ptr<SeaSources> LocalSeas() { return std::make_unique<LocalSeaSources>(); }
+std::unique_ptr<SeaSources> LocalSeas(double index) { return std::make_unique<LocalSeaSources>(index); }
 
-TableSummary Summarize(std::string name, const UncertaintyTable& table) {
+TableSummary Summarize(std::string name, const UncertaintyTable& table, double index) {
   const Provenance& provenance = table.provenance();
   TableSummary summary;
   summary.name = std::move(name);
@@ -45,6 +49,7 @@ TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   summary.version = provenance.version;
   summary.title = provenance.title;
   summary.digest = table.digest();
+  summary.refractive_index = index;
   summary.sea = SummaryOfSea(table);
   for (const Axis& axis : table.axes())
     summary.axes[Index(axis.id())] = {axis.nodes().front(), axis.nodes().back(), axis.size()};
@@ -52,8 +57,15 @@ TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   return summary;
 }
 
-LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
-    : summary_(Summarize(std::move(name), table)), interpolator_(table) {}
+absl::Status CheckIndex(const BudgetOptions& options, const TableSummary& table) {
+  if (options.index == table.refractive_index) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("the index of the water is ", options.index, " in the options of the budget and ",
+                   table.refractive_index, " in the source of the sea's share; open the source at the same index"));
+}
+
+LocalSource::LocalSource(std::string name, const UncertaintyTable& table, double index)
+    : summary_(Summarize(std::move(name), table, index)), interpolator_(AtIndex(table, index)) {}
 
 absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) {
   const PulseColumns used = summary_.sea ? OnOneSea(pulses) : pulses;
@@ -70,6 +82,7 @@ absl::Status LocalSource::AnswerBudget(const BudgetOptions& options, const Budge
     used.sea_axis = summary_.sea->x_azimuth;
   }
   RETURN_IF_ERROR(CheckQuery(summary_.sea ? kOneSea : kSeaSurface, used, options));
+  RETURN_IF_ERROR(CheckIndex(options, summary_));
   QueryBudgetOnAllCores(interpolator_, used, options, answers);
   return absl::OkStatus();
 }

@@ -11,7 +11,8 @@ namespace albtpu::client {
 class LocalSource : public UncertaintySource {
  public:
   // `name` is the value of --table-name that selects the table; empty for a table file given by its path.
-  LocalSource(std::string name, const UncertaintyTable& table);
+  // Answers are for water of the index: the table is scaled to it (sea/table/table_at_index.h), unless it is its own.
+  LocalSource(std::string name, const UncertaintyTable& table, double index = kSeaWaterIndex);
 
   const TableSummary& table() const override { return summary_; }
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
@@ -23,6 +24,9 @@ class LocalSource : public UncertaintySource {
   ColumnInterpolator interpolator_;
 };
 
-TableSummary Summarize(std::string name, const UncertaintyTable& table);
+TableSummary Summarize(std::string name, const UncertaintyTable& table, double index = kSeaWaterIndex);
+
+// InvalidArgument if a budget is asked for water of another index than that of the source.
+absl::Status CheckIndex(const BudgetOptions& options, const TableSummary& table);
 
 }  // namespace albtpu::client

@@ -24,7 +24,7 @@ class SeaSources {
   virtual absl::StatusOr<std::unique_ptr<UncertaintySource>> Open(const KnownSea& sea) = 0;
 };
 
-// Compiles seas in this process, each time anew. Each source holds its table: 1.2 MiB.
+// Compiles seas in this process, each time anew, in water of this index. Each source holds its table: 1.2 MiB.
 //
 // Example:
 //   const absl::StatusOr<SeaSeries> buoy = ReadSeaFile("41010.data_spec");
@@ -35,10 +35,11 @@ class SeaSources {
 //   absl::Status status = (*source)->Answer({}, pulses, answers);
 // where `pulses` and `answers` are as in the example in column_query.h. On such a sea pulses need no wind speed and no
 // fetch; the columns of both are ignored.
-std::unique_ptr<SeaSources> LocalSeas();
+std::unique_ptr<SeaSources> LocalSeas(double index = kSeaWaterIndex);
 
 // Compiles seas on a server, which keeps the tables of the last ones. Arguments are those of OpenServer.
 absl::StatusOr<std::unique_ptr<SeaSources>> ServerSeas(const std::string& address, const Patience& patience = {},
-                                                       const Credentials& credentials = {});
+                                                       const Credentials& credentials = {},
+                                                       double index = kSeaWaterIndex);
 
 }  // namespace albtpu::client

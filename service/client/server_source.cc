@@ -14,6 +14,7 @@
 #include "service/client/budget_exchange.h"
 #include "service/client/channel.h"
 #include "service/client/column_exchange.h"
+#include "service/client/local_source.h"
 #include "service/client/sea_sources.h"
 #include "service/client/wire.h"
 #include "service/seas/sea_summary.h"
@@ -86,7 +87,7 @@ class ServerSource final : public UncertaintySource {
   absl::Status Answer(const Query& query, const PulseColumns& all_pulses, const AnswerColumns& answers) override {
     const PulseColumns pulses = table_.sea ? OnOneSea(all_pulses) : all_pulses;
     RETURN_IF_ERROR(CheckLengths(table_.sea ? kOneSea : kSeaSurface, pulses));
-    const ColumnTask task{table_.name, table_.digest, sea_.get(), query, pulses, answers};
+    const ColumnTask task{table_.name, table_.digest, sea_.get(), table_.refractive_index, query, pulses, answers};
     return AnswerAll(pulses.size, [&](std::size_t& answered) { return QueryByStream(stub_, task, answered); });
   }
 
@@ -95,7 +96,8 @@ class ServerSource final : public UncertaintySource {
     BudgetPulses pulses = all_pulses;
     if (table_.sea) pulses.pulses = OnOneSea(all_pulses.pulses);
     RETURN_IF_ERROR(CheckQuery(table_.sea ? kOneSea : kSeaSurface, pulses, options));
-    const BudgetTask task{table_.name, table_.digest, sea_.get(), options, pulses, answers};
+    RETURN_IF_ERROR(CheckIndex(options, table_));
+    const BudgetTask task{table_.name, table_.digest, sea_.get(), table_.refractive_index, options, pulses, answers};
     return AnswerAll(pulses.pulses.size, [&](std::size_t& answered) { return QueryByCalls(stub_, task, answered); });
   }
 
@@ -137,28 +139,32 @@ absl::StatusOr<TableSummary> GetTable(const ServerConnection& server, const std:
 
 class ServerSeaSources final : public SeaSources {
  public:
-  explicit ServerSeaSources(ServerConnection server) : server_(std::move(server)) {}
+  ServerSeaSources(ServerConnection server, double index) : server_(std::move(server)), index_(index) {}
 
   absl::StatusOr<std::unique_ptr<UncertaintySource>> Open(const KnownSea& sea) override {
     albtpu::v1::CompileSeaRequest request;
     *request.mutable_sea() = ToWire(sea);
+    request.set_refractive_index(index_);
     ASSIGN_OR_RETURN(const auto response, CallWithRetries(server_, &UncertaintyService::Stub::CompileSea, request));
+    TableSummary table = FromWire(response.table());
+    table.refractive_index = index_;
     return std::make_unique<ServerSource>(
-        server_, FromWire(response.table()),
-        std::make_unique<const albtpu::v1::SeaState>(std::move(*request.mutable_sea())));
+        server_, std::move(table), std::make_unique<const albtpu::v1::SeaState>(std::move(*request.mutable_sea())));
   }
 
  private:
   const ServerConnection server_;
+  const double index_;
 };
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address, const std::string& table,
-                                                              const Patience& patience,
-                                                              const Credentials& credentials) {
+                                                              const Patience& patience, const Credentials& credentials,
+                                                              double index) {
   ASSIGN_OR_RETURN(const ServerConnection server, Connect(address, patience, credentials));
   ASSIGN_OR_RETURN(TableSummary summary, GetTable(server, table));
+  summary.refractive_index = index;
   return std::make_unique<ServerSource>(server, std::move(summary));
 }
 
@@ -176,9 +182,9 @@ absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& ad
 }
 
 absl::StatusOr<std::unique_ptr<SeaSources>> ServerSeas(const std::string& address, const Patience& patience,
-                                                       const Credentials& credentials) {
+                                                       const Credentials& credentials, double index) {
   ASSIGN_OR_RETURN(ServerConnection server, Connect(address, patience, credentials));
-  return std::make_unique<ServerSeaSources>(std::move(server));
+  return std::make_unique<ServerSeaSources>(std::move(server), index);
 }
 
 }  // namespace albtpu::client

@@ -18,7 +18,8 @@ namespace albtpu::client {
 //
 // `address` is HOST:PORT, or `dns:///NAME:PORT` for a name with several servers: calls of Answer take turns with them,
 // and another server answers what a failed one left unanswered. `table` is the name of the table; empty selects the
-// server's default. Opening fails within one second if the server refuses connections, and within six if it does not
+// server's default. Answers are for water of the index; a server before version 0.2 answers at the index of its table.
+// Opening fails within one second if the server refuses connections, and within six if it does not
 // respond.
 //
 // Example:
@@ -28,7 +29,8 @@ namespace albtpu::client {
 // where `pulses` and `answers` are as in the example in column_query.h.
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address, const std::string& table,
                                                               const Patience& patience = {},
-                                                              const Credentials& credentials = {});
+                                                              const Credentials& credentials = {},
+                                                              double index = kSeaWaterIndex);
 
 // Lists all tables of a server.
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address,

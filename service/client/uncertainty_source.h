@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "budget/query/budget_query.h"
+#include "sea/water_index.h"
 #include "service/seas/sea_summary.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
@@ -29,8 +30,10 @@ struct TableSummary {
   std::string digest;  // 64 hexadecimal digits
   std::array<AxisRange, kAxisCount> axes;
   std::map<std::string, std::string> attributes;  // Further provenance, as text.
-  bool is_default = false;                        // Used when no table is named.
-  std::optional<SeaSummary> sea;                  // If it is the table of one sea.
+  // Of the water that answers are for, whatever the index that the table was made at.
+  double refractive_index = kSeaWaterIndex;
+  bool is_default = false;        // Used when no table is named.
+  std::optional<SeaSummary> sea;  // If it is the table of one sea.
 };
 
 class UncertaintySource {
@@ -47,7 +50,7 @@ class UncertaintySource {
   virtual absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) = 0;
 
   // The same for the whole budget. With a table of one sea, the axis of the sea is that of the table. InvalidArgument
-  // also if a number of `options` is out of its range.
+  // also if a number of `options` is out of its range, or their index is not that of the source.
   virtual absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
                                     const BudgetAnswers& answers) = 0;
 };

@@ -44,9 +44,9 @@ DescribedSea Describe(const KnownSea& sea) {
   return Describe(WithWaves(sea));
 }
 
-absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea) {
-  if (std::holds_alternative<WholeSea>(sea.waves)) return compiler.Compile(Describe(sea));
-  return compiler.Compile(WithWaves(sea), sea.record_length);
+absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea, double index) {
+  if (std::holds_alternative<WholeSea>(sea.waves)) return compiler.Compile(Describe(sea), index);
+  return compiler.Compile(WithWaves(sea), sea.record_length, index);
 }
 
 }  // namespace albtpu

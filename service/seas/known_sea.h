@@ -8,13 +8,14 @@
 #include "absl/status/statusor.h"
 #include "sea/files/sea_series.h"
 #include "sea/spectra/described_sea.h"
+#include "sea/water_index.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
 
 class SeaCompiler;
 
-// Equal seas have the same table in process, on a server and from a file, bit for bit on the same instruction set.
+// In the same water, equal seas have the same table in process, on a server and from a file, bit for bit on the same instruction set.
 struct KnownSea {
   // Without waves the sea is the fully developed sea of the wind. A WholeSea is complete: the wind's direction is its x
   // axis, wind speed and depth are only stated, and the other members have no effect.
@@ -34,8 +35,9 @@ KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& given, double
 // Its spectrum, with the assumptions made.
 DescribedSea Describe(const KnownSea& sea);
 
-// The table of the sea. InvalidArgument if it is steeper than any sea (sea_table.h), or if a table cannot hold its
-// numbers.
-absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea);
+// The table of the sea in water of `index`. InvalidArgument if it is steeper than any sea (sea_table.h), or if a table
+// cannot hold its numbers.
+absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea,
+                                            double index = kSeaWaterIndex);
 
 }  // namespace albtpu

@@ -64,15 +64,24 @@ class Wire(FolderTest):
         for version in VERSIONS:
             with connect(self.serve(version).address) as channel:
                 for path, request, response in wire.load(version / "wire"):
-                    kind = wire.method_of(path).output_type
-                    try:
-                        answer = next(channel.stream_stream(path)(iter([request])))
-                    except grpc.RpcError as error:
-                        self.fail(f"{path} of {version.name}: {error.code()} {error.details()}")
-                    # The digest of a sea, and its file, are those of one version and instruction set.
-                    found = differences.of_messages(wire.parse(kind, response), wire.parse(kind, answer),
-                                                    ignored=("digest", "file"))
-                    self.assertEqual(list(found), [], path)
+                    with differences.corrected():
+                        self.assert_answered(version, channel, path, request, response)
+                    # What answered then was at the index of the table, 1.33.
+                    asked = wire.parse(wire.method_of(path).input_type, request)
+                    if path.endswith("/QueryBudget") or not wire.ask_for_index(asked, 1.33):
+                        continue
+                    self.assert_answered(version, channel, path, asked.SerializeToString(), response)
+
+    def assert_answered(self, version, channel, path, request, response):
+        kind = wire.method_of(path).output_type
+        try:
+            answer = next(channel.stream_stream(path)(iter([request])))
+        except grpc.RpcError as error:
+            self.fail(f"{path} of {version.name}: {error.code()} {error.details()}")
+        # The digest of a sea, and its file, are those of one version and instruction set.
+        found = differences.of_messages(wire.parse(kind, response), wire.parse(kind, answer),
+                                        ignored=("digest", "file", "refractive_index", "attributes", "campaign"))
+        self.assertEqual(list(found), [], path)
 
     def test_the_python_client_of_then_works_with_the_server_of_now(self):
         for version in VERSIONS:
@@ -92,11 +101,13 @@ class Wire(FolderTest):
             with wire.Between(kept=wire.load(version / "wire")) as server:
                 make(QUERY, folder, SERVED, "--server", server.address)
             for name in ("answers.csv", "total_answers.csv", "pulse.json", "waves.json", "total.json"):
-                self.assertEqual(differences.of_files(version / name, folder / name), [])
+                with differences.corrected():
+                    self.assertEqual(differences.of_files(version / name, folder / name), [])
 
     def assert_answers(self, version, answers):
         recorded = differences.read_json(version / "python.json")
-        self.assertEqual(list(differences.of_json(recorded, answers)), [])
+        with differences.corrected():
+            self.assertEqual(list(differences.of_json(recorded, answers)), [])
 
 
 if __name__ == "__main__":

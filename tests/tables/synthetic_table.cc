@@ -68,7 +68,7 @@ Provenance MakeProvenance(const SyntheticOptions& options) {
           .campaign = options.published ? "" : "[campaign]\nid = \"" + options.id + "\"\n",
           .attributes = {{"source", std::string("a smooth formula")},
                          {"realizations", std::int64_t{500}},
-                         {"refractive_index", 1.33},
+                         {"refractive_index", 1.34},  // What answers are for where none is asked: not scaled.
                          {"interpolation_error", std::vector<double>{0.01, 0.02, 0.03}}}};
 }
 

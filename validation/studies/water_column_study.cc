@@ -15,7 +15,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kRefractiveIndex = 1.34, kGroupIndex = 1.36;
+constexpr double kGroupIndex = 1.36;
 
 // Petzold's mean ocean particle.
 const PhaseFunction& Ocean() {
@@ -41,7 +41,7 @@ Water OfAttenuation(double attenuation) {
 
 WaterColumn ColumnOf(const LidarSystem& lidar, const Water& water, double incidence, double depth) {
   return {.incidence = RadiansOfDegrees(incidence),
-          .refractive_index = kRefractiveIndex,
+          .refractive_index = kSeaWaterIndex,
           .group_index = kGroupIndex,
           .scattering = water.scattering * depth,
           .absorption = water.absorption / water.scattering,
@@ -135,7 +135,7 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
   const WaterColumn column = ColumnOf(kWide, water, incidence, depth);
   const std::array pulses = {PulseLength(kWide, depth)};
   const RoundTrip trip{.incidence = column.incidence,
-                       .refractive_index = kRefractiveIndex,
+                       .refractive_index = kSeaWaterIndex,
                        .group_index = kGroupIndex,
                        .scattering = water.scattering,
                        .absorption = water.absorption,
@@ -145,7 +145,7 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
   const WaterColumnBias trips = BiasOfEchoes(
       TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 100'000 : 1'000'000, options.seed), column,
       pulses);
-  const WalkSetup beam{.refracted = RefractedAngle(column.incidence, kRefractiveIndex),
+  const WalkSetup beam{.refracted = RefractedAngle(column.incidence, kSeaWaterIndex),
                        .longest_excess = 14 / column.absorption};
   WalkSetup receiver = beam;
   receiver.cone = trip.cone;

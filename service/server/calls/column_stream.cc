@@ -78,14 +78,14 @@ void ColumnStream::HandleRequest(std::shared_ptr<const ServedTable> compiled) {
   if (context_.IsCancelled()) return Fail(grpc::Status::CANCELLED);
   AnswerSources sources(*catalog_, seas_, std::move(compiled));
   const grpc::Status status = RunHandler(sources);
-  if (sources.wanted()) return AwaitSea(*sources.wanted());
+  if (sources.wanted()) return AwaitTable(*sources.wanted());
   if (!status.ok()) return Fail(status);
   current_.Clear();
   StartWrite(&answer_);
 }
 
-void ColumnStream::AwaitSea(const WantedSea& wanted) {
-  seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+void ColumnStream::AwaitTable(const WantedTable& wanted) {
+  seas_.Compile(wanted, [this](const SeaTables::Result& table) {
     if (!table.ok()) return Fail(ToGrpcStatus(Within("query", table.status())));
     workers_.Run([this, table = *table] { HandleRequest(table); });
   });

@@ -38,7 +38,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   void HandleRequest(std::shared_ptr<const ServedTable> compiled);
   grpc::Status RunHandler(AnswerSources& sources);
   // Handles the request again when its sea is compiled.
-  void AwaitSea(const WantedSea& wanted);
+  void AwaitTable(const WantedTable& wanted);
   void Fail(const grpc::Status& status);
   void End(const grpc::Status& status);
   void EndIdle();

@@ -134,6 +134,7 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
                          OutcomeTally& tally) {
   v1::QueryOptions query;
   query.set_table(request.options().table());
+  if (request.options().has_refractive_index()) query.set_refractive_index(request.options().refractive_index());
   ASSIGN_OR_RETURN(const QueryPlan plan, PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources));
   ASSIGN_OR_RETURN(const BudgetOptions options, ReadBudgetOptions(request.options()));
   ASSIGN_OR_RETURN(const BudgetSelection selection, ReadBudgetQuantities(request));
@@ -147,6 +148,7 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
   head.set_pulse_count(static_cast<int>(count));
   head.set_azimuth_absent(pulses.pulses[AxisId::kAzimuth].empty());
   if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
+  head.set_refractive_index(source.refractive_index);
   response.Add(head);
   if (source.sea) pulses.pulses = OnOneSea(pulses.pulses);
   if (source.sea)

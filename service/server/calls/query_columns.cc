@@ -15,8 +15,10 @@ namespace {
 
 absl::StatusOr<const ServedTable*> FindSource(const v1::QueryOptions& options, const v1::SeaState* sea,
                                               AnswerSources& sources) {
-  if (sea == nullptr) return sources.Find(options.table());
-  if (options.table().empty()) return sources.Find(*sea);
+  ASSIGN_OR_RETURN(const double index,
+                   ReadIndex(options.has_refractive_index(), options.refractive_index(), "options.refractive_index"));
+  if (sea == nullptr) return sources.Find(options.table(), index);
+  if (options.table().empty()) return sources.Find(*sea, index);
   return FieldViolation("options.table",
                         absl::StrCat("options.table is '", options.table(),
                                      "' (the request has a sea, whose table is another one); leave out one of "
@@ -176,6 +178,7 @@ absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest&
   head.set_pulse_count(static_cast<int>(pulses.size));
   head.set_azimuth_absent(pulses[AxisId::kAzimuth].empty());
   if (plan.source->sea) *head.mutable_sea() = WriteSea(*plan.source->sea);
+  head.set_refractive_index(plan.source->refractive_index);
   response.Add(head);
   const AnswerColumns answers = AddColumns(plan, selection, pulses.size, response);
   InterpolateOnAllCores(plan.source->interpolator, plan.query, plan.source->sea ? OnOneSea(pulses) : pulses, answers);

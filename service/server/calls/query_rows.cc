@@ -180,6 +180,7 @@ absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& req
   *response.mutable_table() = WriteReference(*plan.source);
   response.set_coverage(ToWire(plan.query.coverage));
   if (plan.source->sea) *response.mutable_sea() = WriteSea(*plan.source->sea);
+  response.set_refractive_index(plan.source->refractive_index);
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
   for (bool with_azimuth : {true, false}) RowColumns(plan, request.pulses(), with_azimuth).Query(response, tally);
@@ -225,7 +226,9 @@ absl::Status DescribeSea(AnswerSources& sources, const v1::CompileSeaRequest& re
                          v1::CompileSeaResponse& response) {
   if (!request.has_sea())
     return FieldViolation("sea", "sea is missing (its table is what is asked for); send a SeaState");
-  ASSIGN_OR_RETURN(const ServedTable* table, sources.Find(request.sea()));
+  ASSIGN_OR_RETURN(const double index,
+                   ReadIndex(request.has_refractive_index(), request.refractive_index(), "refractive_index"));
+  ASSIGN_OR_RETURN(const ServedTable* table, sources.Find(request.sea(), index));
   *response.mutable_table() = WriteTableMessage(*table);
   if (request.has_correlation()) {
     ASSIGN_OR_RETURN(const KnownSea sea, ReadSea(request.sea()));

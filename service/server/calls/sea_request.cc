@@ -1,6 +1,8 @@
 #include "service/server/calls/sea_request.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "sea/files/sea_csv.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
+#include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
@@ -225,24 +228,50 @@ class Reader {
 
 absl::StatusOr<KnownSea> ReadSea(const v1::SeaState& state) { return Reader().Read(state); }
 
-Sha256Digest KeyOf(const v1::SeaState& state) {
+Sha256Digest KeyOf(const v1::SeaState& state, double index) {
   v1::SeaState known = state;
   known.DiscardUnknownFields();
   Sha256 sha;
-  sha.Update(known.SerializeAsString());
+  sha.Update(absl::StrCat(absl::Hex(std::bit_cast<std::uint64_t>(index)), " sea ", known.SerializeAsString()));
   return sha.Finish();
 }
 
-absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table) const { return catalog_.Find(table); }
+namespace {
 
-absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea) {
-  if (sea_table_ != nullptr) return sea_table_.get();
-  const Sha256Digest key = KeyOf(sea);
-  sea_table_ = seas_.Find(key);
-  if (sea_table_ != nullptr) return sea_table_.get();
+Sha256Digest KeyOf(const ServedTable& table, double index) {
+  Sha256 sha;
+  sha.Update(
+      absl::StrCat(absl::Hex(std::bit_cast<std::uint64_t>(index)), " table ", table.name, " ", table.table.digest()));
+  return sha.Finish();
+}
+
+}  // namespace
+
+absl::StatusOr<double> ReadIndex(bool given, double index, std::string_view path) {
+  if (!given) return kSeaWaterIndex;
+  if (index >= 1 && index <= 2) return index;
+  return FieldViolation(path, absl::StrCat(std::string(path), " is ", index, " (expected 1 to 2); correct it"));
+}
+
+absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table, double index) {
+  ASSIGN_OR_RETURN(const TableCatalog::Entry* const entry, catalog_.Find(table));
+  if (entry->refractive_index == index) return entry;
+  if (made_ != nullptr) return made_.get();
+  const Sha256Digest key = KeyOf(*entry, index);
+  made_ = seas_.Find(key);
+  if (made_ != nullptr) return made_.get();
+  wanted_ = WantedTable{key, entry->shared_from_this(), index};
+  return absl::UnavailableError("the table is not scaled yet");
+}
+
+absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea, double index) {
+  if (made_ != nullptr) return made_.get();
+  const Sha256Digest key = KeyOf(sea, index);
+  made_ = seas_.Find(key);
+  if (made_ != nullptr) return made_.get();
   absl::StatusOr<KnownSea> known = ReadSea(sea);
   if (!known.ok()) return Within("sea", known.status());
-  wanted_ = WantedSea{key, *std::move(known)};
+  wanted_ = WantedTable{key, *std::move(known), index};
   return absl::UnavailableError("the sea is not compiled yet");
 }
 

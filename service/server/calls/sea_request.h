@@ -19,38 +19,39 @@ namespace albtpu::server {
 // kMaxSeaViolations fields at most.
 absl::StatusOr<KnownSea> ReadSea(const v1::SeaState& state);
 
-// SHA-256 over the fields of `state` that this server knows. States with the same key are equal.
-Sha256Digest KeyOf(const v1::SeaState& state);
+// SHA-256 over the fields of `state` that this server knows, and the index of the water. States with the same key are
+// equal.
+Sha256Digest KeyOf(const v1::SeaState& state, double index = kSeaWaterIndex);
 
 // The tables from which one request may be answered.
 
-// A sea of a request, to be compiled before the request can be handled.
-struct WantedSea {
-  Sha256Digest key;
-  KnownSea sea;
-};
+// `index`, the refractive index of a request, or that of sea water if it has none. INVALID_ARGUMENT for the field
+// `path` if it is not from 1 to 2.
+absl::StatusOr<double> ReadIndex(bool given, double index, std::string_view path);
 
 class AnswerSources {
  public:
-  // `catalog` and `seas` must outlive it. `compiled` is the table of the sea of the request, if it had to be compiled:
-  // when the request is handled, it may no longer be kept.
+  // `catalog` and `seas` must outlive it. `compiled` is the table that the request needs, if it had to be made: when the
+  // request is handled, it may no longer be kept.
   AnswerSources(const TableCatalog& catalog, SeaTables& seas, std::shared_ptr<const ServedTable> compiled = nullptr)
-      : catalog_(catalog), seas_(seas), sea_table_(std::move(compiled)) {}
+      : catalog_(catalog), seas_(seas), made_(std::move(compiled)) {}
 
-  // The table of this name, as TableCatalog::Find. Lives as long as the catalog.
-  absl::StatusOr<const ServedTable*> Find(std::string_view table) const;
+  // Both live as long as catalog and this object. If a table is not made yet, wanted() has a value and the returned
+  // error means nothing.
+  //
+  // The table of this name, as TableCatalog::Find, in water of the index.
+  absl::StatusOr<const ServedTable*> Find(std::string_view table, double index);
 
-  // The table of a sea. Lives as long as this object. INVALID_ARGUMENT with the paths of wrong fields, which begin with
-  // `sea`. If the sea is not compiled yet, wanted() has a value and the returned error means nothing.
-  absl::StatusOr<const ServedTable*> Find(const v1::SeaState& sea);
+  // The table of a sea. INVALID_ARGUMENT with the paths of wrong fields, which begin with `sea`.
+  absl::StatusOr<const ServedTable*> Find(const v1::SeaState& sea, double index);
 
-  const std::optional<WantedSea>& wanted() const { return wanted_; }
+  const std::optional<WantedTable>& wanted() const { return wanted_; }
 
  private:
   const TableCatalog& catalog_;
   SeaTables& seas_;
-  std::shared_ptr<const ServedTable> sea_table_;
-  std::optional<WantedSea> wanted_;
+  std::shared_ptr<const ServedTable> made_;
+  std::optional<WantedTable> wanted_;
 };
 
 }  // namespace albtpu::server

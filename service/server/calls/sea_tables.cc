@@ -38,7 +38,7 @@ SeaTables::~SeaTables() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    for (const auto& [key, sea] : std::exchange(waiting_, {})) left.insert(asked_.extract(key));
+    for (const WantedTable& wanted : std::exchange(waiting_, {})) left.insert(asked_.extract(wanted.key));
   }
   changed_.notify_all();
   for (const auto& [key, listeners] : left)
@@ -51,7 +51,8 @@ std::shared_ptr<const ServedTable> SeaTables::Find(const Sha256Digest& key) {
   return FindKept(key);
 }
 
-void SeaTables::Compile(const Sha256Digest& key, const KnownSea& sea, Listener done) {
+void SeaTables::Compile(const WantedTable& wanted, Listener done) {
+  const Sha256Digest& key = wanted.key;
   Result result = absl::ResourceExhaustedError(
       "the server cannot take another sea (too many wait to be computed); try again later");
   {
@@ -63,7 +64,7 @@ void SeaTables::Compile(const Sha256Digest& key, const KnownSea& sea, Listener d
       return asked->second.push_back(std::move(done));
     } else if (waiting_.size() < limits_.waiting) {
       asked_[key].push_back(std::move(done));
-      waiting_.emplace_back(key, sea);
+      waiting_.push_back(wanted);
       return changed_.notify_one();
     } else {
       metrics_.CountRefused();
@@ -74,7 +75,7 @@ void SeaTables::Compile(const Sha256Digest& key, const KnownSea& sea, Listener d
 
 void SeaTables::Run() {
   while (true) {
-    std::pair<Sha256Digest, KnownSea> next;
+    WantedTable next;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
@@ -82,26 +83,35 @@ void SeaTables::Run() {
       next = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    const Result result = CompileNow(next.second);
+    const Result result = Make(next);
     std::vector<Listener> listeners;
     {
       const std::lock_guard lock(mutex_);
-      if (result.ok()) Keep(next.first, *result);
-      listeners = std::move(asked_.extract(next.first).mapped());
+      if (result.ok()) Keep(next.key, *result);
+      listeners = std::move(asked_.extract(next.key).mapped());
     }
     for (const Listener& done : listeners) done(result);
   }
 }
 
-SeaTables::Result SeaTables::CompileNow(const KnownSea& sea) try {
+SeaTables::Result SeaTables::Make(const WantedTable& wanted) try {
+  if (const KnownSea* const sea = std::get_if<KnownSea>(&wanted.of)) return CompileNow(*sea, wanted.refractive_index);
+  const ServedTable& served = *std::get<std::shared_ptr<const ServedTable>>(wanted.of);
+  return std::make_shared<const ServedTable>(served.name, served.table, wanted.refractive_index);
+} catch (const std::exception& error) {
+  metrics_.CountFailed();
+  return absl::InternalError(error.what());
+}
+
+SeaTables::Result SeaTables::CompileNow(const KnownSea& sea, double index) {
   const auto begin = std::chrono::steady_clock::now();
-  absl::StatusOr<UncertaintyTable> table = CompileSea(compiler_, sea);
+  absl::StatusOr<UncertaintyTable> table = CompileSea(compiler_, sea, index);
   if (!table.ok()) {
     metrics_.CountFailed();
     if (!absl::IsInvalidArgument(table.status())) return table.status();
     return FieldViolation("sea", std::string(table.status().message()));
   }
-  auto compiled = std::make_shared<const ServedTable>("", *std::move(table));
+  auto compiled = std::make_shared<const ServedTable>("", *std::move(table), index);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   metrics_.CountCompiled(took);
   log_.Write(spdlog::level::info, "sea compiled",
@@ -111,9 +121,6 @@ SeaTables::Result SeaTables::CompileNow(const KnownSea& sea) try {
               {"share_measured", compiled->sea->share_measured},
               {"seconds", took.count()}});
   return compiled;
-} catch (const std::exception& error) {
-  metrics_.CountFailed();
-  return absl::InternalError(error.what());
 }
 
 std::shared_ptr<const ServedTable> SeaTables::FindKept(const Sha256Digest& key) {

@@ -1,4 +1,5 @@
-// The tables of the seas that requests carry.
+// The tables that requests need beside those of the server: of the seas that they carry, and of the server's tables in
+// water of another index.
 #pragma once
 
 #include <condition_variable>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -22,6 +24,14 @@
 #include "tables/digest.h"
 
 namespace albtpu::server {
+
+// A table that a request needs.
+struct WantedTable {
+  Sha256Digest key;
+  // A sea, or a table of the server's.
+  std::variant<KnownSea, std::shared_ptr<const ServedTable>> of;
+  double refractive_index = kSeaWaterIndex;  // of the water
+};
 
 // Compiles seas on threads of its own, so that neither the threads of gRPC nor the workers ever wait for one, and keeps
 // the tables that were used last. A table lives as long as a call uses it. Thread-safe.
@@ -46,10 +56,10 @@ class SeaTables {
   // The table of the sea with this key, if it is kept; else null.
   std::shared_ptr<const ServedTable> Find(const Sha256Digest& key);
 
-  // Calls `done` with the table of `sea`, whose key is `key`: at once if it is kept or cannot wait, else from a thread
-  // that compiled it. A sea that is waiting or being compiled is not compiled again. INVALID_ARGUMENT, for the
-  // field `sea`: a table cannot hold its numbers. RESOURCE_EXHAUSTED: too many seas wait.
-  void Compile(const Sha256Digest& key, const KnownSea& sea, Listener done);
+  // Calls `done` with the table: at once if it is kept or cannot wait, else from a thread that made it. One that is
+  // waiting or being made is not made again. INVALID_ARGUMENT, for the field `sea`: a table cannot hold the numbers of
+  // the sea. RESOURCE_EXHAUSTED: too many wait.
+  void Compile(const WantedTable& wanted, Listener done);
 
  private:
   struct Kept {
@@ -62,7 +72,8 @@ class SeaTables {
   using Asked = std::map<Sha256Digest, std::vector<Listener>>;
 
   void Run();
-  Result CompileNow(const KnownSea& sea);
+  Result Make(const WantedTable& wanted);
+  Result CompileNow(const KnownSea& sea, double index);
   // With the mutex held.
   std::shared_ptr<const ServedTable> FindKept(const Sha256Digest& key);
   void Keep(const Sha256Digest& key, const std::shared_ptr<const ServedTable>& table);
@@ -77,7 +88,7 @@ class SeaTables {
   std::map<Sha256Digest, KeptList::iterator> places_;
   std::size_t kept_bytes_ = 0;
   Asked asked_;
-  std::deque<std::pair<Sha256Digest, KnownSea>> waiting_;  // The one that waits longest first.
+  std::deque<WantedTable> waiting_;  // The one that waits longest first.
   bool stopping_ = false;
   std::condition_variable changed_;
 

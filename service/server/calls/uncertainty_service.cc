@@ -121,14 +121,14 @@ class RefusedStream final : public ByteStream {
 
 }  // namespace
 
-// A request that waits for a worker, or first for its sea. The workers must have admitted it; its place is released at
+// A request that waits for a worker, or first for its table. The workers must have admitted it; its place is released at
 // the end.
 class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
  public:
-  // `wanted` is the sea to be compiled first, if any.
+  // `wanted` is the table to be made first, if any.
   LongCall(UncertaintyService& service, const CallRecord& record, grpc::CallbackServerContext& context,
            MessageHandler handler, std::shared_ptr<const TableCatalog> catalog, const grpc::ByteBuffer& request,
-           grpc::ByteBuffer& response, const std::optional<WantedSea>& wanted)
+           grpc::ByteBuffer& response, const std::optional<WantedTable>& wanted)
       : service_(service),
         record_(record),
         context_(context),
@@ -137,14 +137,14 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
         request_(request),
         response_(response) {
     if (wanted)
-      AwaitSea(*wanted);
+      AwaitTable(*wanted);
     else
       service_.workers_.Run([this] { HandleRequest(nullptr); });
   }
 
  private:
-  void AwaitSea(const WantedSea& wanted) {
-    service_.seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+  void AwaitTable(const WantedTable& wanted) {
+    service_.seas_.Compile(wanted, [this](const SeaTables::Result& table) {
       if (!table.ok()) return End(ToGrpcStatus(table.status()));
       service_.workers_.Run([this, table = *table] { HandleRequest(table); });
     });
@@ -154,7 +154,7 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
     if (context_.IsCancelled()) return End(grpc::Status::CANCELLED);
     AnswerSources sources(*catalog_, service_.seas_, std::move(compiled));
     const grpc::Status status = RunHandler(record_, handler_, sources, request_, response_);
-    if (sources.wanted()) return AwaitSea(*sources.wanted());
+    if (sources.wanted()) return AwaitTable(*sources.wanted());
     End(status);
   }
 
@@ -187,7 +187,7 @@ grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandl
   if (!request.Valid()) return Fail(context, record, NotReceived(context));
   const std::shared_ptr<const TableCatalog> catalog = tables_.current();
   const std::size_t length = request.Length();
-  std::optional<WantedSea> wanted;
+  std::optional<WantedTable> wanted;
   if (length <= inline_bytes) {
     if (!unread_.HasRoomFor(length)) return Fail(context, record, TooManyUnread());
     AnswerSources sources(*catalog, seas_);

@@ -1,11 +1,14 @@
 // Tables on the wire: a table that answers, its message, and the enums of requests.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "absl/status/statusor.h"
+#include "sea/table/table_at_index.h"
+#include "sea/water_index.h"
 #include "service/seas/sea_summary.h"
 #include "service/wire_values.h"
 #include "tables/query/column_query.h"
@@ -15,13 +18,18 @@ namespace albtpu::server {
 
 // A table that answers queries.
 
-struct ServedTable {
-  ServedTable(std::string table_name, UncertaintyTable contents)
-      : name(std::move(table_name)), table(std::move(contents)), interpolator(table), sea(SummaryOfSea(table)) {}
+struct ServedTable : std::enable_shared_from_this<ServedTable> {
+  ServedTable(std::string table_name, UncertaintyTable contents, double index = kSeaWaterIndex)
+      : name(std::move(table_name)),
+        table(std::move(contents)),
+        refractive_index(index),
+        interpolator(AtIndex(table, index)),
+        sea(SummaryOfSea(table)) {}
 
   std::string name;  // NAME or NAME/VERSION; empty for the table of a request's sea.
   UncertaintyTable table;
-  ColumnInterpolator interpolator;  // Of the table.
+  double refractive_index;          // Of the water that it answers for.
+  ColumnInterpolator interpolator;  // Of the table in that water.
   std::optional<SeaSummary> sea;    // If it is the table of one sea.
 };
 

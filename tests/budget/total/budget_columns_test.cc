@@ -10,6 +10,7 @@
 
 #include "budget/air/air_sources.h"
 #include "budget/total/error_ellipse.h"
+#include "sea/response/closed_form.h"
 #include "tests/budget/total/total_memory.h"
 
 namespace albtpu {
@@ -68,29 +69,80 @@ AirPulse PulseAt(const TotalInputs& pulses, std::size_t i, const BudgetOptions& 
           .index = options.index};
 }
 
+// The second derivatives of the refracted ray by the slope along and across the beam, on level water: of the tangent
+// along and across it, and of the path times the cosine.
+std::array<Eigen::Matrix2d, 3> CurvaturesOf(double incidence, double index) {
+  constexpr double kStep = 2e-3;
+  const Vector3d ray(std::sin(incidence), 0, -std::cos(incidence));
+  const auto at = [&](double x, double y) {
+    const RefractedRay refracted = RefractAtSlope(ray, Eigen::Vector2d(x * kStep, y * kStep), index);
+    return Vector3d(refracted.tangent.x(), refracted.tangent.y(), refracted.secant);
+  };
+  const Vector3d xx = at(1, 0) + at(-1, 0) - 2 * at(0, 0), yy = at(0, 1) + at(0, -1) - 2 * at(0, 0);
+  const Vector3d xy = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 4;
+  const double cosine = std::cos(StillWaterRefraction(incidence, index));
+  std::array<Eigen::Matrix2d, 3> curvatures;
+  for (int i = 0; i < 3; ++i) {
+    curvatures[i] << xx[i], xy[i], xy[i], yy[i];
+    curvatures[i] *= (i == 2 ? cosine : 1) / (kStep * kStep);
+  }
+  return curvatures;
+}
+
+// The covariance along, across and of the path times the cosine, of second order in slopes on the axes of the beam.
+Matrix3d SecondOrderOf(const Eigen::Matrix2d& slopes, double incidence, double index) {
+  const std::array<Eigen::Matrix2d, 3> curvatures = CurvaturesOf(incidence, index);
+  Matrix3d second;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) second(i, j) = (curvatures[i] * slopes * curvatures[j] * slopes).trace() / 2;
+  return second;
+}
+
 Matrix3d SeaContribution(const TotalInputs& pulses, std::size_t i, const BudgetOptions& options) {
   const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
-  const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
   const double turn = at(BudgetInput::kSeaAxis) * kDegree, azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
-  Eigen::Matrix2d axes;
+  const double incidence = at(BudgetInput::kIncidence) * kDegree, depth = at(BudgetInput::kDepth);
+  Eigen::Matrix2d axes, of_beam;
   axes << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
-  const double sine = std::sin(at(BudgetInput::kIncidence) * kDegree) / options.index;
-  const Eigen::Vector2d beam(std::cos(azimuth), std::sin(azimuth));
-  // Slopes on the axes of the sea that, by Snell's law, have these variances; none below 0.
-  const Eigen::Vector2d in_sea = axes.transpose() * beam;
+  of_beam << std::cos(azimuth), -std::sin(azimuth), std::sin(azimuth), std::cos(azimuth);
+  const double refracted = StillWaterRefraction(incidence, options.index);
+  const Eigen::Matrix2d to_sea = axes.transpose() * of_beam;  // from the axes of the beam
+  const SlopeGain gains = SmallSlopeGain(incidence, options.index);
   const Eigen::Matrix2d response =
-      Eigen::Matrix2d::Identity() + (1 / (1 - sine * sine) - 1) * in_sea * in_sea.transpose();
-  Eigen::Vector2d variances(along * along, cross * cross);
-  variances *= std::pow(at(BudgetInput::kSeaThu) / 2, 2) / variances.sum();
-  const Eigen::Vector2d slopes = response.cwiseAbs2().partialPivLu().solve(variances).cwiseMax(Eigen::Vector2d::Zero());
-  Eigen::Matrix2d on_axes = response * slopes.asDiagonal() * response.transpose();
+      to_sea * Eigen::Vector2d(gains.in_plane, gains.out_of_plane).asDiagonal() * to_sea.transpose();
+  // Slopes on the axes of the sea that, by Snell's law, have these variances; none below 0.
+  const auto slopes_of = [&](const Eigen::Vector2d& variances) -> Eigen::Vector2d {
+    return response.cwiseAbs2().partialPivLu().solve(variances).cwiseMax(Eigen::Vector2d::Zero());
+  };
+  const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
+  const Eigen::Vector2d tangents = Eigen::Vector2d(along * along, cross * cross) * std::pow(kDegree / 2, 2);
+  const Eigen::Vector2d variances = tangents * std::pow(at(BudgetInput::kSeaThu) / 2, 2) / tangents.sum();
+  const double vertical = std::pow(at(BudgetInput::kSeaTvu) / 2, 2);
+  const Eigen::Matrix2d on_beam = to_sea.transpose() * slopes_of(tangents).asDiagonal() * to_sea;
+  Matrix3d second = depth * depth * SecondOrderOf(on_beam, incidence, options.index);
+  const auto on_sea = [&]() -> Eigen::Matrix2d { return to_sea * second.topLeftCorner<2, 2>() * to_sea.transpose(); };
+  // No part exceeds the whole.
+  for (int axis = 0; axis < 2; ++axis)
+    if (on_sea()(axis, axis) > variances[axis]) second *= variances[axis] / on_sea()(axis, axis);
+  if (second(2, 2) > vertical) second *= vertical / second(2, 2);
+
+  Eigen::Matrix2d on_axes = on_sea();
+  on_axes += response * slopes_of(variances - on_axes.diagonal()).asDiagonal() * response.transpose();
   on_axes.diagonal() = variances;
-  const Eigen::Matrix2d horizontal = axes * on_axes * axes.transpose();
   Matrix3d c = Matrix3d::Zero();
-  c.topLeftCorner<2, 2>() = horizontal;
-  c.topRightCorner<2, 1>() = -sine * std::sqrt(1 - sine * sine) * horizontal * beam;
+  c.topLeftCorner<2, 2>() = axes * on_axes * axes.transpose();
+  c(2, 2) = vertical;
+  const Eigen::Vector2d beam = of_beam.col(0);
+  const Eigen::Vector2d first =
+      (c.topLeftCorner<2, 2>() - of_beam * second.topLeftCorner<2, 2>() * of_beam.transpose()) * beam;
+  const double left = std::max(0.0, vertical - second(2, 2)), by_snell = std::sin(refracted) * std::cos(refracted);
+  const double lift = std::min(by_snell, std::sqrt(left / beam.dot(first)));
+  c.topRightCorner<2, 1>() = -lift * first - of_beam * second.topRightCorner<2, 1>();
   c.bottomLeftCorner<1, 2>() = c.topRightCorner<2, 1>().transpose();
-  c(2, 2) = std::pow(at(BudgetInput::kSeaTvu) / 2, 2);
+  // From the spot on a level bottom to the point at the measured range: farther out by tan r of what is too deep.
+  Matrix3d to_point = Matrix3d::Identity();
+  to_point.topRightCorner<2, 1>() = std::tan(refracted) * beam;
+  c = to_point * c * to_point.transpose();
   const Vector3d wave = at(BudgetInput::kWaveHeight) * ErrorOfSurfaceHeight(PulseAt(pulses, i, options));
   return c + wave * wave.transpose();
 }
@@ -268,9 +320,12 @@ TEST(ComputeBudget, SpreadsASeaOfUnknownAxisAlike) {
   TotalMemory answers(1);
   ComputeBudget(pulses.inputs(), {.errors = kErrors}, answers.outputs());
   const Matrix3d sea = answers.Covariance(testing::kSeaPart, 0);
-  EXPECT_FLOAT_EQ(static_cast<float>(sea(0, 0)), static_cast<float>(sea(1, 1)));
-  EXPECT_EQ(sea(0, 1), 0);
-  EXPECT_NEAR(2 * std::sqrt(sea(0, 0) + sea(1, 1)), pulses[BudgetInput::kSeaThu][0], 1e-6);
+  // Of the spot on a level bottom; the reported point is restated along the beam alone.
+  const double azimuth = pulses.at(BudgetInput::kBeamAzimuth, 0) * kDegree;
+  const Eigen::Vector2d beam(std::cos(azimuth), std::sin(azimuth)), across(-beam.y(), beam.x());
+  const Eigen::Matrix2d horizontal = sea.topLeftCorner<2, 2>();
+  EXPECT_NEAR(std::sqrt(8 * across.dot(horizontal * across)), pulses[BudgetInput::kSeaThu][0], 1e-6);
+  EXPECT_NEAR(beam.dot(horizontal * across), 0, 1e-6 * sea(0, 0));
 }
 
 TEST(ComputeBudget, StatesOneSigmaAsHalfOfTwo) {

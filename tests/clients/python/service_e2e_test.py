@@ -95,6 +95,16 @@ class Service(Served):
             query = {**pulses, axis: number}
             self.assert_alike(self.service.query(**query), file.query(**query), f"{axis} {number}")
 
+    def test_agrees_with_the_file_in_any_water(self):
+        for name in ("synthetic", "survey"):
+            file = self.files[name]
+            pulses = pulses_of_all_kinds(file.table(), 3000, seed=7)
+            for index in (file.table().attributes["refractive_index"], 1.345, 1.36):
+                query = dict(**pulses, refractive_index=index, standard_errors=True)
+                self.assert_alike(self.service.query(**query, table=name), file.query(**query), f"{name} at {index}")
+        with self.assertRaisesRegex(albtpu.ArgumentError, "1 to 2"):
+            self.files["synthetic"].query(**pulses, refractive_index=3)
+
     def test_lists_and_describes_tables_as_the_files_do(self):
         listed = self.service.tables()
         self.assertEqual([table.reference for table in listed],

@@ -161,9 +161,9 @@ class CommandLineTest(programs.Test):
                                     ("--azimuth", 1)),
                    "--trajectory-from-returns": (("--geoid-separation", 25), ("--lever-arm", "0,0,1"),
                                                  ("--trajectory-time", "utc"), ("--flight-direction", 1)),
-                   "--scanner": (("--beam-azimuth", 1), ("--water-index", 1.34), ("--crs", "EPSG:26917"),
+                   "--scanner": (("--beam-azimuth", 1), ("--crs", "EPSG:26917"),
                                  ("--trajectory-errors", "smrmsg.out")),
-                   "--incidence": (("--flight-direction", 1), ("--water-index", 1.34), ("--lever-arm", "0,0,1"))}
+                   "--incidence": (("--flight-direction", 1), ("--lever-arm", "0,0,1"))}
         for way, flags in foreign.items():
             for flag in flags:
                 with self.subTest(way=way, flag=flag):

@@ -29,7 +29,7 @@ class SeaFilesTest(sea_states.Test):
             # V at nadir is 2 (1 - 1/n) in each direction, in the limit of small slopes.
             footprint = record["footprints"][1]
             squares = math.radians(math.hypot(footprint["refraction_along"], footprint["refraction_cross"])) ** 2
-            self.assertAlmostEqual(squares / (4 * (1 - 1 / 1.33) ** 2 * footprint["slope_variance"]), 1, delta=0.1)
+            self.assertAlmostEqual(squares / (4 * (1 - 1 / 1.34) ** 2 * footprint["slope_variance"]), 1, delta=0.1)
             for beam in record["correlation"]:
                 cells = beam["cells"]
                 self.assertEqual([cell["side"] for cell in cells], [0.5, 1, 2, 5, 10])

@@ -75,7 +75,7 @@ TEST(SeaTable, InterpolatesBetweenItsNodesWithinOnePercent) {
   for (const auto& [name, sea] : TableSeas()) {
     SCOPED_TRACE(name);
     const UncertaintyTable table = Compiled(sea);
-    const SeaResponse response(Describe(sea).spectrum, kRefractiveIndex);
+    const SeaResponse response(Describe(sea).spectrum, kSeaWaterIndex);
     RandomPulses pulses;
     std::array<double, 3> squares{};
     constexpr int kPulses = 60;
@@ -99,7 +99,7 @@ TEST(SeaTable, InterpolatesBetweenItsNodesWithinOnePercent) {
 TEST(SeaTable, IsTheResponseAtItsNodes) {
   const SeaDescription sea = TableSeas()[4].sea;
   const UncertaintyTable table = Compiled(sea);
-  const SeaResponse response(Describe(sea).spectrum, kRefractiveIndex);
+  const SeaResponse response(Describe(sea).spectrum, kSeaWaterIndex);
   for (const float incidence : {0.0f, 2.5f, 19.0f, 30.0f}) {
     for (const float azimuth : {0.0f, 50.0f, 130.0f, 180.0f}) {
       const Pulse pulse{.incidence = incidence, .azimuth = azimuth, .footprint = 0.7f, .depth = 60};

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "sea/table/table_at_index.h"
 #include "service/client/local_source.h"
 #include "service/client/sea_sources.h"
 #include "service/client/server_source.h"
@@ -58,6 +59,52 @@ TEST(BudgetSource, OfASeaTakesTheAxisOfTheSea) {
     ASSERT_TRUE(remote->AnswerBudget(UsualOptions(), pulses.columns(), from_server.columns()).ok());
     ASSERT_TRUE(local->AnswerBudget(UsualOptions(), pulses.columns(), from_table.columns()).ok());
     ExpectSame(from_server, from_table);
+  }
+}
+
+// Of a table that is scaled, and of a sea that is computed anew; also when the table in that water is asked again.
+TEST(BudgetSource, AnswersForTheIndexOfItsWater) {
+  const RunningServer server;
+  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
+  BudgetOptions options = UsualOptions();
+  BudgetMemory usual(pulses.size);
+  ASSERT_TRUE(LocalSource("", SyntheticTable()).AnswerBudget(options, pulses.columns(), usual.columns()).ok());
+  options.index = 1.36;
+  LocalSource scaled("", SyntheticTable(), 1.36);
+  const auto remote = OpenServer(server.address(), "", {}, {}, 1.36).value();
+  const KnownSea sea = albtpu::testing::SeasOfAllForms().front();
+  const auto local_sea = LocalSeas(1.36)->Open(sea).value(),
+             remote_sea = ServerSeas(server.address(), {}, {}, 1.36).value()->Open(sea).value();
+  for (const auto& [here, there] : {std::pair<UncertaintySource*, UncertaintySource*>(&scaled, remote.get()),
+                                    {&scaled, remote.get()},
+                                    {local_sea.get(), remote_sea.get()}}) {
+    BudgetMemory from_server(pulses.size), from_table(pulses.size);
+    const absl::Status status = there->AnswerBudget(options, pulses.columns(), from_server.columns());
+    ASSERT_TRUE(status.ok()) << status;
+    ASSERT_TRUE(here->AnswerBudget(options, pulses.columns(), from_table.columns()).ok());
+    ExpectSame(from_server, from_table);
+    for (std::size_t i = 0; here == &scaled && i < pulses.size; ++i)
+      EXPECT_GT(from_table.at(BudgetQuantity::kThuSea, i), usual.at(BudgetQuantity::kThuSea, i));
+  }
+  const absl::Status other = remote->AnswerBudget(UsualOptions(), pulses.columns(), usual.columns());
+  EXPECT_TRUE(absl::IsInvalidArgument(other));
+  EXPECT_THAT(other.message(), HasSubstr("1.36 in the source of the sea's share"));
+}
+
+// The table's own index gives its own numbers; one query after another may have other water.
+TEST(BudgetSource, OfATableAtItsOwnIndexHasItsNumbers) {
+  const RunningServer server;
+  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(500);
+  const ColumnInterpolator table(SyntheticTable());
+  std::vector<float> own(pulses.size), answered(pulses.size);
+  AnswerColumns columns;
+  columns.values[Index(Quantity::kThu)] = own.data();
+  InterpolateOnAllCores(table, {}, pulses.columns().pulses, columns);
+  columns.values[Index(Quantity::kThu)] = answered.data();
+  for (const double index : {1.34, 1.35, 1.34}) {
+    const auto remote = OpenServer(server.address(), "", {}, {}, index).value();
+    ASSERT_TRUE(remote->Answer({}, pulses.columns().pulses, columns).ok());
+    EXPECT_EQ(answered == own, index == IndexOfTable(SyntheticTable()));
   }
 }
 

@@ -164,7 +164,7 @@ class Tools(unittest.TestCase):
                         self.assertTrue(np.isfinite(variable.values).all())
             self.assertEqual(table.attrs["id"], "synthetic")
             self.assertEqual(table.attrs["realizations"], 500)
-            self.assertEqual(table.attrs["refractive_index"], 1.33)
+            self.assertEqual(table.attrs["refractive_index"], 1.34)
             np.testing.assert_array_equal(table.attrs["interpolation_error"], [0.01, 0.02, 0.03])
             # A named axis is what makes this a table: a value is selected by what it means.
             at = table.thu.sel(wind_speed=5, fetch=1e4, incidence=20, azimuth=90, footprint=0.5, depth=10)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,9 @@
 #include "sea/angle.h"
 #include "sea/files/sea_file.h"
 #include "sea/spectra/described_sea.h"
+#include "sea/table/sea_table.h"
+#include "sea/table/table_at_index.h"
+#include "tables/query/interpolation.h"
 #include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/response_comparison.h"
 #include "validation/studies/studies.h"
@@ -51,6 +55,45 @@ TEST(SeaResponse, AgreesWithTracingOnAMeasuredSea) {
   }
   const ResponseSea sea = ResponseSeaOf("NDBC 41010", Describe(ReadSeaFile(buoy)->records.front()).spectrum);
   ExpectAgreement(VerdictsOnManySeas(CompareRandomBeams({sea}, !EveryBeam(), {}, kSeed)));
+}
+
+// The same surfaces are traced in both waters, so that their random errors cancel in the ratios.
+TEST(TableAtIndex, ScalesAsTracingDoes) {
+  const WindSea waves{.wind_speed_10m = 7, .model = &kElfouhailyModel};
+  SeaCase sea_case;
+  sea_case.sea = {.waves = waves};
+  for (const double incidence : {0, 10, 20}) {
+    sea_case.beams.push_back(
+        {.incidence = RadiansOfDegrees(incidence), .azimuth = RadiansOfDegrees(0), .footprint = 0.6});
+  }
+  sea_case.depths = {10};
+  const auto traced = [&](double index) {
+    sea_case.refractive_index = index;
+    return Simulate(sea_case, {.realizations = 256, .most_realizations = 256}, kSeed, 0).beams;
+  };
+  const UncertaintyTable table =
+      SeaCompiler().Compile(SeaDescription{.wind_speed_10m = 7}, INFINITY, kRefractiveIndex).value();
+  const std::vector<BeamUncertainty> before = traced(kRefractiveIndex);
+  for (const double index : {1.34, 1.345, 1.36}) {
+    const UncertaintyTable scaled = AtIndex(table, index);
+    const std::vector<BeamUncertainty> after = traced(index);
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      const Pulse pulse{.incidence = static_cast<float>(10 * b), .azimuth = 0, .footprint = 0.6f, .depth = 10};
+      const PulseUncertainty from = Interpolate(table, pulse), to = Interpolate(scaled, pulse);
+      const auto same = [&](Quantity quantity, double ratio) {
+        std::printf("index %g, %zu degrees, %s: scaled over traced %.5f\n", index, 10 * b,
+                    std::string(Describe(quantity).name).c_str(), to[quantity] / from[quantity] / ratio);
+        EXPECT_NEAR(to[quantity] / from[quantity] / ratio, 1, 1e-3);
+      };
+      same(Quantity::kRefractionAlongWind,
+           after[b].refraction_along_wind.value / before[b].refraction_along_wind.value);
+      same(Quantity::kRefractionCrossWind,
+           after[b].refraction_cross_wind.value / before[b].refraction_cross_wind.value);
+      same(Quantity::kThu, after[b].thu[0].value / before[b].thu[0].value);
+      same(Quantity::kTvu, after[b].tvu[0].value / before[b].tvu[0].value);
+      same(Quantity::kBiasVertical, after[b].bias_vertical[0].value / before[b].bias_vertical[0].value);
+    }
+  }
 }
 
 struct Node {

@@ -18,13 +18,11 @@
 #include <vector>
 
 #include "budget/total/budget_columns.h"
-#include "generator/monte_carlo/beam_tracing.h"
-#include "generator/monte_carlo/slope_moments.h"
-#include "generator/surface/discretization.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "sea/sea_state.h"
 #include "tests/budget/air/air_forward.h"
+#include "tests/validation/physics/traced_beams.h"
 
 namespace albtpu {
 namespace {
@@ -52,54 +50,16 @@ const AirErrors kErrors = {.position = {0.02, 0.02, 0.06},
                            .surface_height = 0.03,
                            .index = 0.002};
 
-// What waves do to one kind of beam.
-struct TracedErrors {
-  std::vector<BeamErrors> draws;  // Less their means, which are biases.
-  BeamUncertainty uncertainty;    // At kDepths.
-};
+using testing::TracedErrors;
 
 // By incidence, then azimuth.
-std::vector<TracedErrors> Trace(const SeaState& sea) {
+std::vector<BeamOptions> Beams() {
   std::vector<BeamOptions> beams;
   for (const double incidence : kIncidences)
     for (const double azimuth : kAzimuths)
       beams.push_back(
           {.incidence = RadiansOfDegrees(incidence), .azimuth = RadiansOfDegrees(azimuth), .footprint = kFootprint});
-  const Discretization grid = ChooseDiscretization(sea, beams);
-  const SurfaceModel model(sea, beams.back(), grid);
-  const auto tracing =
-      MakePlainTracing(model, {.beams = beams,
-                               .refractive_index = kIndex,
-                               .rays = 600,
-                               .unresolved_slopes = Eigen::Matrix2d::Zero(),
-                               .resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; })});
-  std::vector<std::vector<BeamRealization>> samples(beams.size());
-  std::vector<BeamRealization> realized(beams.size());
-  const std::vector<bool> all(beams.size(), true);
-  for (std::uint32_t i = 0; i < kRealizations; ++i) {
-    tracing->Realize(NormalStream(7, 0, i), all, realized);
-    for (std::size_t b = 0; b < beams.size(); ++b) samples[b].push_back(realized[b]);
-  }
-  std::vector<TracedErrors> traced(beams.size());
-  for (std::size_t b = 0; b < beams.size(); ++b) {
-    traced[b].uncertainty = UncertaintyOf(samples[b], beams[b], kIndex, std::nullopt, {kDepths.begin(), kDepths.end()});
-    BeamErrors mean;
-    for (const BeamRealization& each : samples[b]) {
-      const BeamErrors& e = each.parts[0].errors;
-      traced[b].draws.push_back(e);
-      mean.horizontal_offset += e.horizontal_offset / kRealizations;
-      mean.horizontal_per_depth += e.horizontal_per_depth / kRealizations;
-      mean.vertical_offset += e.vertical_offset / kRealizations;
-      mean.vertical_per_depth += e.vertical_per_depth / kRealizations;
-    }
-    for (BeamErrors& e : traced[b].draws) {
-      e.horizontal_offset -= mean.horizontal_offset;
-      e.horizontal_per_depth -= mean.horizontal_per_depth;
-      e.vertical_offset -= mean.vertical_offset;
-      e.vertical_per_depth -= mean.vertical_per_depth;
-    }
-  }
-  return traced;
+  return beams;
 }
 
 // One sea for all tests.
@@ -108,12 +68,23 @@ const SeaState& Sea() {
   return sea;
 }
 const std::vector<TracedErrors>& Traced() {
-  static const std::vector<TracedErrors> traced = Trace(Sea());
+  static const std::vector<TracedErrors> traced =
+      testing::TraceBeams(Sea(), {.beams = Beams(),
+                                  .refractive_index = kIndex,
+                                  .depths = {kDepths.begin(), kDepths.end()},
+                                  .realizations = kRealizations,
+                                  .rays = 600});
   return traced;
 }
 
+// Of a wave alone, on the axes of the sea.
+Vector3d ErrorOf(const BeamErrors& wave, double depth, const BeamOptions& beam) {
+  return testing::ErrorOfReportedPoint(wave, depth, beam, kIndex) -
+         testing::ErrorOfReportedPoint({}, depth, beam, kIndex);
+}
+
 // The covariance of the contribution of the sea surface, made of THU, TVU and the two refractions, is that of the
-// traced errors.
+// reported points of traced beams.
 TEST(SeaContribution, HasTheCovarianceOfTracedBeams) {
   constexpr std::size_t kDepth = 2;
   const double depth = kDepths[kDepth];
@@ -123,8 +94,8 @@ TEST(SeaContribution, HasTheCovarianceOfTracedBeams) {
       // On the axes of the sea, x downwind, which is north here; y to its left, which is west; up.
       Eigen::Matrix3d traced = Eigen::Matrix3d::Zero();
       for (const BeamErrors& e : waves.draws) {
-        const Eigen::Vector2d h = e.horizontal_offset + depth * e.horizontal_per_depth;
-        const Vector3d error(h.x(), -h.y(), -(e.vertical_offset + depth * e.vertical_per_depth));
+        const Vector3d on_sea = ErrorOf(e, depth, Beams()[t * kAzimuths.size() + a]);
+        const Vector3d error(on_sea.x(), -on_sea.y(), -on_sea.z());
         traced += error * error.transpose() / kRealizations;
       }
       const float incidence = static_cast<float>(kIncidences[t]), azimuth = static_cast<float>(-kAzimuths[a]);
@@ -162,10 +133,10 @@ TEST(SeaContribution, HasTheCovarianceOfTracedBeams) {
       const Eigen::Vector2d e(std::cos(RadiansOfDegrees(azimuth)), std::sin(RadiansOfDegrees(azimuth)));
       const Eigen::Matrix2d horizontal = (Eigen::Matrix2d() << c[0], c[3], c[3], c[1]).finished();
       const double along_beam = std::sqrt(e.dot(horizontal * e));
-      EXPECT_NEAR(sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]), 1, 0.025)
-          << incidence << " " << azimuth;
+      const double to_up = sine / std::sqrt(1 - sine * sine);
+      EXPECT_NEAR(to_up * along_beam / std::sqrt(c[2]), 1, 0.025) << incidence << " " << azimuth;
       std::printf("incidence %g, azimuth %g: TVU of the horizontal covariance over TVU %.4f\n", incidence, -azimuth,
-                  sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]));
+                  to_up * along_beam / std::sqrt(c[2]));
     }
   }
 }
@@ -187,6 +158,7 @@ class SimulatedTotals : public ::testing::TestWithParam<SurfaceLocation> {};
 TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
   const SurfaceLocation located = GetParam();
   const std::vector<TracedErrors>& traced = Traced();
+  const std::vector<BeamOptions> beams = Beams();
   const bool unseen = located != SurfaceLocation::kPulse;
   const double wave_height = std::sqrt(ElevationVariance(Sea()));
   std::mt19937_64 random(1 + static_cast<unsigned>(located));
@@ -255,10 +227,9 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
       Vector3d error = testing::ReportedPoint<double>(pulse, level, own) - truth;
       error += testing::ReportedPoint<double>(pulse, located != SurfaceLocation::kPulse, scan) - truth;
       const BeamErrors& wave = waves.draws[random() % waves.draws.size()];
-      const Eigen::Vector2d on_sea = wave.horizontal_offset + depth * wave.horizontal_per_depth;
+      const Vector3d on_sea = ErrorOf(wave, depth, beams[t * kAzimuths.size() + a]);
       const double c = std::cos(RadiansOfDegrees(downwind)), s = std::sin(RadiansOfDegrees(downwind));
-      error += Vector3d(c * on_sea.x() + s * on_sea.y(), s * on_sea.x() - c * on_sea.y(),
-                        -(wave.vertical_offset + depth * wave.vertical_per_depth));
+      error += Vector3d(c * on_sea.x() + s * on_sea.y(), s * on_sea.x() - c * on_sea.y(), -on_sea.z());
       error.z() += datum;
       errors.push_back(error);
       depths.push_back(depth);

@@ -145,7 +145,7 @@ class _Sender:
         options = dict(
             table=self._query.table, coverage=COVERAGES[self._query.coverage],
             standard_errors=self._query.standard_errors, best_s44_order=self._query.best_s44_order,
-            s44_order=S44_ORDERS.index(self._query.s44_order or ""))
+            s44_order=S44_ORDERS.index(self._query.s44_order or ""), refractive_index=self._query.refractive_index)
         quantities = _wire_numbers(self._query.quantities, tuple(QUANTITIES))
         sea = self._query.sea.message() if self._query.sea else None
         for begin in range(self._begin, self._query.size, _BATCH):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import check_name, common_shape, read_column, read_quantities
+from .arguments import check_name, common_shape, read_column, read_optional, read_quantities
 from .errors import ArgumentError
 from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS, Floats
 from .sea import Sea
@@ -30,6 +30,7 @@ class Query:
     best_s44_order: bool = False
     table: str | None = None
     sea: Sea | None = None  # In place of a table.
+    refractive_index: float | None = None
 
     @property
     def size(self) -> int:
@@ -57,7 +58,8 @@ def _single(column: NDArray[Any]) -> Floats:
 def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[str] | None, coverage: str,
                known: Iterable[str] = tuple(QUANTITIES), units: Mapping[str, str] = MappingProxyType({}),
                standard_errors: bool = False, s44_order: str | None = None, best_s44_order: bool = False,
-               table: str | None = None, sea: Sea | None = None, on_one_sea: bool = False) -> Query:
+               table: str | None = None, sea: Sea | None = None, refractive_index: float | None = None,
+               on_one_sea: bool = False) -> Query:
     """Checks the arguments of a query. Raises ArgumentError.
 
     known: the names of quantities. units: of columns that are no axes of tables. on_one_sea: the table is that of one
@@ -81,7 +83,8 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
     return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
                  columns=flat, quantities=read_quantities(quantities, known), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
-                 best_s44_order=bool(best_s44_order), table=table, sea=sea)
+                 best_s44_order=bool(best_s44_order), table=table, sea=sea,
+                 refractive_index=read_optional("refractive_index", refractive_index))
 
 
 def check_table(name: str | None) -> None:

@@ -14,6 +14,7 @@ from .budget import Budget, read_budget_query
 from .calls import BudgetCalls, ColumnStream
 from .connection import File, Retries, open_channel
 from .errors import ArgumentError
+from .geometry import SEA_WATER_INDEX
 from .progress import Progress, show_progress
 from .query import Query, check_table
 from .schema import ONE_SEA, SCALES, SEA_SURFACE
@@ -69,17 +70,25 @@ class Service(UncertaintySource):
         check_table(name)
         return _table(self._call(self._stub.GetTable, wire.GetTableRequest(table=name)).table)
 
-    def sea_table(self, sea: Sea) -> Table:
+    def sea_table(self, sea: Sea, refractive_index: float | None = None) -> Table:
         """The table that the server computes of a sea, as `table` describes one of its own.
+
+        refractive_index: of the water. Omitted: 1.34, sea water.
 
         Its attributes describe the sea with the assumptions made, for example `x_azimuth` and `share_measured`.
         """
-        return _table(self._call(self._stub.CompileSea, wire.CompileSeaRequest(sea=sea.message())).table)
+        request = wire.CompileSeaRequest(sea=sea.message(),
+                                         refractive_index=read_optional("refractive_index", refractive_index))
+        return _table(self._call(self._stub.CompileSea, request).table)
 
-    def compile(self, sea: Sea) -> TableFile:
-        """The table of a sea with all its values, to be queried without the service. Needs h5py."""
+    def compile(self, sea: Sea, refractive_index: float | None = None) -> TableFile:
+        """The table of a sea with all its values, to be queried without the service. Needs h5py.
+
+        refractive_index: of the water. Omitted: 1.34, sea water.
+        """
         from .table_file import TableFile
-        request = wire.CompileSeaRequest(sea=sea.message(), with_file=True)
+        request = wire.CompileSeaRequest(sea=sea.message(), with_file=True,
+                                         refractive_index=read_optional("refractive_index", refractive_index))
         return TableFile("sea", self._call(self._stub.CompileSea, request).file)
 
     @refuse_unknown_keywords
@@ -133,7 +142,7 @@ class Service(UncertaintySource):
                      beam_azimuth: ArrayLike, located: str, wind_speed: ArrayLike | None = None,
                      fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None, sea: Sea | None = None,
                      aircraft: Mapping[str, ArrayLike] | None = None, errors: Mapping[str, Any] | None = None,
-                     lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float = 1.34,
+                     lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float = SEA_WATER_INDEX,
                      datum: float = 0.0, extra_horizontal: float = 0.0, extra_vertical: float = 0.0,
                      sea_axis: float | None = None, table: str | None = None,
                      coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
@@ -156,7 +165,7 @@ class Service(UncertaintySource):
         errors:       standard deviations by source, three numbers or one: position=(north, east, down) in m, scan in
                       degrees; docs/budget.md lists all sources with their units. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
-        refractive_index: of the water.
+        refractive_index: of the water, for the air side and the contribution of the sea.
         datum:        m, standard deviation of the height of the vertical datum.
         extra_horizontal, extra_vertical: m, standard deviations that are added to all points, the horizontal one
                       radial: the root of the sum of the variances along north and east.
@@ -194,7 +203,8 @@ class Service(UncertaintySource):
 
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> Answered:
         if query.size == 0:
-            table = self.table(query.table) if query.sea is None else self.sea_table(query.sea)
+            table = (self.table(query.table) if query.sea is None
+                     else self.sea_table(query.sea, query.refractive_index))
             return Answered(table.reference)
         stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
         return stream.run(self._retries())
@@ -202,7 +212,8 @@ class Service(UncertaintySource):
     def _axes(self, query: Query, reference: TableReference) -> Mapping[str, Axis]:
         if reference.digest not in self._known_axes:
             self._known_axes[reference.digest] = (
-                super()._axes(query, reference) if query.sea is None else self.sea_table(query.sea).axes)
+                super()._axes(query, reference) if query.sea is None
+                else self.sea_table(query.sea, query.refractive_index).axes)
         return self._known_axes[reference.digest]
 
     def _call(self, method: Any, request: Any) -> Any:

@@ -25,8 +25,8 @@ class UncertaintySource(ABC):
     @refuse_unknown_keywords
     def query(self, *, wind_speed: ArrayLike | None = None, incidence: ArrayLike, footprint: ArrayLike,
               depth: ArrayLike, fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None,
-              sea: Sea | None = None, table: str | None = None, coverage: str = "2sigma",
-              quantities: Iterable[str] | None = None,
+              sea: Sea | None = None, table: str | None = None, refractive_index: float | None = None,
+              coverage: str = "2sigma", quantities: Iterable[str] | None = None,
               standard_errors: bool = False, s44_order: str | None = None, best_s44_order: bool = False,
               progress: bool = False) -> Uncertainties:
         """The uncertainty of each pulse that the sea surface causes.
@@ -46,6 +46,7 @@ class UncertaintySource(ABC):
                      azimuth counts from the x axis of the sea (albtpu.geometry.azimuth_on_sea), with a period of
                      180 degrees; omitted, each value is the largest in magnitude over all azimuths.
         table:       the table of a service, NAME or NAME/VERSION. Omitted: its default table.
+        refractive_index: of the water, 1 to 2. Omitted: 1.34, sea water. Tables that were made at another are scaled.
         coverage:    "2sigma", "1sigma", or "p95" for 95 %; THU is then the radius that contains 95 %.
         quantities:  names from albtpu.QUANTITIES. Omitted: all of them.
         standard_errors: also return the standard error of each quantity: of the Monte Carlo simulation, or with a
@@ -61,7 +62,7 @@ class UncertaintySource(ABC):
         >>> answer = albtpu.open_table("survey.h5").query(
         ...     wind_speed=7, incidence=12, azimuth=30, footprint=0.5, depth=[8, 20, 100])
         >>> answer.thu.round(3)
-        array([0.54, 1.35,  nan], dtype=float32)
+        array([0.552, 1.379,   nan], dtype=float32)
         >>> list(answer.outcome)
         ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth:above']
         """
@@ -69,7 +70,7 @@ class UncertaintySource(ABC):
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth,
                  footprint=footprint, depth=depth),
             quantities=quantities, coverage=coverage, standard_errors=standard_errors, s44_order=s44_order,
-            best_s44_order=best_s44_order, table=table, sea=sea,
+            best_s44_order=best_s44_order, table=table, sea=sea, refractive_index=refractive_index,
             on_one_sea=sea is not None or self._has_one_sea())
         columns = AnswerColumns.for_query(query)
         with show_progress(query.size if progress else 0) as shown:

@@ -22,7 +22,7 @@ class SeaTablesTest : public ::testing::Test {
     std::mutex mutex;
     std::condition_variable changed;
     std::optional<SeaTables::Result> answer;
-    tables.Compile(Key(sea), sea, [&](const SeaTables::Result& result) {
+    tables.Compile({Key(sea), sea, kSeaWaterIndex}, [&](const SeaTables::Result& result) {
       const std::lock_guard lock(mutex);
       answer.emplace(result);
       changed.notify_one();
@@ -104,7 +104,7 @@ TEST_F(SeaTablesTest, RefuseSeasForWhichThereIsNoPlaceToWait) {
     SeaTables tables(metrics_, log_, {.waiting = 2});
     for (int i = 0; i < kSeas; ++i) {
       const KnownSea sea = testing::WindSea(3 + 0.1 * i);
-      tables.Compile(Key(sea), sea, [&](const SeaTables::Result& result) {
+      tables.Compile({Key(sea), sea, kSeaWaterIndex}, [&](const SeaTables::Result& result) {
         if (result.ok()) ++compiled;
         if (absl::IsResourceExhausted(result.status())) ++refused;
       });
@@ -122,7 +122,7 @@ TEST_F(SeaTablesTest, AnswerAllWhoWaitWhenTheServerStops) {
     SeaTables tables(metrics_, log_);
     for (int i = 0; i < 10; ++i) {
       const KnownSea sea = testing::WindSea(4 + i);
-      tables.Compile(Key(sea), sea, [&](const SeaTables::Result&) { ++answered; });
+      tables.Compile({Key(sea), sea, kSeaWaterIndex}, [&](const SeaTables::Result&) { ++answered; });
     }
   }
   EXPECT_EQ(answered, 10);

@@ -63,7 +63,7 @@ TEST_F(TablesOfServer, IncludeTheirProvenance) {
   EXPECT_EQ(attributes.size(), survey_.provenance().attributes.size());
   EXPECT_EQ(attributes.at("source").text(), "a smooth formula");
   EXPECT_EQ(attributes.at("realizations").integer(), 500);
-  EXPECT_EQ(attributes.at("refractive_index").number(), 1.33);
+  EXPECT_EQ(attributes.at("refractive_index").number(), 1.34);
   EXPECT_THAT(attributes.at("interpolation_error").numbers().values(), ElementsAre(0.01, 0.02, 0.03));
 }
 

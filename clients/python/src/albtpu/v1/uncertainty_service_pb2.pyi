@@ -11,14 +11,16 @@ from typing import ClassVar as _ClassVar, Iterable as _Iterable, Mapping as _Map
 DESCRIPTOR: _descriptor.FileDescriptor
 
 class CompileSeaRequest(_message.Message):
-    __slots__ = ["correlation", "sea", "with_file"]
+    __slots__ = ["correlation", "refractive_index", "sea", "with_file"]
     CORRELATION_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     WITH_FILE_FIELD_NUMBER: _ClassVar[int]
     correlation: _sea_pb2.CorrelationQuery
+    refractive_index: float
     sea: _sea_pb2.SeaState
     with_file: bool
-    def __init__(self, sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., with_file: bool = ..., correlation: _Optional[_Union[_sea_pb2.CorrelationQuery, _Mapping]] = ...) -> None: ...
+    def __init__(self, sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., with_file: bool = ..., correlation: _Optional[_Union[_sea_pb2.CorrelationQuery, _Mapping]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
 
 class CompileSeaResponse(_message.Message):
     __slots__ = ["correlation", "file", "table"]
@@ -69,13 +71,14 @@ class QueryBudgetRequest(_message.Message):
     def __init__(self, options: _Optional[_Union[_budget_pb2.BudgetOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., aircraft: _Optional[_Union[_budget_pb2.AircraftColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_budget_pb2.BudgetQuantity, str]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
 
 class QueryBudgetResponse(_message.Message):
-    __slots__ = ["azimuth_absent", "budget", "coverage", "outcome_axes", "outcomes", "pulse_count", "sea", "table"]
+    __slots__ = ["azimuth_absent", "budget", "coverage", "outcome_axes", "outcomes", "pulse_count", "refractive_index", "sea", "table"]
     AZIMUTH_ABSENT_FIELD_NUMBER: _ClassVar[int]
     BUDGET_FIELD_NUMBER: _ClassVar[int]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
     OUTCOMES_FIELD_NUMBER: _ClassVar[int]
     OUTCOME_AXES_FIELD_NUMBER: _ClassVar[int]
     PULSE_COUNT_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
     azimuth_absent: bool
@@ -84,9 +87,10 @@ class QueryBudgetResponse(_message.Message):
     outcome_axes: bytes
     outcomes: bytes
     pulse_count: int
+    refractive_index: float
     sea: _sea_pb2.SeaSummary
     table: _table_pb2.TableReference
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., budget: _Optional[_Union[_budget_pb2.BudgetColumns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., budget: _Optional[_Union[_budget_pb2.BudgetColumns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
 
 class QueryColumnsRequest(_message.Message):
     __slots__ = ["options", "pulses", "quantities", "sea"]
@@ -101,12 +105,13 @@ class QueryColumnsRequest(_message.Message):
     def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_uncertainty_pb2.Quantity, str]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
 
 class QueryColumnsResponse(_message.Message):
-    __slots__ = ["azimuth_absent", "coverage", "outcome_axes", "outcomes", "pulse_count", "s44", "sea", "sea_surface", "sea_surface_standard_error", "table"]
+    __slots__ = ["azimuth_absent", "coverage", "outcome_axes", "outcomes", "pulse_count", "refractive_index", "s44", "sea", "sea_surface", "sea_surface_standard_error", "table"]
     AZIMUTH_ABSENT_FIELD_NUMBER: _ClassVar[int]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
     OUTCOMES_FIELD_NUMBER: _ClassVar[int]
     OUTCOME_AXES_FIELD_NUMBER: _ClassVar[int]
     PULSE_COUNT_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     S44_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     SEA_SURFACE_FIELD_NUMBER: _ClassVar[int]
@@ -117,26 +122,29 @@ class QueryColumnsResponse(_message.Message):
     outcome_axes: bytes
     outcomes: bytes
     pulse_count: int
+    refractive_index: float
     s44: _uncertainty_pb2.S44Columns
     sea: _sea_pb2.SeaSummary
     sea_surface: _uncertainty_pb2.SeaSurfaceColumns
     sea_surface_standard_error: _uncertainty_pb2.SeaSurfaceColumns
     table: _table_pb2.TableReference
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., sea_surface: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., sea_surface_standard_error: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., s44: _Optional[_Union[_uncertainty_pb2.S44Columns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., sea_surface: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., sea_surface_standard_error: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., s44: _Optional[_Union[_uncertainty_pb2.S44Columns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
 
 class QueryOptions(_message.Message):
-    __slots__ = ["best_s44_order", "coverage", "s44_order", "standard_errors", "table"]
+    __slots__ = ["best_s44_order", "coverage", "refractive_index", "s44_order", "standard_errors", "table"]
     BEST_S44_ORDER_FIELD_NUMBER: _ClassVar[int]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     S44_ORDER_FIELD_NUMBER: _ClassVar[int]
     STANDARD_ERRORS_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
     best_s44_order: bool
     coverage: _uncertainty_pb2.Coverage
+    refractive_index: float
     s44_order: _uncertainty_pb2.S44Order
     standard_errors: bool
     table: str
-    def __init__(self, table: _Optional[str] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., standard_errors: bool = ..., best_s44_order: bool = ..., s44_order: _Optional[_Union[_uncertainty_pb2.S44Order, str]] = ...) -> None: ...
+    def __init__(self, table: _Optional[str] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., standard_errors: bool = ..., best_s44_order: bool = ..., s44_order: _Optional[_Union[_uncertainty_pb2.S44Order, str]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
 
 class QueryPulsesRequest(_message.Message):
     __slots__ = ["options", "pulses", "sea"]
@@ -149,16 +157,18 @@ class QueryPulsesRequest(_message.Message):
     def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Iterable[_Union[_pulse_pb2.Pulse, _Mapping]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
 
 class QueryPulsesResponse(_message.Message):
-    __slots__ = ["coverage", "sea", "table", "uncertainties"]
+    __slots__ = ["coverage", "refractive_index", "sea", "table", "uncertainties"]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
+    REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
     UNCERTAINTIES_FIELD_NUMBER: _ClassVar[int]
     coverage: _uncertainty_pb2.Coverage
+    refractive_index: float
     sea: _sea_pb2.SeaSummary
     table: _table_pb2.TableReference
     uncertainties: _containers.RepeatedCompositeFieldContainer[_uncertainty_pb2.PulseUncertainty]
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., uncertainties: _Optional[_Iterable[_Union[_uncertainty_pb2.PulseUncertainty, _Mapping]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., uncertainties: _Optional[_Iterable[_Union[_uncertainty_pb2.PulseUncertainty, _Mapping]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
 
 class StreamColumnsRequest(_message.Message):
     __slots__ = ["query"]
