@@ -11,6 +11,7 @@
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/pulse_totals.h"
 #include "annotate/totals/total_summary.h"
+#include "sea/angle.h"
 
 namespace albtpu::annotate {
 namespace {
