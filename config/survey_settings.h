@@ -40,6 +40,7 @@ struct TrajectorySettings {                  // [trajectory]
 struct SurfaceSettings {               // [surface]
   std::vector<int> classes;            // Of returns from the surface.
   std::optional<std::string> located;  // kWaysToLocate
+  std::optional<std::string> channel;  // kSurfaceChannels
   std::optional<Level> level;          // In the unit and datum of the points.
   // Of a file of levels, what it does not state: the name of its datum, what is added for that of the points in their
   // unit, and the time zone of its dates.
@@ -117,6 +118,7 @@ inline constexpr std::array<std::string_view, 7> kTimeFormats = {"auto", "week",
 inline constexpr std::array<std::string_view, 4> kVelocityAxes = {"auto", "wander", "body", "north"};
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
+inline constexpr std::array<std::string_view, 2> kSurfaceChannels = {"green", "infrared"};
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
 inline constexpr std::array<std::string_view, 2> kConfidences = {"1sigma", "95%"};
 inline constexpr std::array<std::string_view, 2> kPointChoices = {"all", "bathymetric"};
@@ -161,7 +163,7 @@ inline constexpr std::array<Key<TrajectorySettings>, 6> kTrajectoryKeys = {{
       "Find the trajectory from pulses with two returns under water"},
      &TrajectorySettings::from_returns},
 }};
-inline constexpr std::array<Key<SurfaceSettings>, 6> kSurfaceKeys = {{
+inline constexpr std::array<Key<SurfaceSettings>, 7> kSurfaceKeys = {{
     {{"classes", "--water-classes", kClasses, "",
       "The classes of returns from the water surface; they come before its level where there are any"},
      &SurfaceSettings::classes},
@@ -169,6 +171,10 @@ inline constexpr std::array<Key<SurfaceSettings>, 6> kSurfaceKeys = {{
       "How the points' processing found the water surface: by the return of each pulse, a local model of returns or a "
       "level"},
      &SurfaceSettings::located},
+    {{"channel", "--surface-channel", Word{kSurfaceChannels}, "infrared: surface returns lie on the surface",
+      "The laser whose returns located the surface: a green one finds it too low, by the light that the water scatters "
+      "back, unless the processing took this away"},
+     &SurfaceSettings::channel},
     {{"level", "--water-level", kLevel, "",
       "Height of the water surface, in the unit and datum of the points' heights, or a CSV file of heights by time"},
      &SurfaceSettings::level},

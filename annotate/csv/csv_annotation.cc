@@ -131,7 +131,7 @@ class BlockWork {
     if (total_->details) {
       for (const auto* column : {&totals.thu_air, &totals.tvu_air, &totals.thu_sea, &totals.tvu_sea})
         number((*column)[i]);
-      if (total_->plan.water.share != nullptr) {
+      if (total_->plan.water.has_share()) {
         number(totals.thu_water[i]);
         number(totals.tvu_water[i]);
       }
@@ -239,7 +239,7 @@ std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& st
   std::vector<std::string> names = {"total_thu", "total_tvu"};
   if (total.details) {
     names.insert(names.end(), {"thu_air", "tvu_air", "thu_sea", "tvu_sea"});
-    if (total.plan.water.share != nullptr) names.insert(names.end(), {"thu_water", "tvu_water"});
+    if (total.plan.water.has_share()) names.insert(names.end(), {"thu_water", "tvu_water"});
     if (total.plan.has_extra()) names.insert(names.end(), {"thu_extra", "tvu_extra"});
     for (const std::string_view entry : kCovarianceNames)
       names.push_back(absl::StrCat("covariance_", std::string(entry)));

@@ -53,7 +53,7 @@ struct LasAnnotation {
   formats::Appended appended() const {
     return {.coverage = style.coverage,
             .total = total.has_value(),
-            .water = total.has_value() && total->water.share != nullptr,
+            .water = total.has_value() && total->water.has_share(),
             .extra = total.has_value() && total->has_extra(),
             .details = details,
             .terrain = terrain_slope};

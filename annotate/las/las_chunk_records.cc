@@ -91,7 +91,7 @@ void LasChunkWork::EncodeTotals(const TotalPlan& plan, const Chunk& chunk, bool 
   for (const auto* column : {&total.thu_air, &total.tvu_air}) put((*column)[i]);
   for (const auto* column : {&total.thu_sea, &total.tvu_sea}) put(dry ? 0 : (*column)[i]);
   for (const auto* column : {&total.thu_water, &total.tvu_water})
-    put(plan.water.share == nullptr ? formats::kNoNumber : dry ? 0 : (*column)[i]);
+    put(!plan.water.has_share() ? formats::kNoNumber : dry ? 0 : (*column)[i]);
   if (appended_.extra)
     for (const float added : {total.extra.thu, total.extra.tvu}) put(added);
   const double factor = VerticalFactor(plan.options.coverage);

@@ -248,6 +248,7 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   if (survey.extra.vertical.has_value())
     state("extra_vertical", absl::StrCat(options.extra_vertical, " m"), "[extra]", false);
   ASSIGN_OR_RETURN(plan.water, PlanWater(water, options.index, plan.numbers));
+  RETURN_IF_ERROR(PlanGreenSurface(survey, options, plan.water, plan.numbers));
   return plan;
 }
 

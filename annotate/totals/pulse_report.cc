@@ -103,7 +103,7 @@ absl::StatusOr<ordered_json> TotalJson(const PulseTotal& total, const AnswerSour
   SetMotion(total.motion, aircraft);
   ComputeTotals(total.plan, total.pulse, sea, aircraft, totals);
 
-  const bool directed = total.beam_azimuth.has_value(), with_water = total.plan.water.share != nullptr;
+  const bool directed = total.beam_azimuth.has_value(), with_water = total.plan.water.has_share();
   ordered_json json = {{"thu", NumberOrNull(totals.thu[0])},
                        {"tvu", NumberOrNull(totals.tvu[0])},
                        {"coverage", CoverageName(total.plan.options.coverage)},
@@ -144,12 +144,12 @@ absl::StatusOr<ordered_json> TotalJson(const PulseTotal& total, const AnswerSour
     json["sources"]["water"] = {{"horizontal", NumberOrNull(water.sigma_along[0] * water.sigma_along[0])},
                                 {"vertical", NumberOrNull(water.sigma_vertical[0] * water.sigma_vertical[0])},
                                 {"group", "survey"}};
-    if (total.plan.water.photons.has_value())
+    if (total.plan.water.share != nullptr && total.plan.water.photons.has_value())
       json["sources"]["photons"] = {
           {"horizontal", totals.of_water[0][0] + totals.of_water[1][0] - water.sigma_along[0] * water.sigma_along[0]},
           {"vertical", noise},
           {"group", "pulse"}};
-    json["water"] = WaterJson(total.plan.water, total.pulse);
+    if (total.plan.water.share != nullptr) json["water"] = WaterJson(total.plan.water, total.pulse);
   }
   for (std::size_t g = 0; g < kErrorGroups; ++g)
     json["groups"][std::string(kErrorGroupNames[g])] = CovarianceJson(totals.groups[g], directed);

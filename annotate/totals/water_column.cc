@@ -141,7 +141,7 @@ std::optional<double> IndexOf(const config::WaterSettings& water) {
 
 absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
                                     std::vector<StatedNumber>& numbers) {
-  WaterPlan plan{.share = nullptr, .photons = settings.photons, .index = index, .of_water = {}};
+  WaterPlan plan{.share = nullptr, .photons = settings.photons, .index = index, .of_water = {}, .surface = {}};
   std::optional<WaterIndex> of_state;
   if (settings.temperature.has_value() && settings.salinity.has_value())
     of_state = SeaWaterIndex(*settings.temperature, *settings.salinity);
@@ -189,29 +189,61 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   return plan;
 }
 
-void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
-  const std::span<const float> incidence = pulses.axis[Index(AxisId::kIncidence)];
-  const std::span<const float> depth = pulses.axis[Index(AxisId::kDepth)];
-  const auto add = [](float& bias, double more) { bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more); };
-  std::vector<float>& along = answers.values[Index(Quantity::kBiasAlongBeam)];
-  std::vector<float>& vertical = answers.values[Index(Quantity::kBiasVertical)];
-  for (std::size_t i = 0; i < along.size(); ++i)
-    along[i] = ReportedBiasAlong(along[i], vertical[i], pulses.coordinate(AxisId::kIncidence, i), plan.index);
-  if (plan.of_water.has_value()) {
-    for (std::size_t i = 0; i < pulses.size; ++i) {
-      const IndexBias bias =
-          BiasOfIndex(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), *plan.of_water, plan.processed_with);
-      const float z = pulses.coordinate(AxisId::kDepth, i);
-      add(along[i], bias.along * z);
-      add(vertical[i], bias.vertical * z);
-    }
+absl::Status PlanGreenSurface(const config::SurveySettings& survey, BudgetOptions& options, WaterPlan& plan,
+                              std::vector<StatedNumber>& numbers) {
+  const bool by_returns = options.located != SurfaceLocation::kLevel;
+  if (!survey.surface.channel.has_value()) {
+    if (by_returns)
+      numbers.push_back({"surface_channel", "infrared", "assumed: returns from the surface lie on it", true});
+    return absl::OkStatus();
   }
-  for (std::vector<float>* column : {&water.sigma_along, &water.sigma_vertical, &water.correlation, &water.noise,
-                                     &water.bias_along, &water.bias_vertical, &water.stretch})
-    column->resize(plan.share != nullptr ? pulses.size : 0);
-  if (plan.share == nullptr || pulses.size == 0) return;
+  const std::string& channel = *survey.surface.channel;
+  if (!by_returns) {
+    return formats::UsageError(absl::StrCat("[surface] channel = \"", channel,
+                                            "\" has no effect where a level locates the surface; leave it out"));
+  }
+  numbers.push_back({"surface_channel", channel, "[surface]", false});
+  if (channel != "green") return absl::OkStatus();
+  const config::WaterSettings& water = survey.water;
+  const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(water));
+  if (!optics.ok() || !water.detector.has_value() || !water.pulse_length.has_value()) {
+    return formats::UsageError(absl::StrCat(
+        "[surface] channel = \"green\" (the surface is found too low, by the light that the water scatters back) needs "
+        "[water] ",
+        optics.ok() ? "detector and pulse_length (ns)"
+                    : absl::StrCat("optics, detector and pulse_length: ", std::string(optics.status().message()))));
+  }
+  const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *water.detector)),
+                               .pulse_length = *water.pulse_length};
+  if (receiver.detector == EchoDetector::kCentroid) {
+    return formats::UsageError(
+        "[surface] channel = \"green\" cannot be computed for [water] detector = \"centroid\" (the water's light has "
+        "no "
+        "end that would give a centroid); give \"half\" or \"peak\", or \"infrared\" where the processing corrected "
+        "it");
+  }
+  plan.surface = GreenSurfaceOf(*optics, receiver);
+  const auto metres = [](double length) { return absl::StrFormat("%.3g m", length); };
+  const char* const kOrigin = "[water], glint from none to all: docs/physics.md, \"The green surface\"";
+  numbers.push_back({"green_surface_range", metres(plan.surface->mean), kOrigin, false});
+  numbers.push_back({"green_surface_range_sigma", metres(plan.surface->unknown), kOrigin, false});
+  if (options.located != SurfaceLocation::kPulse) return absl::OkStatus();
+  numbers.push_back({"green_surface_range_spread", metres(plan.surface->spread), kOrigin, false});
+  AirErrors& errors = options.errors;
+  double& own = errors.surface_height > 0 ? errors.surface_height : errors.surface_range;
+  own = std::hypot(own, plan.surface->spread);
+  return absl::OkStatus();
+}
+
+namespace {
+
+// A bias that is not known counts as none.
+void AddTo(float& bias, double more) { bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more); }
+
+// That of scattering between surface and bottom.
+void AddColumn(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
   const WaterContribution& share = *plan.share;
-  share.Compute(incidence, depth,
+  share.Compute(pulses.axis[Index(AxisId::kIncidence)], pulses.axis[Index(AxisId::kDepth)],
                 {.bias_along = water.bias_along,
                  .bias_vertical = water.bias_vertical,
                  .sigma_along = water.sigma_along,
@@ -226,13 +258,54 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
       water.sigma_vertical[i] = std::numeric_limits<float>::quiet_NaN();
       continue;
     }
-    add(along[i], water.bias_along[i]);
-    add(vertical[i], water.bias_vertical[i]);
+    AddTo(answers.values[Index(Quantity::kBiasAlongBeam)][i], water.bias_along[i]);
+    AddTo(answers.values[Index(Quantity::kBiasVertical)][i], water.bias_vertical[i]);
     water.noise[i] = 0;
     if (!plan.photons.has_value()) continue;
     const double sine = std::sin(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i))) / plan.index;
     water.noise[i] = static_cast<float>(share.PhotonNoise(*plan.photons, water.stretch[i], std::sqrt(1 - sine * sine)));
   }
+}
+
+// The mean is a bias; its uncertainty is common to all pulses, and moves points on one line.
+void AddGreenSurface(const GreenSurface& surface, double index, const PulseBatch& pulses, AnswerBatch& answers,
+                     WaterBatch& water) {
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    const ShiftBySurface shift = ShiftBySurfaceOf(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), index);
+    AddTo(answers.values[Index(Quantity::kBiasAlongBeam)][i], shift.along * surface.mean);
+    AddTo(answers.values[Index(Quantity::kBiasVertical)][i], -shift.down * surface.mean);
+    const double along = water.sigma_along[i], up = water.sigma_vertical[i];
+    const double more_along = shift.along * surface.unknown, more_down = shift.down * surface.unknown;
+    const double both = water.correlation[i] * along * up - more_along * more_down;
+    const double all_along = std::hypot(along, more_along), all_up = std::hypot(up, more_down);
+    water.sigma_along[i] = static_cast<float>(all_along);
+    water.sigma_vertical[i] = static_cast<float>(all_up);
+    water.correlation[i] = all_along > 0 && all_up > 0 ? static_cast<float>(both / (all_along * all_up)) : 0;
+  }
+}
+
+}  // namespace
+
+void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
+  std::vector<float>& along = answers.values[Index(Quantity::kBiasAlongBeam)];
+  std::vector<float>& vertical = answers.values[Index(Quantity::kBiasVertical)];
+  for (std::size_t i = 0; i < along.size(); ++i)
+    along[i] = ReportedBiasAlong(along[i], vertical[i], pulses.coordinate(AxisId::kIncidence, i), plan.index);
+  if (plan.of_water.has_value()) {
+    for (std::size_t i = 0; i < pulses.size; ++i) {
+      const IndexBias bias =
+          BiasOfIndex(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), *plan.of_water, plan.processed_with);
+      const float z = pulses.coordinate(AxisId::kDepth, i);
+      AddTo(along[i], bias.along * z);
+      AddTo(vertical[i], bias.vertical * z);
+    }
+  }
+  for (std::vector<float>* column : {&water.sigma_along, &water.sigma_vertical, &water.correlation, &water.noise,
+                                     &water.bias_along, &water.bias_vertical, &water.stretch})
+    column->assign(plan.has_share() ? pulses.size : 0, 0.0f);
+  if (pulses.size == 0) return;
+  if (plan.share != nullptr) AddColumn(plan, pulses, answers, water);
+  if (plan.surface.has_value()) AddGreenSurface(*plan.surface, plan.index, pulses, answers, water);
 }
 
 }  // namespace albtpu::annotate

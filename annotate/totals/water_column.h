@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
+#include "budget/water/green_surface.h"
 #include "budget/water/refractive_index.h"
 #include "budget/water/water_contribution.h"
 #include "config/survey_settings.h"
@@ -30,12 +31,21 @@ struct WaterPlan {
   // Where the processing used another index than that of the water.
   std::optional<WaterIndex> of_water;
   double processed_with = 0;
+  // Of a surface that returns of a green laser located; its spread is among the errors of the air side.
+  std::optional<GreenSurface> surface;
+
+  bool has_share() const { return share != nullptr || surface.has_value(); }
 };
 
 // `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the
 // table refuses. Adds to `numbers` what was taken and where from.
 absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
                                     std::vector<StatedNumber>& numbers);
+
+// Where a green laser located the surface: what this adds to the plan, and from pulse to pulse to the errors of the air
+// side where each pulse's own return located it. Call it last. UsageError where the water or the receiver is not known.
+absl::Status PlanGreenSurface(const config::SurveySettings& survey, BudgetOptions& options, WaterPlan& plan,
+                              std::vector<StatedNumber>& numbers);
 
 // The index that the user gives, or that of the temperature and salinity if both are given (refractive_index.h).
 std::optional<double> IndexOf(const config::WaterSettings& water);
@@ -46,7 +56,8 @@ inline double IndexOrUsual(const config::WaterSettings& water) { return IndexOf(
 // PREFIX/share/albtpu/water/water_column.h5 for a program that runs as PREFIX/bin/NAME.
 std::filesystem::path WaterTablePath();
 
-// Columns of BudgetInput, one element for each pulse; empty where the share is left out.
+// Columns of BudgetInput, one element for each pulse; empty where the share is left out. The first three have the
+// surface that a green laser located, too.
 struct WaterBatch {
   std::vector<float> sigma_along, sigma_vertical, correlation, noise;
   std::vector<float> bias_along, bias_vertical,

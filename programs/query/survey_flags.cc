@@ -105,7 +105,8 @@ void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::str
 }
 
 void AddTotalFlags(CLI::App& command, SurveyFlags& flags) {
-  AddFlags(command, {"--sensor", "--surface-located", "--datum-sigma", "--water-column"}, group::kTotal, flags);
+  AddFlags(command, {"--sensor", "--surface-located", "--surface-channel", "--datum-sigma", "--water-column"},
+           group::kTotal, flags);
 }
 
 void AddStyleFlags(CLI::App& command, SurveyFlags& flags, annotate::AnswerStyle& style) {
@@ -131,6 +132,7 @@ absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& set
   if (settings.wants_total()) return absl::OkStatus();
   const SurveySettings& given = flags.settings;
   const std::pair<const char*, bool> flags_of_total[] = {{"--surface-located", given.surface.located.has_value()},
+                                                         {"--surface-channel", given.surface.channel.has_value()},
                                                          {"--datum-sigma", given.datum.sigma.has_value()},
                                                          {"--water-column", given.water.column.has_value()}};
   for (const auto& [flag, is_given] : flags_of_total)

@@ -234,8 +234,8 @@ class Scaling {
     };
     const double second = Ratio(forms(to), forms(from), usual * usual);
     const double more_than_nadir = Ratio(forms(from), forms(nadir), 1);
-    const auto of_bias = [](double new_bias, double bias, double otherwise) {
-      return std::abs(bias) > kNothing ? Ratio(new_bias, bias, otherwise) : otherwise;
+    const auto of_bias = [](double scaled, double original, double otherwise) {
+      return std::abs(original) > kNothing ? Ratio(scaled, original, otherwise) : otherwise;
     };
     const double biases[2] = {of_bias(to.bias.x(), from.bias.x(), std::sqrt(usual)),
                               of_bias(to.bias.z(), from.bias.z(), usual)};

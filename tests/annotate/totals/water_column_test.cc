@@ -129,6 +129,67 @@ TEST_F(WaterColumnPlan, AddsTheBiasOfAnotherIndex) {
   EXPECT_NEAR(answers[Quantity::kBiasVertical][0], 0.1 - 0.2515, 1e-4);
 }
 
+config::SurveySettings Survey(const std::string& text) {
+  const absl::StatusOr<config::SurveySettings> survey = config::ParseSurvey(text, ".");
+  EXPECT_TRUE(survey.ok()) << survey.status();
+  return *survey;
+}
+
+TEST_F(WaterColumnPlan, AddsTheSurfaceThatAGreenLaserFinds) {
+  const config::SurveySettings survey = Survey("[surface]\nchannel = \"green\"\n[water]\n" + kOptics + kReceiver);
+  WaterPlan plan{.share = nullptr, .photons = {}, .index = 1.34, .of_water = {}, .surface = {}};
+  BudgetOptions options = {.errors = {.surface_range = 0.02}};
+  std::vector<StatedNumber> numbers;
+  ASSERT_EQ(PlanGreenSurface(survey, options, plan, numbers), absl::OkStatus());
+  const GreenSurface surface = *plan.surface;
+  EXPECT_NEAR(options.errors.surface_range, std::hypot(0.02, surface.spread), 1e-12);
+  EXPECT_GT(surface.mean, 0.1);  // of a pulse of 5 ns
+  AnswerBatch answers = Answers();
+  WaterBatch water;
+  AddWater(plan, Pulses(), answers, water);
+  const ShiftBySurface shift = ShiftBySurfaceOf(RadiansOfDegrees(20), 1.34);
+  const double of_point = 0.1 - 0.1 * std::tan(std::asin(std::sin(RadiansOfDegrees(20)) / 1.34));
+  EXPECT_NEAR(answers[Quantity::kBiasAlongBeam][0], of_point + shift.along * surface.mean, 1e-6);
+  EXPECT_NEAR(answers[Quantity::kBiasVertical][0], 0.1 - shift.down * surface.mean, 1e-6);
+  EXPECT_NEAR(water.sigma_along[0], shift.along * surface.unknown, 1e-6);
+  EXPECT_NEAR(water.sigma_vertical[0], shift.down * surface.unknown, 1e-6);
+  EXPECT_NEAR(water.correlation[0], -1, 1e-5);  // farther out and deeper
+
+  // A model of many returns averages the spread out; the share of the water column adds as a covariance.
+  options = {.errors = {.surface_range = 0.02}, .located = SurfaceLocation::kLocal};
+  plan = *Plan(kOptics + kReceiver + kNone);
+  WaterBatch column, both;
+  answers = Answers();
+  AddWater(plan, Pulses(), answers, column);
+  ASSERT_EQ(PlanGreenSurface(survey, options, plan, numbers), absl::OkStatus());
+  EXPECT_EQ(options.errors.surface_range, 0.02);
+  answers = Answers();
+  AddWater(plan, Pulses(), answers, both);
+  const auto covariance = [](const WaterBatch& batch) {
+    return batch.correlation[0] * batch.sigma_along[0] * batch.sigma_vertical[0];
+  };
+  EXPECT_NEAR(both.sigma_vertical[0], std::hypot(column.sigma_vertical[0], water.sigma_vertical[0]), 1e-6);
+  EXPECT_NEAR(both.sigma_along[0], std::hypot(column.sigma_along[0], water.sigma_along[0]), 1e-6);
+  EXPECT_NEAR(covariance(both), covariance(column) + covariance(water), 1e-7);
+}
+
+TEST_F(WaterColumnPlan, SaysWhyAGreenSurfaceCannotBeFound) {
+  const auto problem = [](const std::string& water, SurfaceLocation located) {
+    WaterPlan plan;
+    BudgetOptions options = {.located = located};
+    std::vector<StatedNumber> numbers;
+    const absl::Status status =
+        PlanGreenSurface(Survey("[surface]\nchannel = \"green\"\n[water]\n" + water), options, plan, numbers);
+    EXPECT_TRUE(formats::IsUsageError(status)) << status;
+    return std::string(status.message());
+  };
+  EXPECT_THAT(problem(kOptics + kReceiver, SurfaceLocation::kLevel), HasSubstr("no effect where a level"));
+  EXPECT_THAT(problem(kReceiver, SurfaceLocation::kPulse), HasSubstr("nothing says how clear the water is"));
+  EXPECT_THAT(problem(kOptics, SurfaceLocation::kLocal), HasSubstr("detector and pulse_length"));
+  EXPECT_THAT(problem(kOptics + "detector = \"centroid\"\npulse_length = 2\n", SurfaceLocation::kPulse),
+              HasSubstr("give \"half\" or \"peak\""));
+}
+
 TEST_F(WaterColumnPlan, IsAShareOfTheTotal) {
   TotalPlan plan;
   plan.options.errors = {.position = {0.02, 0.03, 0.06}, .bottom_range = 0.025};
