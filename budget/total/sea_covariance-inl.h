@@ -74,7 +74,7 @@ struct SecondOrder {
   }
 };
 
-// 1/2 tr(H_i V H_j V) for each metre of depth; H are the second derivatives of Snell's law by the slope, on level water.
+// 1/2 tr(H_i V H_j V) for each metre of depth, by the second derivatives H of Snell's law on level water.
 // `slopes` is V on the axes of the beam, in units of the gain across it: g^2 V.
 HWY_INLINE SecondOrder SecondOrderOf(const Symmetric& slopes, const BeamNumbers& beam) {
   const F one = Constant(1), two = Constant(2), s = beam.sine_refracted, c = beam.cosine_refracted;
