@@ -35,6 +35,8 @@ std::vector<std::string> Assumptions(const TotalPlan& plan) {
   std::vector<std::string> lines;
   for (const StatedNumber& number : plan.numbers)
     if (number.assumed) lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
+  if (plan.water.channel_assumed)
+    lines.push_back("returns from the surface lie on it (assumed: [surface] channel is not given)");
   return lines;
 }
 

@@ -193,8 +193,7 @@ absl::Status PlanGreenSurface(const config::SurveySettings& survey, BudgetOption
                               std::vector<StatedNumber>& numbers) {
   const bool by_returns = options.located != SurfaceLocation::kLevel;
   if (!survey.surface.channel.has_value()) {
-    if (by_returns)
-      numbers.push_back({"surface_channel", "infrared", "assumed: returns from the surface lie on it", true});
+    plan.channel_assumed = by_returns;
     return absl::OkStatus();
   }
   const std::string& channel = *survey.surface.channel;

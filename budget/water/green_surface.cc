@@ -12,7 +12,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kWidths = 8;                // standard deviations of the pulse beyond which it has no light
+constexpr double kWidths = 8;  // standard deviations of the pulse beyond which it has no light
 
 // The waveform of the surface; times in ns after the glint would arrive.
 class SurfaceEcho {

@@ -14,9 +14,9 @@
 
 namespace albtpu {
 
-// m, of the range in air by which the surface is found too far, along the beam. The glint is not known. Over surveys the
-// mean delay is taken as uniform, from that of no glint to none. Within a survey glints are exponential: few facets of
-// the water shine, each by chance.
+// m, of the range in air by which the surface is found too far, along the beam. The glint is not known. Over surveys
+// the mean delay is taken as uniform, from that of no glint to none. Within a survey glints are exponential: few facets
+// of the water shine, each by chance.
 struct GreenSurface {
   double mean = 0;     // over all surveys; a bias
   double unknown = 0;  // 1 sigma of the mean over one survey

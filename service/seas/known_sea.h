@@ -15,7 +15,8 @@ namespace albtpu {
 
 class SeaCompiler;
 
-// In the same water, equal seas have the same table in process, on a server and from a file, bit for bit on the same instruction set.
+// In the same water, equal seas have the same table in process, on a server and from a file, bit for bit on the same
+// instruction set.
 struct KnownSea {
   // Without waves the sea is the fully developed sea of the wind. A WholeSea is complete: the wind's direction is its x
   // axis, wind speed and depth are only stated, and the other members have no effect.

@@ -71,7 +71,9 @@ class TotalsTest(programs.Test):
             self.assertAlmostEqual(total["tvu"], 2 * math.sqrt(covariance["DD"]), delta=1e-6)
             self.assertAlmostEqual(total["semi_major"] ** 2 + total["semi_minor"] ** 2,
                                    covariance["NN"] + covariance["EE"], delta=1e-7)
-            self.assertEqual(total["assumed"], ["divergence 1 mrad (assumed: the default of the sensor)"])
+            on_it = ["returns from the surface lie on it (assumed: [surface] channel is not given)"]
+            self.assertEqual(total["assumed"], ["divergence 1 mrad (assumed: the default of the sensor)",
+                                                *(on_it if located != "level" else [])])
 
     def test_las_has_the_total_its_shares_and_its_covariance(self):
         flight = SimulatedSurvey(self.folder / "flight").folder

@@ -74,7 +74,7 @@ TEST_F(SeaQueries, TellWhatNeighbouringPulsesShare) {
   const DescribedSea described = Describe(testing::DescribedWaves());
   const WaveCorrelation sea(described.spectrum, {.water_depth = described.water_depth});
   const BeamCorrelation beam(
-      sea, {.incidence = RadiansOfDegrees(18), .azimuth = RadiansOfDegrees(40), .footprint = 0.5}, kRefractiveIndex);
+      sea, {.incidence = RadiansOfDegrees(18), .azimuth = RadiansOfDegrees(40), .footprint = 0.5}, kSeaWaterIndex);
   const PulseCorrelation of_pair = CorrelationOf(beam.Between({1, -0.5}, 0.2), beam.pulse());
   const PulseCorrelation of_cell =
       CorrelationOf(beam.InCell({.side = 2, .orientation = RadiansOfDegrees(30)}), beam.pulse());
