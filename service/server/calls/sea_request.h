@@ -31,8 +31,8 @@ absl::StatusOr<double> ReadIndex(bool given, double index, std::string_view path
 
 class AnswerSources {
  public:
-  // `catalog` and `seas` must outlive it. `compiled` is the table that the request needs, if it had to be made: when the
-  // request is handled, it may no longer be kept.
+  // `catalog` and `seas` must outlive it. `compiled` is the table that the request needs, if it had to be made: when
+  // the request is handled, it may no longer be kept.
   AnswerSources(const TableCatalog& catalog, SeaTables& seas, std::shared_ptr<const ServedTable> compiled = nullptr)
       : catalog_(catalog), seas_(seas), made_(std::move(compiled)) {}
 

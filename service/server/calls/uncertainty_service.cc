@@ -121,8 +121,8 @@ class RefusedStream final : public ByteStream {
 
 }  // namespace
 
-// A request that waits for a worker, or first for its table. The workers must have admitted it; its place is released at
-// the end.
+// A request that waits for a worker, or first for its table. The workers must have admitted it; its place is released
+// at the end.
 class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
  public:
   // `wanted` is the table to be made first, if any.

@@ -58,8 +58,8 @@ inline constexpr std::size_t kMaxSeaViolations = 8;
 inline constexpr std::size_t kMaxWaitingSeas = 16;
 
 // Tables of seas that are kept for later requests: some 110 of 2.3 MiB, four days of hourly seas. A stream over time
-// uses one or two at a time. The number counts if tables become smaller. Tables of the server's in water of another index
-// are kept among them: some 40 MiB for the largest.
+// uses one or two at a time. The number counts if tables become smaller. Tables of the server's in water of another
+// index are kept among them: some 40 MiB for the largest.
 inline constexpr std::size_t kMaxSeaTables = 512;
 inline constexpr std::size_t kMaxSeaTableBytes = std::size_t{256} << 20;
 
