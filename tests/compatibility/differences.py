@@ -5,6 +5,7 @@ Numbers agree within a relative 1e-5: sums in single precision, which compilers 
 Since 0.1.0 the physics was corrected: the share of the sea is of the water's index, and totals are of the reported
 point (CHANGELOG.md). Within `corrected()`, numbers may differ by as much as that changes any, and orders of S-44 and
 biases along the beam by more.
+"""
 
 import contextlib
 import csv
