@@ -47,6 +47,17 @@ find_package(MPI COMPONENTS C)
 albtpu_optional_part(ALBTPU_MPI FOUND MPI_C_FOUND RESULT ALBTPU_WITH_MPI PART "MPI ranks of albtpu-generate"
   NEEDS MPI PACKAGE libopenmpi-dev)
 
+# GeoTIFF and BAG of surfaces. The programs do not link it; they load it when it is needed.
+pkg_check_modules(GDAL IMPORTED_TARGET gdal)
+albtpu_optional_part(ALBTPU_GDAL FOUND GDAL_FOUND RESULT ALBTPU_WITH_GDAL PART "GeoTIFF and BAG of albtpu-query surface"
+  NEEDS GDAL PACKAGE libgdal-dev)
+if(ALBTPU_WITH_GDAL)
+  find_library(ALBTPU_GDAL_FILE gdal REQUIRED HINTS ${GDAL_LIBRARY_DIRS} ${GDAL_LIBDIR})
+  mark_as_advanced(ALBTPU_GDAL_FILE)
+  file(REAL_PATH ${ALBTPU_GDAL_FILE} gdal_file)
+  string(REGEX MATCH "libgdal\\.so\\.[0-9]+" ALBTPU_GDAL_LIBRARY ${gdal_file})  # Of the ABI: "libgdal.so.32".
+endif()
+
 if(ALBTPU_BUILD_TESTS)
   find_package(GTest REQUIRED CONFIG)
 endif()

@@ -224,6 +224,9 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::CreateIn(ProjContext& 
   std::shared_ptr<MapFrame> frame(new MapFrame());
   frame->crs_name_ = crs.name;
   if (const char* wkt = proj_as_wkt(context.get(), crs.horizontal.get(), PJ_WKT1_GDAL, nullptr)) frame->wkt_ = wkt;
+  frame->vertical_ = crs.vertical;
+  if (!frame->vertical_.has_value() && description.vertical != 0)
+    frame->vertical_ = VerticalCrsOf(context, description.vertical);
   frame->remark_ = found->remark;
   frame->angular_unit_ = crs.angular_unit;
   frame->prime_meridian_ = crs.prime_meridian;

@@ -62,6 +62,8 @@ class MapFrame {
   const std::string& crs_name() const { return crs_name_; }  // "NAD83 / UTM zone 17N".
   // Well-known text (version 1 of GDAL) of its horizontal part. Empty if PROJ has none.
   const std::string& wkt() const { return wkt_; }
+  // Of the heights, as far as it is stated; in metres, whatever their unit is.
+  const std::optional<VerticalCrs>& vertical() const { return vertical_; }
   // For the user, about how the coordinate system was found; usually empty.
   const std::string& remark() const { return remark_; }
   bool is_geographic() const { return pipeline_.empty(); }
@@ -92,6 +94,7 @@ class MapFrame {
 
   std::string crs_name_;
   std::string wkt_;
+  std::optional<VerticalCrs> vertical_;
   std::string remark_;
   std::string pipeline_;       // Of PROJ, from geographic coordinates in its unit; empty for geographic points.
   double angular_unit_ = 0;    // rad in a unit of the geographic coordinates.

@@ -62,6 +62,32 @@ bool IsTransverseMercator(ProjContext& context, const PJ* projected) {
          std::string(method) == "Transverse Mercator";
 }
 
+// Of heights upwards, in metres.
+VerticalCrs HeightsOf(const PJ* datum) {
+  const std::string name = TextOrEmpty(proj_get_name(datum));
+  return {.name = absl::StrCat(name, " height"),
+          .wkt = absl::StrCat("VERT_CS[\"", name, " height\",VERT_DATUM[\"", name,
+                              "\",2005],UNIT[\"metre\",1],AXIS[\"Gravity-related height\",UP]]")};
+}
+
+// nullopt for one whose heights do not count upwards.
+std::optional<VerticalCrs> InMetres(ProjContext& context, const PJ* vertical) {
+  const ProjObject system(proj_crs_get_coordinate_system(context.get(), vertical));
+  const char* direction = nullptr;
+  double unit = 0;
+  if (system == nullptr ||
+      !proj_cs_get_axis_info(context.get(), system.get(), 0, nullptr, nullptr, &direction, &unit, nullptr, nullptr,
+                             nullptr) ||
+      std::string(direction) != "up")
+    return std::nullopt;
+  if (unit != 1) {
+    const ProjObject datum(proj_crs_get_datum_forced(context.get(), vertical));
+    return datum == nullptr ? std::nullopt : std::optional(HeightsOf(datum.get()));
+  }
+  return VerticalCrs{.name = TextOrEmpty(proj_get_name(vertical)),
+                     .wkt = TextOrEmpty(proj_as_wkt(context.get(), vertical, PJ_WKT1_GDAL, nullptr))};
+}
+
 ProjObject Parse(ProjContext& context, const std::string& text) {
   // A text in brackets is well-known text, which PROJ reads leniently; faults that do not prevent reading are ignored.
   if (text.find('[') != std::string::npos && text.find('{') == std::string::npos) {
@@ -148,7 +174,10 @@ absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text) {
   if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
     const ProjObject vertical =
         WithoutDatumShift(context, ProjObject(proj_crs_get_sub_crs(context.get(), whole.get(), 1)));
-    if (vertical != nullptr) crs.metres_per_height_unit = AxisUnit(context, vertical.get(), 0);
+    if (vertical != nullptr) {
+      crs.metres_per_height_unit = AxisUnit(context, vertical.get(), 0);
+      crs.vertical = InMetres(context, vertical.get());
+    }
     whole = WithoutDatumShift(context, ProjObject(proj_crs_get_sub_crs(context.get(), whole.get(), 0)));
   }
   if (whole != nullptr) {
@@ -188,6 +217,19 @@ std::optional<double> MetresOfVerticalCrs(ProjContext& context, int code) {
       proj_create_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(), PJ_CATEGORY_CRS, 0, nullptr));
   if (crs == nullptr || proj_get_type(crs.get()) != PJ_TYPE_VERTICAL_CRS) return std::nullopt;
   return AxisUnit(context, crs.get(), 0);
+}
+
+std::optional<VerticalCrs> VerticalCrsOf(ProjContext& context, int code) {
+  const auto find = [&](PJ_CATEGORY category) {
+    return ProjObject(
+        proj_create_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(), category, 0, nullptr));
+  };
+  if (const ProjObject crs = find(PJ_CATEGORY_CRS); crs != nullptr && proj_get_type(crs.get()) == PJ_TYPE_VERTICAL_CRS)
+    return InMetres(context, crs.get());
+  if (const ProjObject datum = find(PJ_CATEGORY_DATUM);
+      datum != nullptr && proj_get_type(datum.get()) == PJ_TYPE_VERTICAL_REFERENCE_FRAME)
+    return HeightsOf(datum.get());
+  return std::nullopt;
 }
 
 std::optional<int> LastEpsgCode(const std::string& wkt) {

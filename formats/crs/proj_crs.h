@@ -58,6 +58,11 @@ class ProjContext {
   std::string last_message_;
 };
 
+// The vertical part of a coordinate system, restated for heights in metres, upwards.
+struct VerticalCrs {
+  std::string name, wkt;  // "NAVD88 height"; well-known text, version 1 of GDAL.
+};
+
 // The parts of a coordinate system, whether projected, geographic, compound, with three axes or with a datum shift.
 struct ProjCrs {
   ProjObject horizontal;
@@ -70,6 +75,7 @@ struct ProjCrs {
   double prime_meridian = 0;  // rad
   Ellipsoid ellipsoid;
   std::optional<double> metres_per_height_unit;
+  std::optional<VerticalCrs> vertical;
 };
 
 // The text as PROJ reads it: well-known text, a code, a name. InvalidArgument with the reason when it reads nothing, or
@@ -81,6 +87,9 @@ std::optional<double> MetresOfUnit(ProjContext& context, int code);
 
 // Metres in a unit of a vertical coordinate system, by its EPSG code.
 std::optional<double> MetresOfVerticalCrs(ProjContext& context, int code);
+
+// A vertical coordinate system by its EPSG code, or by that of its datum, as GeoTIFF 1.0 has it.
+std::optional<VerticalCrs> VerticalCrsOf(ProjContext& context, int code);
 
 // The code of AUTHORITY["EPSG","26917"] or ID["EPSG",26917] with which a well-known text ends; nullopt if it has none.
 std::optional<int> LastEpsgCode(const std::string& wkt);

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -11,13 +12,17 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/seas/sea_timeline.h"
+#include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "programs/query/survey_flags.h"
 #include "quality/annotated/annotated_folder.h"
 #include "quality/report/report_folder.h"
+#include "quality/surface/surface_part.h"
+#include "quality/surface/surface_rasters.h"
 #include "quality/surface/survey_surface.h"
 #include "status/status_macros.h"
 #include "tables/file/output_folder.h"
@@ -25,36 +30,119 @@
 namespace albtpu::programs {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr char kMerge[] = "merge";
+constexpr std::string_view kNetcdf = quality::kSurfaceFormatNames.front();
+
 struct SurfaceCommandOptions {
   SurveyFlags flags;
-  std::string annotated, output;
-  double cell = 1;
+  std::vector<std::string> inputs;  // The first one may be kMerge.
+  std::string output, partial, organisation;
+  std::vector<std::string> formats = {std::string(kNetcdf)};
+  std::optional<double> cell;
   Existing existing = Existing::kKeep;
+
+  bool merges() const { return inputs.front() == kMerge; }
 };
+
+constexpr double kCell = 1;  // m, where none is given.
 
 // Of a wind all is in the summaries.
 constexpr std::array<std::string_view, 3> kStatedOfWinds = {"--fetch", "--wind-speed", "--wind-from"};
 
-absl::Status RunSurface(const SurfaceCommandOptions& options) {
+// The words and the flags that go together.
+absl::Status CheckUsage(const SurfaceCommandOptions& options) {
+  const auto wrong = [](const std::string& what) { return formats::UsageError(absl::StrCat("surface: ", what)); };
+  if (options.output.empty() == options.partial.empty())
+    return wrong(options.output.empty() ? "--output is missing; give a folder for the surface, or --partial for a part"
+                                        : "--partial has no effect with --output; leave one out");
+  if (!options.merges()) return absl::OkStatus();
+  if (options.inputs.size() == 1) return wrong("parts are missing; give files that --partial wrote after merge");
+  if (!options.partial.empty()) return wrong("--partial has no effect with merge; give --output");
+  if (options.cell.has_value()) return wrong("--cell has no effect with merge, for parts have theirs; leave it out");
+  if (options.flags.survey.has_value())
+    return wrong("--survey has no effect with merge, for parts have their seas; leave it out");
+  return absl::OkStatus();
+}
+
+std::vector<quality::SurfaceFormat> FormatsOf(const SurfaceCommandOptions& options) {
+  std::vector<quality::SurfaceFormat> formats;
+  for (std::size_t i = 0; i < quality::kSurfaceFormatNames.size(); ++i)
+    if (std::ranges::count(options.formats, quality::kSurfaceFormatNames[i]) > 0)
+      formats.push_back(static_cast<quality::SurfaceFormat>(i));
+  return formats;
+}
+
+// The points of the files that are given, at `path`.
+absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options,
+                                            const std::vector<quality::AnnotatedLasFile>& files, const fs::path& path) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
   std::optional<annotate::SeaTimeline> seas;
   if (settings.sea.has_waves()) {
     ASSIGN_OR_RETURN(seas, annotate::SeaTimeline::Open(settings.sea));
   }
-  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
+  return quality::GatherPoints(
+      files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr}, path);
+}
+
+absl::StatusOr<std::vector<quality::AnnotatedLasFile>> FilesOf(const SurfaceCommandOptions& options) {
+  return quality::OpenAnnotated(std::vector<fs::path>(options.inputs.begin(), options.inputs.end()));
+}
+
+absl::Status RunPartial(const SurfaceCommandOptions& options) {
+  const fs::path path = options.partial, folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (options.existing == Existing::kKeep && fs::exists(path))
+    return absl::AlreadyExistsError(
+        absl::StrCat(path.string(), ": is there already; give another name, or replace it by --overwrite"));
+  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, FilesOf(options));
+  const HiddenFolder hidden(folder);
+  if (hidden.path().empty()) return NotWritable(folder);
+  ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, files, hidden.path() / path.filename()));
+  RETURN_IF_ERROR(quality::SealPart(part));
+  RETURN_IF_ERROR(hidden.Publish({path.filename().string()}));
+  std::cout << path.string() << "\n  " << part.facts.with_number << " points of " << part.facts.files.size()
+            << " files\n";
+  return FlushStandardOutput();
+}
+
+absl::Status RunSurface(const SurfaceCommandOptions& options) {
+  RETURN_IF_ERROR(CheckUsage(options));
+  if (!options.partial.empty()) return RunPartial(options);
+  const std::vector<quality::SurfaceFormat> formats = FormatsOf(options);
+  std::vector<quality::AnnotatedLasFile> files;
+  std::vector<quality::SurfacePart> parts;
+  if (options.merges()) {
+    for (std::size_t i = 1; i < options.inputs.size(); ++i) {
+      ASSIGN_OR_RETURN(quality::SurfacePart part, quality::OpenPart(options.inputs[i]));
+      parts.push_back(std::move(part));
+      RETURN_IF_ERROR(quality::CheckFormats(formats, parts.back().facts.map));
+    }
+  } else {
+    ASSIGN_OR_RETURN(files, FilesOf(options));
+    RETURN_IF_ERROR(quality::CheckFormats(formats, quality::MapOf(files.front())));
+  }
   const quality::NewFolder folder(options.output);
   RETURN_IF_ERROR(PrepareFolder(options.output, options.existing));
   const HiddenFolder hidden(options.output);
   if (hidden.path().empty()) return NotWritable(options.output);
-  ASSIGN_OR_RETURN(
-      const annotate::JsonBox surface,
-      quality::MakeSurface(files, {.cell = options.cell, .seas = seas.has_value() ? &*seas : nullptr}, hidden.path()));
+  const fs::path points = hidden.path() / ".points";
+  if (!options.merges()) {
+    ASSIGN_OR_RETURN(quality::SurfacePart part, Gather(options, files, points));
+    parts.push_back(std::move(part));
+  }
+  ASSIGN_OR_RETURN(const quality::MadeSurface surface, quality::MakeSurface(std::move(parts), hidden.path()));
+  std::error_code not_there;
+  fs::remove(points, not_there);
+  RETURN_IF_ERROR(quality::WriteRasters(surface, formats, options.organisation));
   std::ofstream json(hidden.path() / "surface.json");
-  json << surface->dump(2) << "\n";
+  json << surface.json->dump(2) << "\n";
   json.close();
   if (!json) return NotWritable(options.output);
-  RETURN_IF_ERROR(hidden.Publish({"surface.json", "surface.nc"}));
-  std::cout << options.output << "\n" << quality::SurfaceText(*surface);
+  std::vector<std::string> names = {"surface.json"};
+  for (const quality::SurfaceFormat format : formats) names.push_back(quality::FileOf(format));
+  RETURN_IF_ERROR(hidden.Publish(names));
+  std::cout << options.output << "\n" << quality::SurfaceText(*surface.json);
   return FlushStandardOutput();
 }
 
@@ -64,23 +152,37 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SurfaceCommandOptions>();
   CLI::App* command = program.add_subcommand(
       "surface", "The surface of a survey from its annotated files: nodes of a grid, and the uncertainty of each");
-  command->add_option("OUT_DIR", options->annotated, "Folder that albtpu-query las --details wrote, or a file in it")
+  command
+      ->add_option("OUT_DIR", options->inputs,
+                   "Folder that albtpu-query las --details wrote, or files in it; or the word merge and parts")
       ->required();
-  command->add_option("--output", options->output, "Folder for surface.nc and surface.json")
-      ->required()
+  command->add_option("--output", options->output, "Folder for the files of the formats and surface.json")
       ->check(NotEmpty("folder"));
-  command->add_option("--cell", options->cell, "Side of the cells, each of which has a node [m]")
-      ->check(NumberIn(0.1, 20, "m"))
-      ->capture_default_str();
+  command
+      ->add_option("--format", options->formats,
+                   "Of surface.nc, surface.tif (Cloud Optimized) and surface.bag: netcdf, geotiff, bag, with commas")
+      ->check(OneOf({quality::kSurfaceFormatNames.begin(), quality::kSurfaceFormatNames.end()}))
+      ->delimiter(',')
+      ->default_str(std::string(kNetcdf));
+  command->add_option("--organisation", options->organisation, "Who answers for the surface, for the metadata of BAG");
+  command
+      ->add_option("--partial", options->partial,
+                   "In place of --output: a file with all that merge needs of these input files")
+      ->check(NotEmpty("file"));
+  command->add_option("--cell", options->cell, "Side of the cells, each of which has a node [m] (default: 1)")
+      ->check(NumberIn(0.1, 20, "m"));
   command->add_flag_callback(
-      "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier surface");
+      "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier surface or part");
   Group(*command, "How points are gathered", {"--cell"});
-  Group(*command, "Output", {"--output", "--overwrite"});
+  Group(*command, "Output", {"--output", "--format", "--organisation", "--partial", "--overwrite"});
   AddSeaFlags(*command, options->flags, kStatedOfWinds);
   EndHelp(*command,
           "Neighbouring pulses share waves; how much follows from the sea. Where the files were annotated with waves,\n"
-          "not with a wind, give these again.",
-          "annotated --output surface", "annotated --output surface --cell 2 --survey survey.toml");
+          "not with a wind, give these again.\n"
+          "Several processes make parts of some files each; albtpu-query surface merge PART... --output DIR makes the\n"
+          "surface of them that one process would make of all files. GeoTIFF and BAG need GDAL.",
+          "annotated --output surface --cell 2 --survey survey.toml",
+          "merge a.part b.part --output surface --format netcdf,geotiff,bag");
   command->callback([options, &run] { run = [options] { return RunSurface(*options); }; });
 }
 

@@ -16,22 +16,40 @@
 namespace albtpu::quality {
 namespace fs = std::filesystem;
 
-absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
+namespace {
+
+// The LAS and LAZ files of a folder, or the file itself, are added to `paths`.
+absl::Status AddFiles(const fs::path& folder_or_file, std::vector<fs::path>& paths) {
   std::error_code error;
-  std::vector<fs::path> paths;
-  if (fs::is_directory(folder_or_file, error)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
-      if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
-        paths.push_back(entry.path());
-    std::ranges::sort(paths);
-    if (error)
-      return absl::InvalidArgumentError(absl::StrCat(folder_or_file.string(), ": cannot be read: ", error.message()));
-    if (paths.empty())
-      return absl::NotFoundError(absl::StrCat(folder_or_file.string(),
-                                              ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
-  } else {
+  if (!fs::is_directory(folder_or_file, error)) {
     paths.push_back(folder_or_file);
+    return absl::OkStatus();
   }
+  const std::size_t before = paths.size();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
+    if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
+      paths.push_back(entry.path());
+  if (error)
+    return absl::InvalidArgumentError(absl::StrCat(folder_or_file.string(), ": cannot be read: ", error.message()));
+  if (paths.size() == before)
+    return absl::NotFoundError(
+        absl::StrCat(folder_or_file.string(), ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
+  return OpenAnnotated(std::vector{folder_or_file});
+}
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<fs::path>& folders_or_files) {
+  std::vector<fs::path> paths;
+  for (const fs::path& each : folders_or_files) RETURN_IF_ERROR(AddFiles(each, paths));
+  std::ranges::sort(paths, {}, [](const fs::path& path) { return std::pair(path.filename(), path); });
+  const auto twice = std::ranges::adjacent_find(paths);
+  if (twice != paths.end())
+    return absl::InvalidArgumentError(absl::StrCat(twice->string(), ": is given twice; give each file once"));
   std::vector<AnnotatedLasFile> files;
   for (const fs::path& path : paths) {
     ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(path));
@@ -49,6 +67,9 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
     };
     if (last.crs_name() != first.crs_name())
       return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
+    if (last.vertical_name() != first.vertical_name() && !last.vertical_name().empty() &&
+        !first.vertical_name().empty())
+      return differ("vertical datum", first.vertical_name(), last.vertical_name(), "report each datum apart");
     if (last.metres_per_unit() != first.metres_per_unit()) {
       const auto unit = [](double metres) { return absl::StrFormat("%.10g m", metres); };
       return differ("unit of x and y", unit(first.metres_per_unit()), unit(last.metres_per_unit()),
@@ -63,7 +84,7 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
   }
   if (files.empty()) {
     return absl::FailedPreconditionError(
-        absl::StrCat(folder_or_file.string(), ": no file has points; give the outputs of albtpu-query las"));
+        absl::StrCat(folders_or_files.front().string(), ": no file has points; give the outputs of albtpu-query las"));
   }
   return files;
 }

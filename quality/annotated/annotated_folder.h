@@ -14,4 +14,7 @@ namespace albtpu::quality {
 // differ, and where no file has points.
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesystem::path& folder_or_file);
 
+// The same of several folders and files, each file once, by name whatever its folder is.
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<std::filesystem::path>& folders_or_files);
+
 }  // namespace albtpu::quality

@@ -203,6 +203,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
     if (map != nullptr) {
       crs_name_ = map->crs_name();
       crs_wkt_ = map->wkt();
+      if (map->vertical().has_value()) vertical_name_ = map->vertical()->name, vertical_wkt_ = map->vertical()->wkt;
       has_map = true;
       metres_per_unit_ = map->unit();
       // Heights without a unit are metres, as albtpu-query las reads them.
@@ -218,6 +219,10 @@ absl::Status AnnotatedLasFile::FindCrs() {
     metres_per_height_unit_ = unit.get<double>();
   if (!has_map) metres_per_unit_ = metres_per_height_unit_;
   return absl::OkStatus();
+}
+
+bool AnnotatedLasFile::has_dates() const {
+  return formats::HasGpsTime(reader_.header().point_format) && reader_.header().adjusted_gps_time;
 }
 
 std::string AnnotatedLasFile::table_digest() const {

@@ -84,6 +84,10 @@ class AnnotatedLasFile {
   std::string table_digest() const;
   const std::string& crs_name() const { return crs_name_; }  // "not stated" if the file states none.
   const std::string& crs_wkt() const { return crs_wkt_; }
+  // Of the heights in metres; empty if the file does not state their datum.
+  const std::string& vertical_name() const { return vertical_name_; }
+  const std::string& vertical_wkt() const { return vertical_wkt_; }
+  bool has_dates() const;  // Whether times are GPS seconds - 1e9, as the header says.
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
@@ -112,7 +116,7 @@ class AnnotatedLasFile {
   bool may_lack_surface_ = false;                 // Of points whose beams are known by angles.
   std::vector<std::size_t> offsets_;              // In a record, by kFloats of the implementation.
   std::optional<std::size_t> share_of_;           // In a record; absent: annotated without dry points.
-  std::string crs_name_ = "not stated", crs_wkt_;
+  std::string crs_name_ = "not stated", crs_wkt_, vertical_name_, vertical_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
 };
 

@@ -136,6 +136,10 @@ void NetcdfGrid::DescribeCrs(int crs) {
     Text(crs, "crs_wkt", frame_.crs_wkt);
     Text(crs, "spatial_ref", frame_.crs_wkt);
   }
+  if (!frame_.vertical_wkt.empty()) {
+    Text(crs, "vertical_crs", frame_.vertical_name);
+    Text(crs, "vertical_crs_wkt", frame_.vertical_wkt);
+  }
   DescribeTransverseMercator(crs);
   const double west = static_cast<double>(frame_.first_column) * frame_.cell;
   const double north = static_cast<double>(frame_.first_row + static_cast<std::int64_t>(frame_.rows)) * frame_.cell;

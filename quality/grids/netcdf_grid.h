@@ -19,8 +19,9 @@ namespace albtpu::quality {
 struct GridFrame {
   std::int64_t first_column = 0, first_row = 0;
   std::size_t columns = 0, rows = 0;
-  double cell = 1;                // The side of a cell in the units of the map.
-  std::string crs_name, crs_wkt;  // The second is empty if it is not known.
+  double cell = 1;                          // The side of a cell in the units of the map.
+  std::string crs_name, crs_wkt;            // The second is empty if it is not known.
+  std::string vertical_name, vertical_wkt;  // Of heights in metres; empty if it is not known.
   double metres_per_unit = 1;
 };
 

@@ -28,13 +28,6 @@ struct BlockHead {
   std::uint32_t points = 0, own = 0;  // All, and those of the tile itself.
 };
 
-absl::Status CannotWrite(const fs::path& path) {
-  const int error = errno;
-  const std::string message = absl::StrCat(path.string(), ": cannot be written (", std::strerror(error),
-                                           "); points of a survey take 100 bytes each there while its surface is made");
-  return error == ENOSPC || error == EDQUOT ? absl::ResourceExhaustedError(message) : absl::DataLossError(message);
-}
-
 absl::Status CutShort(const fs::path& path) {
   return absl::DataLossError(absl::StrCat(path.string(), ": was cut short or changed; make it again"));
 }
@@ -56,11 +49,24 @@ std::uint64_t KeyOf(const TilePlace& tile) {
 
 }  // namespace
 
+absl::Status CannotWritePoints(const fs::path& path) {
+  const int error = errno;
+  const std::string message = absl::StrCat(path.string(), ": cannot be written (", std::strerror(error),
+                                           "); points of a survey take 100 bytes each there while its surface is made");
+  return error == ENOSPC || error == EDQUOT ? absl::ResourceExhaustedError(message) : absl::DataLossError(message);
+}
+
+bool IsPointsFile(std::FILE* file) {
+  Head head;
+  return std::fread(&head, sizeof(head), 1, file) == 1 && head.magic == kMagic;
+}
+
 absl::StatusOr<PointTilesWriter> PointTilesWriter::Create(const fs::path& path, double cell) {
   PointTilesWriter writer(path, cell);
   writer.file_.reset(std::fopen(path.c_str(), "wbx"));
   const Head head = {.cell = cell};
-  if (writer.file_ == nullptr || std::fwrite(&head, sizeof(head), 1, writer.file_.get()) != 1) return CannotWrite(path);
+  if (writer.file_ == nullptr || std::fwrite(&head, sizeof(head), 1, writer.file_.get()) != 1)
+    return CannotWritePoints(path);
   return writer;
 }
 
@@ -98,7 +104,7 @@ void PointTilesWriter::Write(const TilePlace& tile, std::vector<SurfacePoint>& p
                           .own = static_cast<std::uint32_t>(own)};
   if (std::fwrite(&head, sizeof(head), 1, file_.get()) != 1 ||
       std::fwrite(points.data(), sizeof(SurfacePoint), points.size(), file_.get()) != points.size())
-    status_ = CannotWrite(path_);
+    status_ = CannotWritePoints(path_);
   points.clear();
 }
 
@@ -110,37 +116,38 @@ void PointTilesWriter::WriteAll() {
 
 absl::Status PointTilesWriter::Finish() {
   WriteAll();
-  if (status_.ok() && std::fclose(file_.release()) != 0) status_ = CannotWrite(path_);
+  if (status_.ok() && std::fclose(file_.release()) != 0) status_ = CannotWritePoints(path_);
   return status_;
 }
 
-absl::StatusOr<PointTiles> PointTiles::Open(const std::vector<fs::path>& paths, double cell) {
+absl::StatusOr<PointTiles> PointTiles::Open(std::vector<PointsFile> files, double cell) {
   PointTiles tiles;
-  tiles.paths_ = paths;
+  tiles.files_ = std::move(files);
   std::map<TilePlace, bool> has_own;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(paths[i].c_str(), "rb"), &std::fclose);
+  for (std::size_t i = 0; i < tiles.files_.size(); ++i) {
+    const fs::path& path = tiles.files_[i].path;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (file == nullptr)
-      return absl::NotFoundError(absl::StrCat(paths[i].string(), ": cannot be read (", std::strerror(errno), ")"));
+      return absl::NotFoundError(absl::StrCat(path.string(), ": cannot be read (", std::strerror(errno), ")"));
     Head head;
     if (std::fread(&head, sizeof(head), 1, file.get()) != 1 || head.magic != kMagic)
-      return absl::DataLossError(absl::StrCat(paths[i].string(), ": is no part of a surface"));
+      return absl::DataLossError(absl::StrCat(path.string(), ": is no part of a surface"));
     if (head.cell != cell)
-      return absl::InvalidArgumentError(absl::StrCat(paths[i].string(), ": has cells of ", head.cell, ", not of ", cell,
+      return absl::InvalidArgumentError(absl::StrCat(path.string(), ": has cells of ", head.cell, ", not of ", cell,
                                                      "; all parts need the same --cell"));
-    const auto end = static_cast<long>(fs::file_size(paths[i]));
+    const auto end = static_cast<long>(tiles.files_[i].end != 0 ? tiles.files_[i].end : fs::file_size(path));
     long at = sizeof(head);
     while (at < end) {
       BlockHead block;
       if (std::fseek(file.get(), at, SEEK_SET) != 0 || std::fread(&block, sizeof(block), 1, file.get()) != 1)
-        return CutShort(paths[i]);
+        return CutShort(path);
       at += static_cast<long>(sizeof(block));
       const TilePlace tile = {.row = block.row, .column = block.column};
       tiles.blocks_[KeyOf(tile)].push_back({.file = i, .offset = at, .points = block.points});
       has_own[tile] |= block.own > 0;
       at += static_cast<long>(block.points * sizeof(SurfacePoint));
     }
-    if (at != end) return CutShort(paths[i]);
+    if (at != end) return CutShort(path);
   }
   for (const auto& [tile, own] : has_own)
     if (own) tiles.tiles_.push_back(tile);
@@ -154,16 +161,22 @@ absl::StatusOr<std::vector<SurfacePoint>> PointTiles::Read(const TilePlace& tile
   std::size_t count = 0;
   for (const Block& block : found->second) count += block.points;
   points.reserve(count);
-  std::size_t open = paths_.size();
+  std::size_t open = files_.size();
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(nullptr, &std::fclose);
   for (const Block& block : found->second) {
-    if (block.file != open) file.reset(std::fopen(paths_[block.file].c_str(), "rb"));
+    const auto& [path, end, sources] = files_[block.file];
+    if (block.file != open) file.reset(std::fopen(path.c_str(), "rb"));
     open = block.file;
     const std::size_t before = points.size();
     points.resize(before + block.points);
     if (file == nullptr || std::fseek(file.get(), block.offset, SEEK_SET) != 0 ||
         std::fread(&points[before], sizeof(SurfacePoint), block.points, file.get()) != block.points)
-      return CutShort(paths_[block.file]);
+      return CutShort(path);
+    if (sources.empty()) continue;
+    for (std::size_t i = before; i < points.size(); ++i) {
+      if (points[i].source >= sources.size()) return CutShort(path);
+      points[i].source = sources[points[i].source];
+    }
   }
   std::ranges::sort(points, {}, &SurfacePoint::Order);
   return points;

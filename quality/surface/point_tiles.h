@@ -63,11 +63,24 @@ class PointTilesWriter {
   absl::Status status_;
 };
 
+// ResourceExhausted or DataLoss, by errno.
+absl::Status CannotWritePoints(const std::filesystem::path& path);
+
+// Whether it begins as one of a writer.
+bool IsPointsFile(std::FILE* file);
+
+// What a writer wrote, and what may follow it.
+struct PointsFile {
+  std::filesystem::path path;
+  std::uint64_t end = 0;                    // Bytes: where the points end; 0: at the end of the file.
+  std::vector<std::uint16_t> sources = {};  // In place of source i of its points; empty: as it is.
+};
+
 // Reads what one or several writers wrote.
 class PointTiles {
  public:
   // DataLoss where a file was cut short or is none of ours.
-  static absl::StatusOr<PointTiles> Open(const std::vector<std::filesystem::path>& paths, double cell);
+  static absl::StatusOr<PointTiles> Open(std::vector<PointsFile> files, double cell);
 
   // With points of their own: in order.
   const std::vector<TilePlace>& tiles() const { return tiles_; }
@@ -82,7 +95,7 @@ class PointTiles {
     std::uint32_t points;
   };
 
-  std::vector<std::filesystem::path> paths_;
+  std::vector<PointsFile> files_;
   std::vector<TilePlace> tiles_;
   std::unordered_map<std::uint64_t, std::vector<Block>> blocks_;
 };

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "absl/strings/str_cat.h"
 #include "tables/coverage.h"
 #include "tables/s44.h"
+#include "tables/version.h"
 
 namespace albtpu::quality {
 namespace {
@@ -50,6 +52,9 @@ struct CountLayer {
   int (*value)(const SurfaceNode& node);
 };
 
+constexpr char kOrders[] = "exclusive special order_1a order_1b order_2 none";
+constexpr FloatLayer kOrder = {"order_met", "order of IHO S-44 that the node meets", nullptr};
+
 constexpr std::array kCounts = {
     CountLayer{"points", "points that the node is made of",
                [](const SurfaceNode& n) { return static_cast<int>(n.points); }},
@@ -65,8 +70,39 @@ std::uint8_t OrderOf(const SurfaceNode& node) {
   return static_cast<std::uint8_t>(1 + (order.has_value() ? static_cast<std::size_t>(*order) : kS44Orders.size()));
 }
 
+std::vector<SurfaceLayer> LayersOfRasters() {
+  std::vector<SurfaceLayer> layers;
+  for (const char* const first : {"elevation", "uncertainty"})
+    for (const FloatLayer& layer : kFloats)
+      if (layer.name == std::string_view(first)) layers.push_back({layer.name, layer.long_name, "m"});
+  for (const FloatLayer& layer : kFloats) {
+    const std::string_view name = layer.name;
+    if (name != "elevation" && name != "uncertainty" && name != "depth" && name != "uncertainty_1sigma")
+      layers.push_back({layer.name, layer.long_name, "m"});
+  }
+  for (const CountLayer& layer : kCounts)
+    if (layer.name != std::string_view("left_out")) layers.push_back({layer.name, layer.long_name, ""});
+  layers.push_back({kOrder.name, absl::StrCat(kOrder.long_name, ", from 1: ", kOrders), ""});
+  return layers;
+}
+
+std::string SurfaceStatement(const std::string& vertical_name) {
+  return absl::StrCat(
+      "Nodes in the middle of cells: the mean of the points of a cell by airborne lidar bathymetry, after the slope of "
+      "the 3 x 3 cells around is taken away. Elevations upwards in m, ",
+      vertical_name.empty() ? "in the vertical datum of the points, which their files do not state"
+                            : absl::StrCat("vertical datum: ", vertical_name),
+      ". Uncertainty of a node: at 95 %, 1.96 standard deviations, propagated from the uncertainties of its points. "
+      "Its "
+      "parts at 1 sigma: pulse (drawn anew for each pulse), sea, line and survey. Neighbouring pulses share waves: the "
+      "correlation of the sea's part over the cell is that of the spectrum of the sea. Bias is stated apart, and is in "
+      "no uncertainty. Made by albtpu-query ",
+      std::string(Version()), ".");
+}
+
 SurfaceFile::SurfaceFile(const std::filesystem::path& path, const GridFrame& frame)
     : file_(path, frame, kTileCells, "Nodes of a survey by airborne lidar bathymetry, and their uncertainty") {
+  file_.Text(NC_GLOBAL, "comment", SurfaceStatement(frame.vertical_name));
   for (const FloatLayer& layer : kFloats) {
     floats_.push_back(file_.Floats(layer.name, layer.long_name, "m"));
     const std::string_view name = layer.name;
@@ -74,8 +110,7 @@ SurfaceFile::SurfaceFile(const std::filesystem::path& path, const GridFrame& fra
     if (name == "depth") file_.Text(floats_.back(), "positive", "down");
   }
   for (const CountLayer& layer : kCounts) counts_.push_back(file_.Counts(layer.name, layer.long_name));
-  order_ = file_.Codes("order_met", "order of IHO S-44 that the node meets", kS44Orders.size() + 1,
-                       "exclusive special order_1a order_1b order_2 none");
+  order_ = file_.Codes(kOrder.name, kOrder.long_name, kS44Orders.size() + 1, kOrders);
   file_.EndDefinitions();
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -35,6 +36,17 @@ class SurfaceFile {
   std::vector<int> floats_, counts_;
   int order_ = 0;
 };
+
+// A variable of the file.
+struct SurfaceLayer {
+  std::string name, description, unit;
+};
+// All that nodes have, but those that follow from another: depth and uncertainty_1sigma; elevation and uncertainty
+// first.
+std::vector<SurfaceLayer> LayersOfRasters();
+
+// For the metadata of all formats: what a node and its uncertainty are, and by which program.
+std::string SurfaceStatement(const std::string& vertical_name);
 
 // 1 plus the strictest order of kS44Orders that a node meets; 1 plus their number: none.
 std::uint8_t OrderOf(const SurfaceNode& node);

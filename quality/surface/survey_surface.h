@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -11,7 +10,9 @@
 #include "annotate/answers/json_box.h"
 #include "annotate/seas/sea_timeline.h"
 #include "quality/annotated/annotated_points.h"
+#include "quality/grids/netcdf_grid.h"
 #include "quality/surface/sea_sharing.h"
+#include "quality/surface/surface_part.h"
 
 namespace albtpu::quality {
 
@@ -24,10 +25,22 @@ struct SurfaceOptions {
   const annotate::SeaTimeline* seas = nullptr;  // Null: the seas of the winds that the files state.
 };
 
-// Writes surface.nc into `folder`, and returns surface.json. Points lie in a file of that folder meanwhile, which is
-// removed. Memory is that of the points of some tiles. FailedPrecondition where no point has a number.
-absl::StatusOr<annotate::JsonBox> MakeSurface(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
-                                              const std::filesystem::path& folder);
+SurfaceMap MapOf(const AnnotatedLasFile& file);
+
+// Puts the points of files into a part at `path`, which must be new, and is not sealed. Memory does not depend on their
+// number.
+absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
+                                         const std::filesystem::path& path);
+
+struct MadeSurface {
+  annotate::JsonBox json;      // surface.json
+  std::filesystem::path path;  // surface.nc
+  GridFrame frame;             // Of it.
+};
+
+// Writes surface.nc into `folder`. However points are distributed to parts, it is the same, byte for byte. Memory is
+// that of the points of some tiles. FailedPrecondition where no point has a number; otherwise as Join().
+absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const std::filesystem::path& folder);
 
 // For the user, some lines.
 std::string SurfaceText(const nlohmann::ordered_json& surface);

@@ -44,7 +44,7 @@ class PointTilesTest : public testing::Test {
 
 TEST_F(PointTilesTest, HaveThePointsOfTheirPlaceAndOfTheBorder) {
   constexpr double kCell = 1;
-  const absl::StatusOr<PointTiles> tiles = PointTiles::Open({Write("all", 0, points_.size(), kCell)}, kCell);
+  const absl::StatusOr<PointTiles> tiles = PointTiles::Open({{Write("all", 0, points_.size(), kCell)}}, kCell);
   ASSERT_TRUE(tiles.ok()) << tiles.status();
   EXPECT_EQ(tiles->tiles().size(), 36U);  // From -96 to 96.
   std::size_t own = 0;
@@ -68,8 +68,8 @@ TEST_F(PointTilesTest, AreTheSameFromPartsInAnyOrder) {
   constexpr double kCell = 0.5;
   const fs::path whole = Write("whole", 0, points_.size(), kCell);
   const fs::path first = Write("first", 0, 7000, kCell), second = Write("second", 7000, points_.size(), kCell);
-  const absl::StatusOr<PointTiles> one = PointTiles::Open({whole}, kCell);
-  const absl::StatusOr<PointTiles> two = PointTiles::Open({second, first}, kCell);
+  const absl::StatusOr<PointTiles> one = PointTiles::Open({{whole}}, kCell);
+  const absl::StatusOr<PointTiles> two = PointTiles::Open({{second}, {first}}, kCell);
   ASSERT_TRUE(one.ok() && two.ok());
   ASSERT_EQ(one->tiles(), two->tiles());
   for (const TilePlace& tile : one->tiles()) {
@@ -82,12 +82,12 @@ TEST_F(PointTilesTest, AreTheSameFromPartsInAnyOrder) {
 TEST_F(PointTilesTest, CutShortAreNotRead) {
   const fs::path path = Write("cut", 0, 5000, 1);
   fs::resize_file(path, fs::file_size(path) - 10);
-  EXPECT_EQ(PointTiles::Open({path}, 1).status().code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(PointTiles::Open({{path}}, 1).status().code(), absl::StatusCode::kDataLoss);
 }
 
 TEST_F(PointTilesTest, NeedOneSizeOfCells) {
   const fs::path path = Write("one", 0, 5000, 1);
-  const absl::Status status = PointTiles::Open({path}, 2).status();
+  const absl::Status status = PointTiles::Open({{path}}, 2).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_NE(status.message().find("cells of 1, not of 2"), std::string_view::npos) << status;
 }

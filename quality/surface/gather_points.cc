@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "budget/total/error_ellipse.h"
+#include "quality/crosscheck/cross_check.h"
+#include "quality/surface/point_tiles.h"
+#include "quality/surface/survey_surface.h"
+#include "status/status_macros.h"
+
+namespace albtpu::quality {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
+
+// Of the horizontal variance but for the sea's.
+HorizontalGroups GroupsOf(const Json& summary) {
+  const Json& all = summary["answers"]["total"]["all"];
+  const auto fraction = [&](const char* shares, const char* name) {
+    const Json number = all.value(shares, Json::object()).value(name, Json());
+    return number.is_number() ? number.get<double>() : 0.0;
+  };
+  const double sea = fraction("shares_horizontal", "sea"), rest = 1 - sea;
+  if (!(rest > 0)) return {};
+  // To a hundredth, so that files of one survey have the same ones.
+  const auto part = [&](double whole) { return std::round(100 * std::clamp(whole / rest, 0.0, 1.0)) / 100; };
+  HorizontalGroups groups;
+  groups.line = part(fraction("groups_horizontal", "line"));
+  groups.survey = std::min(part(fraction("groups_horizontal", "survey")), 1 - groups.line);
+  groups.pulse = 1 - groups.line - groups.survey;
+  return groups;
+}
+
+SurfacePoint PointOf(const AnnotatedPoint& point, double factor, std::uint16_t source) {
+  const auto variance = [factor](float length) {
+    const double sigma = length / factor;
+    return static_cast<float>(sigma * sigma);
+  };
+  SurfacePoint of{.x = point.x, .y = point.y, .z = point.z, .time = point.time};
+  of.sea = variance(point.tvu_sea);
+  of.pulse = std::max(variance(point.tvu_pulse) - of.sea, 0.F);
+  of.line = variance(point.tvu_line);
+  of.survey = std::max(point.variance_z - of.sea - of.pulse - of.line, 0.F);
+  of.xx = point.variance_x, of.yy = point.variance_y, of.xy = point.covariance_xy;
+  of.xz = point.covariance_xz, of.yz = point.covariance_yz;
+  of.incidence = point.incidence, of.azimuth = point.beam_azimuth, of.footprint = point.footprint;
+  of.depth = point.depth, of.bias = point.bias_vertical;
+  // At 95 %, by the axes of the ellipse.
+  const double mean = (double{point.variance_x} + point.variance_y) / 2;
+  const double split = std::hypot((double{point.variance_x} - point.variance_y) / 2, double{point.covariance_xy});
+  const double ratio = mean > 0 ? std::sqrt(std::clamp((mean - split) / (mean + split), 0.0, 1.0)) : 0;
+  of.thu = static_cast<float>(2 * std::sqrt(2 * mean) * RadiusFactors::Get()(static_cast<float>(ratio)));
+  of.flight_line = static_cast<std::uint16_t>(point.line);
+  of.source = source;
+  return of;
+}
+
+PartFile NameOf(const AnnotatedLasFile& file) {
+  const auto& header = file.reader().header();
+  return {.name = file.path().filename().string(),
+          .bytes = file.reader().file_size(),
+          .points = header.point_count,
+          .bounds = {header.least[0], header.least[1], header.least[2], header.greatest[0], header.greatest[1],
+                     header.greatest[2]}};
+}
+
+// With the water of all files alike: the sea's share depends on its index.
+absl::Status CheckWater(const AnnotatedLasFile& first, const AnnotatedLasFile& file, const PartFacts& facts) {
+  const auto other = std::ranges::find_if(
+      facts.seas, [&](const SeaOfSource& sea) { return sea.water_index != facts.seas.front().water_index; });
+  if (other == facts.seas.end()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(file.path().string(), ": was annotated with the index of the water ",
+                                                 other->water_index, " (", first.path().string(), " with ",
+                                                 facts.seas.front().water_index, "); annotate all files with one"));
+}
+
+}  // namespace
+
+SurfaceMap MapOf(const AnnotatedLasFile& file) {
+  return {.crs_name = file.crs_name(),
+          .crs_wkt = file.crs_wkt(),
+          .vertical_name = file.vertical_name(),
+          .vertical_wkt = file.vertical_wkt(),
+          .metres_per_unit = file.metres_per_unit()};
+}
+
+absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
+                                         const fs::path& path) {
+  const AnnotatedLasFile& first = files.front();
+  SurfacePart part = {.path = path, .facts = {}, .points_end = 0};
+  PartFacts& facts = part.facts;
+  facts.cell = options.cell;
+  facts.map = MapOf(first);
+  facts.coverage = first.coverage();
+  facts.table_digest = first.table_digest();
+  const double factor = VerticalFactor(first.coverage());
+  ASSIGN_OR_RETURN(PointTilesWriter writer, PointTilesWriter::Create(path, options.cell / facts.map.metres_per_unit));
+  annotate::FileProgress progress = ProgressOver(files);
+  for (const AnnotatedLasFile& file : files) {
+    progress.NextFile();
+    ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, options.seas));
+    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file.summary())));
+    RETURN_IF_ERROR(CheckWater(first, file, facts));
+    const bool has_dates = file.has_dates();
+    ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) {
+      for (const AnnotatedPoint& point : points) {
+        ++(point.has_number ? facts.with_number : facts.without_number);
+        if (!point.has_number) continue;
+        writer.Add(PointOf(point, factor, source));
+        if (!has_dates) continue;
+        const double time = point.time + kAdjustment;
+        if (!facts.times.has_value()) facts.times = {time, time};
+        facts.times->first = std::min(facts.times->first, time);
+        facts.times->second = std::max(facts.times->second, time);
+      }
+    }));
+    facts.left_out.Add(of_file);
+    facts.files.push_back(NameOf(file));
+    if (facts.map.vertical_name.empty())
+      facts.map.vertical_name = file.vertical_name(), facts.map.vertical_wkt = file.vertical_wkt();
+  }
+  RETURN_IF_ERROR(writer.Finish());
+  part.points_end = fs::file_size(path);
+  return part;
+}
+
+}  // namespace albtpu::quality
