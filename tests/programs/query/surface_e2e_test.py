@@ -1,4 +1,5 @@
-"""albtpu-query surface, from outside: its nodes against a computation of their own, its grid in other programs."""
+"""albtpu-query surface, from outside: its nodes against a computation of their own, and the surface of parts, which is
+that of one process."""
 
 import json
 import pathlib
@@ -19,7 +20,7 @@ FACTOR = 1.959964
 
 
 def setUpModule():
-    global annotated, made, said
+    global folder, flight, annotated, made, said, parts
     folder = pathlib.Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, folder)
     flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 5000,
@@ -27,6 +28,21 @@ def setUpModule():
     annotated, made = folder / "annotated", folder / "surface"
     reported_survey.annotate(flight, annotated, programs.PATHS["shipped_table"])
     said = query("surface", annotated, "--output", made, "--cell", CELL, check=0).stdout
+    parts = [make_part(f"{i}.part", file) for i, file in enumerate(sorted(annotated.glob("*.las")))]
+
+
+def make_part(name, *files, flags=()):
+    query("surface", *files, "--partial", folder / name, "--cell", CELL, *flags, check=0)
+    return folder / name
+
+
+def annotate(name, file, *flags):
+    """A file annotated otherwise."""
+    output = folder / name
+    output.mkdir()
+    query("las", flight / file.name, "--output-dir", output, "--survey", folder / "annotated.toml", "--table",
+          programs.PATHS["shipped_table"], *flags, check=0)
+    return output / file.name
 
 
 class Grid(programs.Test):
@@ -131,6 +147,92 @@ class Command(programs.Test):
         self.assert_fails(query("surface", annotated, "--output", self.folder / "new", "--hs", 1, "--tp", 5,
                                 "--waves-from", 250), 1, "was annotated for a wind")
         self.assertFalse((self.folder / "new").exists())
+
+
+class Merge(programs.Test):
+    def merge(self, *given, output="merged"):
+        return query("surface", "merge", *given, "--output", self.folder / output)
+
+    def assert_same(self, output="merged"):
+        for name in ("surface.nc", "surface.json"):
+            self.assertEqual((self.folder / output / name).read_bytes(), (made / name).read_bytes(), name)
+
+    def test_makes_the_surface_of_one_process(self):
+        self.assertEqual(self.merge(*parts).returncode, 0)
+        self.assert_same()
+
+    def test_takes_parts_in_any_order_and_of_several_files(self):
+        files = sorted(annotated.glob("*.las"))
+        two = make_part("two.part", files[2], files[0])
+        self.assertEqual(self.merge(two, parts[1]).returncode, 0)
+        self.assert_same()
+        self.assertEqual(self.merge(*reversed(parts), output="reversed").returncode, 0)
+        self.assert_same("reversed")
+
+    def test_parts_are_the_same_whenever_they_are_made(self):
+        file = sorted(annotated.glob("*.las"))[0]
+        self.assertEqual(make_part("again.part", file).read_bytes(), parts[0].read_bytes())
+
+    def test_refuses_what_is_no_part_or_damaged(self):
+        foreign = self.folder / "foreign.part"
+        foreign.write_bytes((made / "surface.nc").read_bytes())
+        self.assert_fails(self.merge(parts[0], foreign), 1, "foreign.part: is no part of a surface")
+        whole = parts[1].read_bytes()
+        for at in (30, len(whole) // 2, len(whole) - 60):
+            changed = self.folder / "changed.part"
+            changed.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:])
+            self.assert_fails(self.merge(parts[0], changed), 1, "changed.part: was cut short or changed")
+        for size in (20, 1000, len(whole) - 1):
+            short = self.folder / "short.part"
+            short.write_bytes(whole[:size])
+            self.assert_fails(self.merge(parts[0], short), 1, "short.part: was cut short or changed")
+        self.assert_fails(self.merge(parts[0], self.folder / "none.part"), 1, "none.part: cannot be read")
+        self.assertFalse((self.folder / "merged").exists())
+
+    def test_refuses_parts_of_other_settings(self):
+        file = sorted(annotated.glob("*.las"))[1]
+        cell = folder / "cell.part"
+        query("surface", file, "--partial", cell, "--cell", 3, check=0)
+        others = {"--cell is 3 m (in": cell}
+        for name, what, flags in (("water", "index of the water is 1.341 (in", ("--water-index", 1.341)),
+                                  ("coverage", "coverage is 1sigma (in", ("--coverage", "1sigma")),
+                                  ("crs", "coordinate system is NAD83 / UTM zone 17N (in", ("--crs", "EPSG:26917"))):
+            with self.subTest(name):
+                others[what] = make_part(f"{name}.part", annotate(name, file, *flags))
+        for what, part in others.items():
+            with self.subTest(what):
+                self.assert_fails(self.merge(parts[0], part), 1, part.name, "0.part", what)
+        self.assertFalse((self.folder / "merged").exists())
+
+    def test_refuses_a_file_that_is_in_two_parts(self):
+        twice = make_part("twice.part", *sorted(annotated.glob("*.las"))[:2])
+        self.assert_fails(self.merge(twice, parts[1]), 1, "give each file in one part")
+        self.assert_fails(self.merge(parts[0], parts[0]), 1, "give each file in one part")
+
+
+class Partial(programs.Test):
+    def test_keeps_a_part_that_is_there(self):
+        file = sorted(annotated.glob("*.las"))[0]
+        before = parts[0].read_bytes()
+        self.assert_fails(query("surface", file, "--partial", parts[0]), 1, "is there already")
+        self.assertEqual(parts[0].read_bytes(), before)
+        make_part("0.part", file, flags=("--overwrite",))
+        self.assertEqual(parts[0].read_bytes(), before)
+
+    def test_fails_whole(self):
+        before, other = self.names(), self.folder / "other.las"
+        other.write_bytes(b"none")
+        self.assert_fails(query("surface", annotated, other, "--partial", self.folder / "new.part"), 1, "other.las")
+        self.assertEqual(self.names(), sorted([*before, "other.las"]))
+
+    def test_arguments_that_do_not_go_together_are_bad_usage(self):
+        before = self.names()
+        new = self.folder / "new"
+        for arguments in ((annotated,), (annotated, "--partial", new, "--output", new), ("merge", "--output", new),
+                          ("merge", parts[0], "--partial", new), ("merge", parts[0], "--output", new, "--cell", 1)):
+            with self.subTest(arguments):
+                self.assert_fails(query("surface", *arguments), 2, "surface: ")
+        self.assertEqual(self.names(), before)
 
 
 if __name__ == "__main__":
