@@ -16,11 +16,13 @@ import yaml
 
 FOLDER, VERSION = pathlib.Path(sys.argv[1]), sys.argv[2]
 OPERATIONS = FOLDER.parent.parent / "docs/operations.md"
-ROOTS = ("base", "overlays/volume", "overlays/volume/fill", "overlays/public", "campaign/shards", "campaign/merge")
-MADE_BY_THE_USER = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign"}  # Beforehand, as the comments there say.
+ROOTS = ("base", "overlays/volume", "overlays/volume/fill", "overlays/public", "campaign/shards", "campaign/merge",
+         "survey/parts", "survey/merge")
+MADE_BY_THE_USER = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign", "albtpu-survey"}  # Beforehand, as the comments there say.
 
 # Where the volume that a root mounts is defined.
-VOLUMES = {"campaign/merge": "campaign/shards", "overlays/volume/fill": "overlays/volume"}
+VOLUMES = {"campaign/merge": "campaign/shards", "survey/merge": "survey/parts",
+           "overlays/volume/fill": "overlays/volume"}
 
 
 def render(root):
@@ -85,7 +87,7 @@ class Rendered(unittest.TestCase):
                 source = next(value for key, value in volume.items() if key != "name")
                 self.assertIn(source.get("claimName") or source.get("secretName") or source.get("name"), there)
             for variable in container.get("env", []):
-                if "configMapKeyRef" in variable["valueFrom"]:
+                if "configMapKeyRef" in variable.get("valueFrom", {}):
                     self.assertIn(variable["valueFrom"]["configMapKeyRef"]["name"], there)
             for source in container.get("envFrom", []):
                 self.assertIn(source["configMapRef"]["name"], there)
