@@ -75,7 +75,14 @@ set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "uncertainty of airborne lidar bathymet
  every point of an airborne lidar bathymetry survey, and compares it with the
  orders of IHO S-44. albtpu-serve answers such queries over gRPC.")
 # What draws the page of a report is suggested only: recommended, it would bring a compiler by what it recommends.
+# GDAL is loaded when it is needed, which no dependency tells: "libgdal32".
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "proj-data")
+if(ALBTPU_WITH_GDAL)
+  execute_process(COMMAND dpkg-query --search "*/${ALBTPU_GDAL_LIBRARY}" OUTPUT_VARIABLE gdal_package
+                  COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "^[^:]+" gdal_package "${gdal_package}")
+  string(APPEND CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS ", ${gdal_package}")
+endif()
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "albtpu-generate, bash-completion, python3-matplotlib, python3-netcdf4")
 file(CONFIGURE OUTPUT ${made}/conffiles CONTENT "/etc/default/albtpu-serve\n")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA

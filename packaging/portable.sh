@@ -19,8 +19,8 @@ export SOURCE_DATE_EPOCH  # Of all files in the archive and in the wheel.
 compile_here() {
   install_packages portable
   rm -rf "$build/installed"
-  # Ranks of MPI need the Open MPI of the machine that they run on.
-  cmake --preset release -B "$build" -DALBTPU_BUILD_TESTS=OFF -DALBTPU_MPI=OFF \
+  # Ranks of MPI need the Open MPI of the machine that they run on, and GDAL has a hundred libraries.
+  cmake --preset release -B "$build" -DALBTPU_BUILD_TESTS=OFF -DALBTPU_MPI=OFF -DALBTPU_GDAL=OFF \
     -DALBTPU_COMMIT="$ALBTPU_COMMIT" >"$build.log"
   cmake --build "$build" -j "$(nproc)"
   cmake --install "$build" --prefix "$build/installed" --strip >>"$build.log"

@@ -160,10 +160,11 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
       ->check(NotEmpty("folder"));
   command
       ->add_option("--format", options->formats,
-                   "Of surface.nc, surface.tif (Cloud Optimized) and surface.bag: netcdf, geotiff, bag, with commas")
+                   "Of surface.nc, surface.tif (Cloud Optimized) and surface.bag: one, or several with commas "
+                   "(default: netcdf)")
+      ->type_name("netcdf|geotiff|bag")
       ->check(OneOf({quality::kSurfaceFormatNames.begin(), quality::kSurfaceFormatNames.end()}))
-      ->delimiter(',')
-      ->default_str(std::string(kNetcdf));
+      ->delimiter(',');
   command->add_option("--organisation", options->organisation, "Who answers for the surface, for the metadata of BAG");
   command
       ->add_option("--partial", options->partial,

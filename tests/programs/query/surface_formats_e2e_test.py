@@ -41,7 +41,7 @@ gmd:metadataConstraints//gmd:classification gmd:metadataConstraints//gmd:userNot
 
 
 def setUpModule():
-    global annotated, made
+    global flight, annotated, made
     folder = pathlib.Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, folder)
     flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 5000,
@@ -184,6 +184,27 @@ class Bag(Raster):
 
     def test_has_the_nodes_where_points_lie(self):
         self.assert_has_nodes_at_points(made / "surface.bag", ["elevation", "uncertainty"])
+
+
+class VerticalDatum(programs.Test):
+    def test_is_in_all_formats_where_it_is_stated(self):
+        folder = self.folder / "annotated"
+        folder.mkdir()
+        file = sorted(flight.glob("*.las"))[0]
+        query("las", file, "--output-dir", folder, "--survey", annotated.with_suffix(".toml"), "--table",
+              programs.PATHS["shipped_table"], "--crs", f"EPSG:{EPSG}+5703", check=0)
+        new = self.folder / "new"
+        query("surface", folder, "--output", new, "--cell", CELL, "--format", "netcdf,geotiff,bag", check=0)
+        self.assertEqual(json.loads((new / "surface.json").read_text())["vertical_crs"], "NAVD88 height")
+        with netCDF4.Dataset(new / "surface.nc") as grid:
+            self.assertIn("vertical datum: NAVD88 height", grid.comment)
+            self.assertTrue(grid["crs"].vertical_crs_wkt.startswith('VERT_CS["NAVD88 height"'))
+        if MISSING:
+            self.skipTest(f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
+        for name in ("surface.tif", "surface.bag"):
+            wkt = json.loads(told("gdalinfo", "-json", new / name))["coordinateSystem"]["wkt"]
+            self.assertIn(f'ID["EPSG",{EPSG}]', wkt)
+            self.assertIn('VERTCRS["NAVD88 height"', wkt)
 
 
 class Formats(programs.Test):
