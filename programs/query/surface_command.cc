@@ -141,6 +141,9 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
   if (!json) return NotWritable(options.output);
   std::vector<std::string> names = {"surface.json"};
   for (const quality::SurfaceFormat format : formats) names.push_back(quality::FileOf(format));
+  for (const quality::SurfaceFormat other : quality::kSurfaceFormats)  // Of an earlier surface.
+    if (std::ranges::count(formats, other) == 0)
+      fs::remove(fs::path(options.output) / quality::FileOf(other), not_there);
   RETURN_IF_ERROR(hidden.Publish(names));
   std::cout << options.output << "\n" << quality::SurfaceText(*surface.json);
   return FlushStandardOutput();

@@ -1,5 +1,5 @@
 // The points of some files of a survey, and what is known of these files: what a surface is made of. One process makes
-// it of all files; or each of several makes a part of some files, as a sealed file, and the surface is made of the parts.
+// it of all files; or each of several makes a part of some files, as a sealed file, and the surface is made of these.
 #pragma once
 
 #include <array>
@@ -51,8 +51,8 @@ struct PartFacts {
   std::optional<std::pair<double, double>> times;  // First and last, GPS seconds; of files that have dates.
 };
 
-// The number of the source of this sea and these groups; a new one where there is none. ResourceExhausted where there are
-// more than the points can number.
+// The number of the source of this sea and these groups; a new one where there is none. ResourceExhausted where there
+// are more than the points can number.
 absl::StatusOr<std::uint16_t> AddSource(PartFacts& facts, const SeaOfSource& sea, const HorizontalGroups& groups);
 
 struct SurfacePart {

@@ -13,6 +13,7 @@
 namespace albtpu::quality {
 
 enum class SurfaceFormat { kNetcdf, kGeoTiff, kBag };
+inline constexpr std::array kSurfaceFormats = {SurfaceFormat::kNetcdf, SurfaceFormat::kGeoTiff, SurfaceFormat::kBag};
 inline constexpr std::array<std::string_view, 3> kSurfaceFormatNames = {"netcdf", "geotiff", "bag"};
 
 // The file of a format in the folder of a surface: surface.nc, surface.tif, surface.bag.

@@ -212,6 +212,8 @@ class Formats(programs.Test):
         query("surface", annotated, "--output", self.folder / "new", "--cell", CELL, "--format", "geotiff", check=0)
         self.assertEqual(sorted(path.name for path in (self.folder / "new").iterdir()), ["surface.json", "surface.tif"])
         self.assertEqual((self.folder / "new/surface.tif").read_bytes(), (made / "surface.tif").read_bytes())
+        query("surface", annotated, "--output", self.folder / "new", "--overwrite", check=0)  # None of the earlier one.
+        self.assertEqual(sorted(path.name for path in (self.folder / "new").iterdir()), ["surface.json", "surface.nc"])
 
     def test_of_other_names_are_refused(self):
         self.assert_fails(query("surface", annotated, "--output", self.folder / "new", "--format", "netcdf,tiff"), 2,
