@@ -52,6 +52,8 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
                    .cell = grid.cell(),
                    .crs_name = facts.crs_name,
                    .crs_wkt = facts.crs_wkt,
+                   .vertical_name = {},
+                   .vertical_wkt = {},
                    .metres_per_unit = facts.metres_per_unit},
                   SurveyGrid::kTile, "Depth and total propagated uncertainty of a survey by airborne lidar bathymetry");
   file.Text(NC_GLOBAL, "coverage", annotate::CoverageName(facts.coverage));

@@ -35,16 +35,16 @@ LogFields Fields() {
   return fields;
 }
 
-std::string Text(const LogFields& json) { return json.dump(-1, ' ', false, LogFields::error_handler_t::replace); }
+std::string Text(const LogFields& fields) { return fields.dump(-1, ' ', false, LogFields::error_handler_t::replace); }
 
 std::string JsonLine(const spdlog::details::log_msg& line, const std::string& message) {
   const spdlog::string_view_t level = spdlog::level::to_string_view(line.level);
-  LogFields json = {
+  LogFields entry = {
       {"time", absl::FormatTime("%Y-%m-%dT%H:%M:%E3SZ", absl::FromChrono(line.time), absl::UTCTimeZone())},
       {"level", std::string(level.data(), level.size())},
       {"message", message}};
-  json.update(Fields());
-  return Text(json);
+  entry.update(Fields());
+  return Text(entry);
 }
 
 std::string TextLine(const spdlog::details::log_msg& line, const std::string& message) {
