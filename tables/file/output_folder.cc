@@ -62,8 +62,8 @@ absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
         absl::StrCat(folder.string(), ": cannot be made; give a folder, or a new name in a folder that exists"));
   }
   if (!fs::is_empty(folder, error) && existing == Existing::kKeep) {
-    return absl::AlreadyExistsError(absl::StrCat(
-        folder.string(), ": is not empty; give another folder, or replace an earlier report by --overwrite"));
+    return absl::AlreadyExistsError(
+        absl::StrCat(folder.string(), ": is not empty; give another folder, or replace what is there by --overwrite"));
   }
   return access(folder.c_str(), W_OK) == 0 ? absl::OkStatus() : NotWritable(folder);
 }

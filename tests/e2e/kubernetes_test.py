@@ -18,7 +18,7 @@ FOLDER, VERSION = pathlib.Path(sys.argv[1]), sys.argv[2]
 OPERATIONS = FOLDER.parent.parent / "docs/operations.md"
 ROOTS = ("base", "overlays/volume", "overlays/volume/fill", "overlays/public", "campaign/shards", "campaign/merge",
          "survey/parts", "survey/merge")
-MADE_BY_THE_USER = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign", "albtpu-survey"}  # Beforehand, as the comments there say.
+MADE_BY_THE_USER = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign", "albtpu-survey"}  # As the comments there say.
 
 # Where the volume that a root mounts is defined.
 VOLUMES = {"campaign/merge": "campaign/shards", "survey/merge": "survey/parts",

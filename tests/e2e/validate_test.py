@@ -200,7 +200,7 @@ class Report(unittest.TestCase):
         before = (self.folder / "report.html").stat().st_mtime_ns
         again = validate("--quick", "--output", self.folder)
         self.assertEqual(again.returncode, 1)
-        self.assertIn("is not empty; give another folder, or replace an earlier report by --overwrite", again.stderr)
+        self.assertIn("is not empty; give another folder, or replace what is there by --overwrite", again.stderr)
         self.assertEqual((self.folder / "report.html").stat().st_mtime_ns, before)
 
     def test_is_not_started_if_it_cannot_be_written(self):
