@@ -270,6 +270,7 @@ void AddColumn(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& ans
 void AddGreenSurface(const GreenSurface& surface, double index, const PulseBatch& pulses, AnswerBatch& answers,
                      WaterBatch& water) {
   for (std::size_t i = 0; i < pulses.size; ++i) {
+    if (!answers.interpolated(i)) continue;
     const ShiftBySurface shift = ShiftBySurfaceOf(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), index);
     AddTo(answers.values[Index(Quantity::kBiasAlongBeam)][i], shift.along * surface.mean);
     AddTo(answers.values[Index(Quantity::kBiasVertical)][i], -shift.down * surface.mean);
