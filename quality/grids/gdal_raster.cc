@@ -249,7 +249,7 @@ absl::Status WritePlain(const Raster& raster, float none, const fs::path& path) 
   return errors.any() ? errors.CannotWrite(path) : absl::OkStatus();
 }
 
-// A failure to write the last bytes of a file is not told by every driver.
+// A failure to write the last bytes of a file is not reported by every driver.
 absl::Status CheckWritten(const Raster& raster, float none, const fs::path& path) {
   const Errors errors;
   ASSIGN_OR_RETURN(const NetcdfReader grid, NetcdfReader::Open(raster.grid));
