@@ -20,6 +20,10 @@ inline double Median(std::vector<double> values) {
 // 1000 degrees as with 1000, which is 0.3 % at most too large.
 double StudentQuantile(int degrees, double tail);
 
+// The probability that a number with the distribution of chi-square with `degrees` degrees of freedom, above 0 and not
+// only whole ones, is at most `value`, from 0. Right to 1e-12.
+double ChiSquareBelow(double value, double degrees);
+
 // What a standard error of so many degrees of freedom is multiplied by: Student's 97.5 % quantile exceeds 1.96 by that
 // factor within 6 % of 5 degrees, and 2 % of 10.
 constexpr double WidthOfStudent(double degrees) { return 1 + 1.2 / degrees; }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "annotate/run/file_progress.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
+#include "programs/query/survey_flags.h"
 #include "quality/annotated/annotated_folder.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/report_folder.h"
@@ -23,14 +25,17 @@ namespace albtpu::programs {
 namespace {
 
 struct CrossCheckOptions {
+  SurveyFlags flags;
   std::string annotated;
   double patch = quality::kDefaultPatch;
   bool json = false;
 };
 
 absl::Status RunCrossCheck(const CrossCheckOptions& options) {
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
-  ASSIGN_OR_RETURN(const quality::CrossCheck check, quality::CrossCheckOf(files, options.patch));
+  ASSIGN_OR_RETURN(const quality::CrossCheck check,
+                   quality::CrossCheckOf(files, options.patch, seas.has_value() ? &*seas : nullptr));
   std::cout << (options.json ? quality::CrossCheckJson(check).dump(2) + "\n" : quality::CrossCheckText(check));
   return FlushStandardOutput();
 }
@@ -112,8 +117,13 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
   command->add_flag("--json", options->json, "JSON, with every band and every two lines");
   Group(*command, "How points are gathered", {"--patch"});
   Group(*command, "Output", {"--json"});
-  EndHelp(*command, "Lines are distinguished by the point source ID, and by pauses where it is equal.", "annotated",
-          "annotated --patch 3 --json");
+  AddSeaFlags(*command, options->flags, kStatedOfWinds);
+  EndHelp(
+      *command,
+      "Lines are distinguished by the point source ID, and by pauses where it is equal.\n"
+      "Neighbouring pulses share waves. Where the files were annotated with waves, not with a wind, give these again;\n"
+      "otherwise pulses are taken as independent there.",
+      "annotated", "annotated --patch 3 --json --survey survey.toml");
   command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
 }
 

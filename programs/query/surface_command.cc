@@ -77,11 +77,7 @@ std::vector<quality::SurfaceFormat> FormatsOf(const SurfaceCommandOptions& optio
 // The points of the files that are given, at `path`.
 absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options,
                                             const std::vector<quality::AnnotatedLasFile>& files, const fs::path& path) {
-  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
-  std::optional<annotate::SeaTimeline> seas;
-  if (settings.sea.has_waves()) {
-    ASSIGN_OR_RETURN(seas, annotate::SeaTimeline::Open(settings.sea));
-  }
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
   return quality::GatherPoints(
       files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr}, path);
 }

@@ -161,4 +161,13 @@ void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs) {
   inputs[annotate::PulseInput::kWindFrom] = Rounded(sea.wind_from);
 }
 
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags) {
+  ASSIGN_OR_RETURN(const SurveySettings settings, SettingsOf(flags));
+  std::optional<annotate::SeaTimeline> seas;
+  if (settings.sea.has_waves()) {
+    ASSIGN_OR_RETURN(seas, annotate::SeaTimeline::Open(settings.sea));
+  }
+  return seas;
+}
+
 }  // namespace albtpu::programs

@@ -11,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
 #include "annotate/csv/pulse_inputs.h"
+#include "annotate/seas/sea_timeline.h"
 #include "config/survey_settings.h"
 #include "programs/command_line/cli_fwd.h"
 
@@ -47,5 +48,10 @@ void TakeStyle(const config::OutputSettings& output, annotate::AnswerStyle& styl
 void TakeWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
 // The same, whatever answers.
 void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
+
+// Of commands that read annotated files: the waves that they were annotated with, given again. Absent where none are
+// given. Of a wind all is in the summaries: these flags are not needed.
+inline constexpr std::array<std::string_view, 3> kStatedOfWinds = {"--fetch", "--wind-speed", "--wind-from"};
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags);
 
 }  // namespace albtpu::programs

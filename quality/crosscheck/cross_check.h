@@ -1,11 +1,8 @@
-// Whether the predicted uncertainty explains the differences between overlapping lines.
-//
-// The difference of two neighbouring points of different lines contains the errors that do not cancel between lines:
-// those that are independent from pulse to pulse and from line to line. Errors common to all lines (offsets, index,
-// datum) cancel and are not tested here.
+// Whether the predicted uncertainty explains the differences between overlapping lines, in two parts: what is drawn anew
+// for each pulse (pulse_part.h), and what each line shares (line_part.h). Errors common to all lines (lever arm,
+// boresight, clock, index, water level, datum) cancel and are not tested here.
 #pragma once
 
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -14,9 +11,12 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "annotate/run/file_progress.h"
+#include "annotate/seas/sea_timeline.h"
 #include "quality/annotated/annotated_points.h"
+#include "quality/crosscheck/line_part.h"
 #include "quality/crosscheck/overlap_patches.h"
-#include "quality/crosscheck/variance_fit.h"
+#include "quality/crosscheck/pulse_part.h"
+#include "quality/crosscheck/shared_waves.h"
 
 namespace albtpu::quality {
 
@@ -27,15 +27,6 @@ struct CrossBand {
   double chi_square = 0;  // Reduced: the mean of the squared differences in units of their predicted variance.
 };
 
-// The height difference between two lines.
-struct LineDifference {
-  int line_a = 0, line_b = 0;                                                    // Point source IDs.
-  double begin_a = std::numeric_limits<double>::quiet_NaN(), begin_b = begin_a;  // As FlightLine::begin.
-  std::size_t pairs = 0;
-  double mean = 0;            // m, line a less line b.
-  double standard_error = 0;  // m, from differences between places of the overlap; NaN of a single one.
-};
-
 struct CrossCheck {
   std::size_t pairs = 0;
   LeftOutPoints left_out;
@@ -43,26 +34,26 @@ struct CrossCheck {
   double chi_square = 0;
   double chi_square_within_lines = 0;  // Without the mean difference of each two lines.
   double beyond_three_sigma = 0;       // A fraction; 0.0027 of normal errors.
-  double median_factor = 0;            // The factor below by the median, which heavy tails do not raise.
-  Estimate factor;                     // The factor that would make the predicted standard deviations fit.
-  Estimate factor_air,
-      factor_sea;              // The same for air side and sea, from how differences depend on their contributions.
-  std::string interval_units;  // The units left out in turn by the jackknife: "lines" or "places".
-  double air_in_variance = 0;  // The fraction of the air side in the predicted variance.
-  double roughness = 0;        // m in a metre of distance, of the bottom around its plane; 0: not significant.
-  // "air" or "sea": the contribution whose factor differs from 1 by kMinDifference and beyond an interval of 99 %,
-  // and that explains most; empty: none.
+  double median_factor = 0;            // `factor` by the median, which heavy tails do not raise.
+  bool sea_known = false;              // Otherwise waves are taken as independent, and no part is named.
+  PulsePart pulse;
+  LinePart line;
+  // The factor that would make the predicted standard deviations of the differences fit: of both parts by their
+  // variances. Its interval is that of a sum of variances by the intervals of each (Zou and Donner 2008,
+  // doi:10.1002/sim.3095).
+  Estimate factor;
+  double air_in_variance = 0, line_in_variance = 0;  // Fractions of the predicted variance; the rest is the sea's.
+  // Which part is wrong: "trajectory", "air" (scanner and ranges), "sea", or "pulse", where air and sea cannot be told
+  // apart; empty: none. Where a trajectory is wrong, its fast errors look like a sea, so that only it is named.
   std::string guilty;
   std::vector<CrossBand> by_depth, by_incidence, by_sea_share;
-  std::vector<LineDifference> lines;  // The largest difference first.
 };
 
 inline constexpr double kOutlier = 6;
-inline constexpr double kMinDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
 
-// Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs.
-// The lines of the result have their numbers as IDs.
-std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs);
+// `pairs` lose their outliers. `patch`: the side of the patches, m. Absent without pairs across lines. The lines of the
+// result have their numbers as IDs.
+std::optional<CrossCheck> CheckPairs(PatchPairs& pairs, double patch, const SharedWaves& waves);
 
 nlohmann::ordered_json CrossCheckJson(const CrossCheck& check);
 
@@ -79,13 +70,24 @@ annotate::FileProgress ProgressOver(const std::vector<AnnotatedLasFile>& files);
 // FailedPrecondition: what to do where no file has a point of a bathymetric class.
 absl::Status NoBathymetricPoint(const std::vector<AnnotatedLasFile>& files);
 
+// The seas of files.
+struct FileSeas {
+  SharedWaves waves;
+  std::vector<std::uint16_t> of_files;  // PulseOnWater::kNoSea where it is not known.
+};
+
+// Where `seas` is null, those of the winds that the files state, as far as they do. Fails if `seas` are not those of
+// the files.
+absl::StatusOr<FileSeas> SeasOf(const std::vector<AnnotatedLasFile>& files, const annotate::SeaTimeline* seas);
+
 // After `patches` have seen all points once: the second reading.
-absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, OverlapPatches& patches);
+absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileSeas& seas, OverlapPatches& patches);
 
 // After that. Absent if no lines overlap (FlightLines::NothingToCompare). `patches` has no points then.
-std::optional<CrossCheck> CheckPatches(OverlapPatches& patches);
+std::optional<CrossCheck> CheckPatches(OverlapPatches& patches, const SharedWaves& waves);
 
 // All of it, from files that are not empty. FailedPrecondition if there is no point, or if no lines overlap.
-absl::StatusOr<CrossCheck> CrossCheckOf(const std::vector<AnnotatedLasFile>& files, double patch);
+absl::StatusOr<CrossCheck> CrossCheckOf(const std::vector<AnnotatedLasFile>& files, double patch,
+                                        const annotate::SeaTimeline* seas);
 
 }  // namespace albtpu::quality

@@ -70,7 +70,7 @@ void OverlapPatches::Choose() {
   known_ = {};
 }
 
-void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
+void OverlapPatches::Fill(std::span<const AnnotatedPoint> points, std::uint16_t of_sea) {
   const double factor = VerticalFactor(coverage_);
   const auto variance = [factor](float tvu) { return std::pow(tvu / factor, 2); };
   for (const AnnotatedPoint& point : points) {
@@ -86,27 +86,32 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
     }
     Patch& patch = patches_[found->second];
     const double sea = variance(point.tvu_sea);
-    const double own = variance(point.tvu_pulse) + variance(point.tvu_line);
-    const double air = std::max(own - sea, 0.0);
+    const double of_line = variance(point.tvu_line), own = variance(point.tvu_pulse) + of_line;
+    const double air = std::max(variance(point.tvu_pulse) - sea, 0.0);
     // A point has the horizontal entries of the total alone. Nearly all of them belong to pulse and line: the errors
     // common to a survey are mostly vertical. The correlations are those of the total.
     const float of_height =
         point.variance_z > 0 ? static_cast<float>(std::sqrt(std::min(own / point.variance_z, 1.0))) : 0;
-    const double of_sea = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;
+    const double sea_in_horizontal = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;
     patch.points.push_back({.x = static_cast<float>(x - patch.x),
                             .y = static_cast<float>(y - patch.y),
                             .z = static_cast<float>(point.z),
                             .variance_air = static_cast<float>(air),
                             .variance_sea = static_cast<float>(sea),
+                            .variance_line = static_cast<float>(of_line),
                             .xx = point.variance_x,
                             .yy = point.variance_y,
                             .xy = point.covariance_xy,
                             .xz = of_height * point.covariance_xz,
                             .yz = of_height * point.covariance_yz,
-                            .sea_in_horizontal = static_cast<float>(of_sea),
+                            .sea_in_horizontal = static_cast<float>(sea_in_horizontal),
                             .depth = point.depth,
                             .incidence = point.incidence,
-                            .line = *line});
+                            .azimuth = point.beam_azimuth,
+                            .footprint = point.footprint,
+                            .time = point.time,
+                            .line = *line,
+                            .sea = of_sea});
   }
 }
 
@@ -147,55 +152,83 @@ std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
   return slope;
 }
 
-struct HeightVariance {
-  double air = 0, sea = 0;  // m^2
-};
-
-// Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
-// lies too far down the slope is too high above it.
-HeightVariance AboveSlope(const PatchPoint& point, const Slope& slope) {
-  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy + 2 * slope.x * slope.y * point.xy -
-                       2 * (slope.x * point.xz + slope.y * point.yz);
-  const double level = point.variance_air + point.variance_sea;
-  if (added < 0) {
-    const double left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
-    return {left * point.variance_air, left * point.variance_sea};
-  }
-  return {point.variance_air + (1 - point.sea_in_horizontal) * added,
-          point.variance_sea + point.sea_in_horizontal * added};
+PulseOnWater PulseAt(double x, double y, const PatchPoint& point) {
+  return PulseOnWater::Of({.x = x,
+                           .y = y,
+                           .depth = point.depth,
+                           .incidence = point.incidence,
+                           .azimuth = point.azimuth,
+                           .footprint = point.footprint},
+                          point.time, point.sea);
 }
 
-CrossPair NearestPair(const Patch& patch, const Line& a, const Line& b, const Slope& slope) {
-  const PatchPoint *nearest_a = &a[0], *nearest_b = &b[0];
-  float least = std::numeric_limits<float>::infinity();
-  for (const PatchPoint& of_a : a) {
-    for (const PatchPoint& of_b : b) {
-      const float dx = of_a.x - of_b.x, dy = of_a.y - of_b.y, squared = dx * dx + dy * dy;
-      if (squared >= least) continue;
-      least = squared;
-      nearest_a = &of_a;
-      nearest_b = &of_b;
-    }
+// Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
+// lies too far down the slope is too high above it. What is not of the sea is divided among air side and line as the
+// variance of the height is.
+PairedPoint AboveSlope(const Patch& patch, const PatchPoint& point, const Slope& slope) {
+  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy + 2 * slope.x * slope.y * point.xy -
+                       2 * (slope.x * point.xz + slope.y * point.yz);
+  const double air = point.variance_air, sea = point.variance_sea, line = point.variance_line;
+  PairedPoint above{.pulse = PulseAt(patch.x + double{point.x}, patch.y + double{point.y}, point)};
+  if (added < 0) {
+    const double level = air + sea + line, left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
+    above.variance_air = static_cast<float>(left * air);
+    above.variance_sea = static_cast<float>(left * sea);
+    above.variance_line = static_cast<float>(left * line);
+    return above;
   }
-  const double dx = nearest_a->x - nearest_b->x, dy = nearest_a->y - nearest_b->y;
-  const HeightVariance of_a = AboveSlope(*nearest_a, slope), of_b = AboveSlope(*nearest_b, slope);
+  const double rest = (1 - point.sea_in_horizontal) * added, to_line = air + line > 0 ? line / (air + line) : 0;
+  above.variance_air = static_cast<float>(air + (1 - to_line) * rest);
+  above.variance_sea = static_cast<float>(sea + point.sea_in_horizontal * added);
+  above.variance_line = static_cast<float>(line + to_line * rest);
+  return above;
+}
+
+CrossPair PairOf(const Patch& patch, const PatchPoint& a, const PatchPoint& b, const Slope& slope) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
   const double slope_error = slope.xx * dx * dx + slope.yy * dy * dy + 2 * slope.xy * dx * dy;
-  return {.line_a = nearest_a->line,
-          .line_b = nearest_b->line,
+  return {.line_a = a.line,
+          .line_b = b.line,
           .x = patch.x,
           .y = patch.y,
-          .difference = static_cast<float>(nearest_a->z - nearest_b->z - slope.x * dx - slope.y * dy),
-          .distance = std::sqrt(least),
-          .variance_air = static_cast<float>(of_a.air + of_b.air),
-          .variance_sea = static_cast<float>(of_a.sea + of_b.sea),
+          .difference = static_cast<float>(a.z - b.z - slope.x * dx - slope.y * dy),
+          .distance = static_cast<float>(std::hypot(dx, dy)),
           .variance_slope = static_cast<float>(slope_error),
-          .depth = (nearest_a->depth + nearest_b->depth) / 2,
-          .incidence = (nearest_a->incidence + nearest_b->incidence) / 2};
+          .depth = (a.depth + b.depth) / 2,
+          .incidence = (a.incidence + b.incidence) / 2,
+          .a = AboveSlope(patch, a, slope),
+          .b = AboveSlope(patch, b, slope)};
+}
+
+// Null where there are none.
+struct Nearest {
+  const PatchPoint *a = nullptr, *b = nullptr;
+  float squared = std::numeric_limits<float>::infinity();
+
+  void Try(const PatchPoint& of_a, const PatchPoint& of_b) {
+    const float dx = of_a.x - of_b.x, dy = of_a.y - of_b.y, square = dx * dx + dy * dy;
+    if (square < squared) a = &of_a, b = &of_b, squared = square;
+  }
+};
+
+Nearest NearestOf(const Line& a, const Line& b) {
+  Nearest nearest;
+  for (const PatchPoint& of_a : a)
+    for (const PatchPoint& of_b : b) nearest.Try(of_a, of_b);
+  return nearest;
+}
+
+Nearest NearestOf(const Line& line) {
+  Nearest nearest;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    for (std::size_t j = i + 1; j < line.size(); ++j)
+      if (!(std::abs(line[i].time - line[j].time) > SharedWaves::kPause)) nearest.Try(line[i], line[j]);
+  return nearest;
 }
 
 }  // namespace
 
-void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs) {
+void AppendPairs(Patch& patch, PatchPairs& pairs) {
   std::ranges::stable_sort(patch.points, {}, &PatchPoint::line);
   std::vector<Line> lines;
   for (std::size_t begin = 0; begin < patch.points.size();) {
@@ -207,11 +240,15 @@ void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs) {
   if (lines.size() < 2) return;
   const std::optional<Slope> slope = FitSlope(lines);
   if (!slope.has_value()) return;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      CrossPair pair = NearestPair(patch, lines[i], lines[j], *slope);
-      if (pair.variance_air + pair.variance_sea > 0) pairs.push_back(pair);
-    }
+  const auto append = [&](const Nearest& nearest, std::vector<CrossPair>& list) {
+    if (nearest.a == nullptr) return;
+    const CrossPair pair = PairOf(patch, *nearest.a, *nearest.b, *slope);
+    if (pair.variance_air() + pair.variance_sea() > 0) list.push_back(pair);
+  };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    append(NearestOf(lines[i]), pairs.within);
+    for (std::size_t j = i + 1; j < lines.size(); ++j) append(NearestOf(lines[i], lines[j]), pairs.across);
+  }
 }
 
 }  // namespace albtpu::quality

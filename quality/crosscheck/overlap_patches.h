@@ -1,5 +1,5 @@
 // Small square patches of the bottom that several lines saw, found in one reading of the points and filled in a second
-// one, and the pairs of neighbouring points of two lines in them.
+// one, and the pairs of neighbouring points in them, of two lines and of one.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "quality/annotated/annotated_points.h"
 #include "quality/crosscheck/flight_lines.h"
+#include "quality/crosscheck/shared_waves.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {
@@ -17,12 +18,14 @@ namespace albtpu::quality {
 // A point of a line in a patch. Lengths in m, variances in m^2 at 1 sigma.
 struct PatchPoint {
   float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
-  float variance_air = 0;     // Of the height: of pulse and line, without the sea.
-  float variance_sea = 0;
+  // Of the height: what is drawn anew for each pulse (air side and sea), and what its line shares.
+  float variance_air = 0, variance_sea = 0, variance_line = 0;
   // The horizontal entries of the same covariance, m^2, and the sea's part of them (0 to 1).
   float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, sea_in_horizontal = 0;
-  float depth = 0, incidence = 0;
-  std::uint16_t line = 0;  // Its number (FlightLines).
+  float depth = 0, incidence = 0, azimuth = 0, footprint = 0;
+  double time = 0;                           // s, as AnnotatedPoint::time.
+  std::uint16_t line = 0;                    // Its number (FlightLines).
+  std::uint16_t sea = PulseOnWater::kNoSea;  // Of SharedWaves; kNoSea: not known.
 };
 
 struct Patch {
@@ -44,13 +47,15 @@ class OverlapPatches {
   void Find(std::span<const AnnotatedPoint> points);
   // Between the readings: drops the patches of one line, and samples the others if they are too many.
   void Choose();
-  // The second reading, of the same points.
-  void Fill(std::span<const AnnotatedPoint> points);
+  // The second reading, of the same points, all over one sea.
+  void Fill(std::span<const AnnotatedPoint> points, std::uint16_t sea);
 
   std::vector<Patch> Take() { return std::move(patches_); }  // In the order of their first points.
 
   // Of all points. Known after Choose().
   const FlightLines& lines() const { return lines_; }
+
+  double side() const { return side_; }
 
   double sampled() const { return 1.0 / static_cast<double>(mask_ + 1); }  // Of the patches of several lines.
 
@@ -75,24 +80,41 @@ class OverlapPatches {
   std::vector<Patch> patches_;
 };
 
-// Neighbouring points of two lines, and how much their heights differ beyond the slope of the bottom.
+// Two neighbouring points, and how much their heights differ beyond the slope of the bottom.
 
-struct CrossPair {
-  std::uint16_t line_a = 0, line_b = 0;      // Numbers of lines, a < b.
-  double x = 0, y = 0;                       // m, of the patch.
-  float difference = 0;                      // m, height in line a less that in line b, without the slope.
-  float distance = 0;                        // m, horizontal.
-  float variance_air = 0, variance_sea = 0;  // m^2, sums over both points, of the height above the slope.
-  float variance_slope = 0;                  // m^2, of the error of the slope over the distance.
-  float depth = 0, incidence = 0;            // Means of both; m, degree.
-
-  float variance() const { return variance_air + variance_sea + variance_slope; }
+// What a pair is made of. Variances in m^2, of the height above the slope.
+struct PairedPoint {
+  PulseOnWater pulse;
+  float variance_air = 0, variance_sea = 0, variance_line = 0;
 };
 
-// Of each two lines that have at least `kMinPoints` points each in `patch`, the two nearest points. The slope is that
-// of planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
+// Of two lines, whose numbers are a < b, or both of one line.
+struct CrossPair {
+  std::uint16_t line_a = 0, line_b = 0;
+  double x = 0, y = 0;             // m, of the patch.
+  float difference = 0;            // m, height of a less that of b, without the slope.
+  float distance = 0;              // m, horizontal.
+  float variance_slope = 0;        // m^2, of the error of the slope over the distance.
+  float depth = 0, incidence = 0;  // Means of both; m, degree.
+  PairedPoint a, b;
+
+  float variance_air() const { return a.variance_air + b.variance_air; }
+  float variance_sea() const { return a.variance_sea + b.variance_sea; }
+  float variance_line() const { return a.variance_line + b.variance_line; }
+  // Of the difference of points of different lines.
+  float variance() const { return variance_air() + variance_sea() + variance_line() + variance_slope; }
+};
+
+struct PatchPairs {
+  std::vector<CrossPair> across;  // Of two lines.
+  std::vector<CrossPair> within;  // Of one line, which share its trajectory and most waves.
+};
+
+// Of each two lines that have at least `kMinPoints` points each in `patch`, the two nearest points; and of each of these
+// lines its own two nearest points that are not farther apart in time than SharedWaves::kPause. The slope is that of
+// planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
 // does not tilt it. None where the points do not define a slope.
 inline constexpr std::size_t kMinPoints = 3;
-void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs);
+void AppendPairs(Patch& patch, PatchPairs& pairs);
 
 }  // namespace albtpu::quality

@@ -127,14 +127,16 @@ std::string ReportText(const nlohmann::ordered_json& report) {
     return absl::StrCat(text, "  ", report["nothing_to_compare"].get<std::string>(),
                         ", so that the files cannot show whether the prediction is true\n");
   }
-  const auto& factor = check["factor"];
-  absl::StrAppendFormat(&text,
-                        "  %d pairs of points of overlapping lines: reduced chi-square %.2f, sigma would have to be "
-                        "%.2f times as large",
-                        check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>(),
-                        factor["value"].get<double>());
-  if (factor["low"].is_number())
-    absl::StrAppendFormat(&text, " (%.2f to %.2f)", factor["low"].get<double>(), factor["high"].get<double>());
+  absl::StrAppendFormat(&text, "  %d pairs of points of overlapping lines: reduced chi-square %.2f",
+                        check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>());
+  for (const auto& [name, key] : {std::pair{"pulses", "factor_pulse"}, {"lines", "factor_line"}}) {
+    const auto& factor = check[key];
+    if (factor.is_null() || !factor["value"].is_number()) continue;
+    absl::StrAppendFormat(&text, "; sigma of %s would have to be %.2f times as large", name,
+                          factor["value"].get<double>());
+    if (factor["low"].is_number())
+      absl::StrAppendFormat(&text, " (%.2f to %.2f)", factor["low"].get<double>(), factor["high"].get<double>());
+  }
   return text + "\n";
 }
 

@@ -96,8 +96,9 @@ class Reporter {
       RETURN_IF_ERROR(grid_.status());
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
-    RETURN_IF_ERROR(FillPatches(files_, patches_));
-    const std::optional<CrossCheck> check = CheckPatches(patches_);
+    ASSIGN_OR_RETURN(const FileSeas seas, SeasOf(files_, nullptr));
+    RETURN_IF_ERROR(FillPatches(files_, seas, patches_));
+    const std::optional<CrossCheck> check = CheckPatches(patches_, seas.waves);
     return SurveyReport{.json = annotate::JsonBox(ToJson(check)),
                         .grid = std::move(grid_),
                         .facts = {.coverage = first_.coverage(),

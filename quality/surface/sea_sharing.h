@@ -9,18 +9,11 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
+#include "quality/seas/seas_of_files.h"
 #include "quality/surface/node.h"
 #include "sea/correlation/pulse_correlation.h"
-#include "sea/spectra/harmonic_spectrum.h"
 
 namespace albtpu::quality {
-
-// A sea at the time of a file.
-struct SeaOfSource {
-  HarmonicSpectrum spectrum;
-  double x_azimuth = 0;    // rad: the compass direction of the spectrum's axis x
-  double water_index = 0;  // The refractive index that the points were computed with.
-};
 
 // Any number of threads may use it at a time, once all seas are added.
 class SeaSharing {

@@ -16,10 +16,6 @@
 
 namespace albtpu::quality {
 
-// The sea over which a file was measured: that of `seas` at the time of the file, or, where that is null, the one of
-// the wind and the fetch of its summary. InvalidArgument: what is missing or does not agree with the summary.
-absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annotate::SeaTimeline* seas);
-
 struct SurfaceOptions {
   double cell = 1;                              // m, 0.1 to 20
   const annotate::SeaTimeline* seas = nullptr;  // Null: the seas of the winds that the files state.

@@ -25,6 +25,8 @@ struct HarmonicSpectrum {
 
   std::size_t size() const { return k.size(); }
   std::size_t harmonics() const { return a.size(); }
+
+  bool operator==(const HarmonicSpectrum&) const = default;
 };
 
 // Harmonics 2 to 12: as many as a described or measured sea is given.

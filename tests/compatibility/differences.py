@@ -3,8 +3,8 @@
 Numbers agree within a relative 1e-5: sums in single precision, which compilers and processors order differently.
 
 Since 0.1.0 the physics was corrected: the share of the sea is of the water's index, and totals are of the reported
-point (CHANGELOG.md). Within `corrected()`, numbers may differ by as much as that changes any, and orders of S-44 and
-biases along the beam by more.
+point (CHANGELOG.md), and overlapping lines are compared in parts. Within `corrected()`, numbers may differ by as much
+as that changes any, and orders of S-44, biases along the beam and the factors of parts by more.
 """
 
 import contextlib
@@ -18,7 +18,8 @@ from las_file import LasFile
 RELATIVE = 1e-5
 OF_THE_CORRECTION = 0.3
 FREE = ("best_s44_order", "s44_order_met", "best_order", "best_orders", "best_s44_orders", "bias_along_beam",
-        "mean_bias_along_beam", "limited_by")
+        "mean_bias_along_beam", "limited_by",
+        "factor", "factor_air", "factor_sea", "air_in_variance")
 OF_THE_PROGRAM = ("program_version",)
 # Columns of single precision, of which messages have the bytes.
 COLUMNS = ("SeaSurfaceColumns", "BudgetColumns", "S44Columns")

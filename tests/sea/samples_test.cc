@@ -25,5 +25,21 @@ TEST(StudentQuantile, AgreesWithClosedForms) {
   EXPECT_NEAR(StudentQuantile(1'000'000, 0.025), 1.959964, 0.003);
 }
 
+// Of two degrees of freedom it is 1 - exp(-value / 2), of one erf(sqrt(value / 2)).
+TEST(ChiSquareBelow, AgreesWithClosedFormsAndTables) {
+  for (const double value : {0.01, 0.5, 2.0, 9.0, 40.0}) {
+    EXPECT_NEAR(ChiSquareBelow(value, 2), 1 - std::exp(-value / 2), 1e-12);
+    EXPECT_NEAR(ChiSquareBelow(value, 1), std::erf(std::sqrt(value / 2)), 1e-12);
+    // Integrating by parts: of two degrees more.
+    EXPECT_NEAR(ChiSquareBelow(value, 6.5),
+                ChiSquareBelow(value, 4.5) - std::pow(value / 2, 2.25) * std::exp(-value / 2) / std::tgamma(3.25),
+                1e-12);
+  }
+  EXPECT_EQ(ChiSquareBelow(0, 3), 0);
+  // Abramowitz and Stegun (1964), table 26.8.
+  EXPECT_NEAR(ChiSquareBelow(20.4831, 10), 0.975, 1e-6);
+  EXPECT_NEAR(ChiSquareBelow(67.3276, 100), 0.005, 1e-6);
+}
+
 }  // namespace
 }  // namespace albtpu

@@ -59,14 +59,15 @@ class CrossCheckOfErrors(programs.Test):
             right = self.check(flight, f'errors = ["{flight}/smrmsg.out"]', RIGHT)
             wrong = self.check(flight, "", half)
             chi_squares.append(right["chi_square"])
-            factors.append(wrong["factor_air"]["value"])
+            factors.append(wrong["factor_line"]["value"])
             accused += right["guilty_share"] is not None
-            accused_half += wrong["guilty_share"] == "air"
+            accused_half += wrong["guilty_share"] == "trajectory"
             self.assertGreater(right["pairs"], 10_000)
-            self.assertEqual(right["intervals_by"], "lines")
+            self.assertTrue(right["sea_known"])
+            self.assertEqual(right["intervals_by"], "places")
         print(f"{seeds} surveys: chi-square {min(chi_squares):.3f} to {max(chi_squares):.3f}, mean"
-              f" {statistics.mean(chi_squares):.3f}, a contribution is flagged in {accused}; the air side declared"
-              f" half as large: factor {min(factors):.2f} to {max(factors):.2f}, mean {statistics.mean(factors):.3f},"
+              f" {statistics.mean(chi_squares):.3f}, a part differs in {accused}; the air side declared"
+              f" half as large: factor of lines {min(factors):.2f} to {max(factors):.2f}, mean {statistics.mean(factors):.3f},"
               f" flagged in {accused_half}")
         self.assertAlmostEqual(statistics.mean(chi_squares), 1, delta=0.05)
         self.assertAlmostEqual(statistics.mean(factors), 2, delta=0.1)

@@ -3,122 +3,222 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
+#include <tuple>
+#include <utility>
+#include <vector>
 
-#include "quality/crosscheck/variance_fit.h"
+#include "sea/correlation/correlated_pulses.h"
+#include "sea/sea_state.h"
 
 namespace albtpu::quality {
 namespace {
 
 // Pairs of 12 lines with normal differences, whose predicted variances are a part of the true ones.
 struct Truth {
-  double air = 1, sea = 1;  // Factors of the true standard deviations.
-  double rough = 0;         // m in a metre of distance.
-  double offset = 0;        // m, of line 1.
+  double air = 1, sea = 1, line = 1;  // Factors of the true standard deviations.
+  double rough = 0;                   // m in a metre of distance.
+  double offset = 0;                  // m, of line 1.
 };
 
-std::vector<CrossPair> Pairs(const Truth& truth) {
+PatchPairs Pairs(const Truth& truth) {
+  constexpr double kLineSigma = 0.02;
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
-  std::vector<CrossPair> pairs;
+  std::array<double, 13> of_lines = {};
+  for (double& each : of_lines) each = truth.line * kLineSigma * normal(random);
+  of_lines[1] += truth.offset;
+  PatchPairs pairs;
   for (int i = 0; i < 40'000; ++i) {
-    CrossPair pair;
+    CrossPair& pair = pairs.across.emplace_back();
     pair.line_a = static_cast<std::uint16_t>(1 + i % 11);
     pair.line_b = static_cast<std::uint16_t>(pair.line_a + 1);
     pair.x = 6000 * uniform(random);
     pair.depth = static_cast<float>(20 * uniform(random));
     pair.incidence = 20;
-    pair.variance_air = 0.01F;
-    pair.variance_sea = 0.0002F * pair.depth * pair.depth;
+    for (PairedPoint* const point : {&pair.a, &pair.b}) {
+      point->pulse.sea = 0;
+      point->variance_air = 0.005F;
+      point->variance_sea = 0.0001F * pair.depth * pair.depth;
+      point->variance_line = static_cast<float>(kLineSigma * kLineSigma);
+    }
     pair.distance = static_cast<float>(2 * uniform(random));
-    pair.difference = static_cast<float>(std::sqrt(std::pow(truth.air, 2) * pair.variance_air +
-                                                   std::pow(truth.sea, 2) * pair.variance_sea +
+    pair.difference = static_cast<float>(std::sqrt(std::pow(truth.air, 2) * pair.variance_air() +
+                                                   std::pow(truth.sea, 2) * pair.variance_sea() +
                                                    std::pow(truth.rough * pair.distance, 2)) *
                                              normal(random) +
-                                         (pair.line_a == 1 ? truth.offset : 0));
-    pairs.push_back(pair);
+                                         of_lines[pair.line_a] - of_lines[pair.line_b]);
   }
   return pairs;
 }
 
-CrossCheck CheckOf(const Truth& truth) {
-  std::vector<CrossPair> pairs = Pairs(truth);
-  return CheckPairs(pairs).value();
+// Of waves that pulses do not share.
+SharedWaves Apart() {
+  SharedWaves waves;
+  waves.Add({.spectrum = FlatSea(SeaWavenumbers(), 1)});
+  return waves;
 }
 
+CrossCheck CheckOf(PatchPairs pairs) { return CheckPairs(pairs, 5, Apart()).value(); }
+CrossCheck CheckOf(const Truth& truth) { return CheckOf(Pairs(truth)); }
+
 TEST(CrossCheck, OfARightPredictionIsOne) {
-  const CrossCheck check = CheckOf({});
+  const CrossCheck check = CheckOf(Truth{});
   EXPECT_NEAR(check.chi_square, 1, 0.03);
-  EXPECT_NEAR(check.factor.value, 1, 0.02);
+  EXPECT_NEAR(check.pulse.factor.value, 1, 0.02);
+  EXPECT_FALSE(check.pulse.factor.excludes(1));
+  EXPECT_FALSE(check.line.factor->excludes(1));
   EXPECT_FALSE(check.factor.excludes(1));
   EXPECT_NEAR(check.median_factor, 1, 0.02);
   EXPECT_NEAR(check.beyond_three_sigma, 0.0027, 0.001);
   EXPECT_EQ(check.guilty, "");
-  EXPECT_EQ(check.roughness, 0);
+  EXPECT_EQ(check.pulse.rough, 0);
 }
 
-TEST(CrossCheck, TellsTheSharesApart) {
+TEST(CrossCheck, TellsAirAndSeaApart) {
   const CrossCheck air = CheckOf({.air = 2});
-  EXPECT_NEAR(air.factor_air.value, 2, 0.1);
-  EXPECT_FALSE(air.factor_sea.excludes(1));
+  EXPECT_NEAR(air.pulse.air.value, 2, 0.1);
+  EXPECT_FALSE(air.pulse.sea.excludes(1));
   EXPECT_EQ(air.guilty, "air");
   const CrossCheck sea = CheckOf({.sea = 0.5});
-  EXPECT_NEAR(sea.factor_sea.value, 0.5, 0.1);
-  EXPECT_FALSE(sea.factor_air.excludes(1));
+  EXPECT_NEAR(sea.pulse.sea.value, 0.5, 0.1);
+  EXPECT_FALSE(sea.pulse.air.excludes(1));
   EXPECT_EQ(sea.guilty, "sea");
+}
+
+TEST(CrossCheck, NamesNeitherAirNorSeaWhereTheSeaIsNotKnown) {
+  PatchPairs pairs = Pairs({.air = 2});
+  for (CrossPair& pair : pairs.across) pair.a.pulse.sea = pair.b.pulse.sea = PulseOnWater::kNoSea;
+  const CrossCheck check = CheckOf(std::move(pairs));
+  EXPECT_EQ(check.guilty, "pulse");
+  EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("cannot tell without the sea"));
+}
+
+TEST(CrossCheck, TellsLinesFromPulses) {
+  const CrossCheck check = CheckOf({.line = 4});
+  EXPECT_TRUE(check.line.differs);
+  EXPECT_GT(check.line.factor->low, 1.5);
+  EXPECT_NEAR(check.pulse.factor.value, 1, 0.02);
+  EXPECT_EQ(check.guilty, "trajectory");
 }
 
 TEST(CrossCheck, LeavesOutTheRoughnessOfTheBottom) {
   const CrossCheck check = CheckOf({.rough = 0.08});
-  EXPECT_NEAR(check.roughness, 0.08, 0.02);
+  EXPECT_NEAR(std::sqrt(check.pulse.rough), 0.08, 0.02);
   EXPECT_NEAR(check.chi_square, 1, 0.06);
 }
 
 TEST(CrossCheck, FindsALineThatLiesAbove) {
-  const CrossCheck check = CheckOf({.offset = 0.1});
-  EXPECT_EQ(check.lines.front().line_a, 1);
-  EXPECT_NEAR(check.lines.front().mean, 0.1, 0.01);
-  EXPECT_LT(check.lines.front().standard_error, 0.01);
+  const LineDifference line = CheckOf({.offset = 0.2}).line.differences.front();
+  EXPECT_EQ(line.line_a, 1);
+  EXPECT_NEAR(line.mean, 0.2, 0.1);
+  EXPECT_NEAR(line.standard_error, std::sqrt(0.037 / 3636), 0.001);  // Of so many independent pairs.
+  EXPECT_NEAR(line.predicted, 0.02 * std::sqrt(2), 0.001);
 }
 
 TEST(CrossCheck, LeavesOutFewOutliersAndSaysSo) {
-  std::vector<CrossPair> pairs = Pairs({});
-  for (int i = 0; i < 30; ++i) pairs[static_cast<std::size_t>(i * 1000)].difference = 5;  // Fish.
-  const CrossCheck check = CheckPairs(pairs).value();
+  PatchPairs pairs = Pairs({});
+  for (int i = 0; i < 30; ++i) pairs.across[static_cast<std::size_t>(i * 1000)].difference = 5;  // Fish.
+  const CrossCheck check = CheckOf(std::move(pairs));
   EXPECT_EQ(check.outliers, 30U);
   EXPECT_NEAR(check.chi_square, 1, 0.03);
 }
 
 TEST(CrossCheck, HasNoIntervalFromOnePlace) {
-  std::vector<CrossPair> pairs = Pairs({.air = 2});
-  for (CrossPair& pair : pairs) pair.line_a = 1, pair.line_b = 2, pair.x = 0;
-  const CrossCheck check = CheckPairs(pairs).value();
-  EXPECT_EQ(check.interval_units, "places");
-  EXPECT_FALSE(check.factor.excludes(1));
-  EXPECT_EQ(check.guilty, "");
-  EXPECT_TRUE(CrossCheckJson(check)["factor"]["low"].is_null());
+  PatchPairs pairs = Pairs({.air = 2});
+  for (CrossPair& pair : pairs.across) pair.line_a = 1, pair.line_b = 2, pair.x = 0;
+  pairs.across.resize(2000);
+  const CrossCheck check = CheckOf(std::move(pairs));
+  EXPECT_FALSE(check.pulse.factor.excludes(1));
+  EXPECT_FALSE(check.pulse.differs);
+  EXPECT_TRUE(CrossCheckJson(check)["factor_pulse"]["low"].is_null());
   EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("gives no interval"));
 }
 
-TEST(CrossCheck, LeavesOutPlacesWhereLinesAreFew) {
-  std::vector<CrossPair> pairs = Pairs({.air = 2});
-  for (CrossPair& pair : pairs) pair.line_a = 1, pair.line_b = 2;
-  const CrossCheck check = CheckPairs(pairs).value();
-  EXPECT_EQ(check.interval_units, "places");
-  EXPECT_EQ(check.guilty, "air");
-  EXPECT_EQ(CheckOf({}).interval_units, "lines");
+TEST(CrossCheck, NeedsPairs) {
+  PatchPairs none;
+  EXPECT_FALSE(CheckPairs(none, 5, Apart()).has_value());
+  PatchPairs one = {.across = {Pairs({}).across[0]}, .within = {}};
+  const CrossCheck check = CheckOf(std::move(one));
+  EXPECT_EQ(check.pairs, 1U);
+  EXPECT_TRUE(CrossCheckJson(check)["factor_pulse"]["value"].is_null());
+  EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("too few pairs"));
 }
 
-TEST(CrossCheck, NeedsPairs) {
-  std::vector<CrossPair> none;
-  EXPECT_FALSE(CheckPairs(none).has_value());
-  std::vector<CrossPair> one = {Pairs({})[0]};
-  const CrossCheck check = CheckPairs(one).value();
-  EXPECT_EQ(check.pairs, 1U);
-  EXPECT_TRUE(CrossCheckJson(check)["lines"][0]["standard_error"].is_null());
+// Places of lines with the variance 1 each, of overlaps that are pairs of lines.
+PairGroups Groups(const std::vector<std::pair<int, int>>& overlaps, int places, double noise,
+                  const std::function<double(int, int, int)>& mean) {
+  PairGroups groups;
+  for (const auto& [a, b] : overlaps)
+    for (int i = 0; i < places; ++i)
+      groups.places.push_back({.line_a = static_cast<std::uint16_t>(a),
+                               .line_b = static_cast<std::uint16_t>(b),
+                               .pairs = {0},
+                               .mean = mean(a, b, i),
+                               .noise = noise,
+                               .line_a_variance = 1,
+                               .line_b_variance = 1,
+                               .line_product = 1});
+  return groups;
+}
+
+// Offsets of lines make differences whose sum of squares is a quadratic form with the Laplacian of the graph of
+// overlaps: its degrees of freedom are the square of the sum of its eigenvalues over the sum of their squares.
+TEST(LinePart, HasTheDegreesOfFreedomOfItsOverlaps) {
+  const auto of_lines = [](int a, int b, int) { return 1.0 * a - b; };
+  EXPECT_NEAR(TestLines(Groups({{1, 2}}, 5, 0, of_lines)).degrees, 1, 1e-9);
+  EXPECT_NEAR(TestLines(Groups({{1, 2}, {2, 3}, {1, 3}}, 5, 0, of_lines)).degrees, 2, 1e-9);
+  std::vector<std::pair<int, int>> block = {{1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}};
+  Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(9, 9);
+  for (int line = 1; line <= 6; ++line) block.emplace_back(line, 7), block.emplace_back(line, 8);
+  for (const auto& [a, b] : block) ++laplacian(a, a), ++laplacian(b, b), --laplacian(a, b), --laplacian(b, a);
+  EXPECT_NEAR(TestLines(Groups(block, 4, 0, of_lines)).degrees,
+              std::pow(laplacian.trace(), 2) / (laplacian * laplacian).trace(), 1e-9);
+  // Errors that do not last: as many as there are places.
+  const auto apart = [](int, int, int place) { return place % 2 == 0 ? 1.0 : -1.0; };
+  EXPECT_NEAR(TestLines(Groups({{1, 2}}, 10, 0, apart)).degrees, 10, 1e-9);
+}
+
+// Of two lines that differ by d, d^2 / 2 is chi-square of one degree of freedom.
+TEST(LinePart, HasTheIntervalOfChiSquare) {
+  const LinePart part = TestLines(Groups({{1, 2}}, 5, 0, [](int, int, int) { return 3.0; }));
+  EXPECT_NEAR(part.factor->value, std::sqrt(4.5), 1e-9);
+  EXPECT_NEAR(part.factor->low, std::sqrt(4.5 / 5.02389), 1e-5);
+  EXPECT_NEAR(part.factor->high, std::sqrt(4.5 / 0.000982069), 1e-3);
+  // Where the noise explains all, lines may have no errors.
+  const LinePart noisy = TestLines(Groups({{1, 2}}, 5, 9, [](int, int, int) { return 3.0; }));
+  EXPECT_EQ(noisy.factor->value, 0);
+  EXPECT_EQ(noisy.factor->low, 0);
+}
+
+// The slow twin: the correlation of what waves do to two pulses, without tables (correlated_pulses.h).
+TEST(SharedWaves, AreThoseOfCorrelatedPulses) {
+  const WindSea wind{.wind_speed_10m = 6, .fetch = 20'000, .model = &kElfouhailyModel};
+  const HarmonicSpectrum sea = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics);
+  SharedWaves waves;
+  waves.Add({.spectrum = sea, .x_azimuth = std::numbers::pi / 2, .water_index = 1.34});  // x is east.
+  for (const double azimuth : {0.0, 60.0, 90.0}) {
+    const CorrelatedPulses slow(sea, {.incidence = 20 * std::numbers::pi / 180,
+                                      .azimuth = std::numbers::pi / 2 - azimuth * std::numbers::pi / 180,
+                                      .footprint = 0.5});
+    for (const auto& [x, y, later] : {std::tuple{0.0, 0.0, 0.0}, {0.5, 0.25, 0.0}, {2.0, 3.0, 0.1}, {8.0, 0.0, 0.4}}) {
+      const PointOfBeam at{.depth = 5, .incidence = 20, .azimuth = azimuth, .footprint = 0.5};
+      PointOfBeam other = at;
+      other.x = x, other.y = y;
+      const double shared = waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(other, 100 + later, 0));
+      EXPECT_NEAR(shared, slow.Between(x, y, later).vertical, 0.03) << azimuth << " " << x << " " << later;
+    }
+  }
+  const PointOfBeam at{.incidence = 20, .footprint = 0.5};
+  EXPECT_EQ(waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(at, 100, 1)), 0);
+  EXPECT_EQ(waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(at, 130, 0)), 0);
 }
 
 Patch TwoPlanes(double slope_x, double slope_y, double step) {
@@ -136,12 +236,15 @@ Patch TwoPlanes(double slope_x, double slope_y, double step) {
 
 TEST(CrossPairs, AreFreeOfTheSlope) {
   Patch patch = TwoPlanes(0.3, -0.2, 0.07);
-  std::vector<CrossPair> pairs;
-  AppendPairs(patch, pairs);
+  PatchPairs of_patch;
+  AppendPairs(patch, of_patch);
+  const std::vector<CrossPair>& pairs = of_patch.across;
   ASSERT_EQ(pairs.size(), 1U);
+  ASSERT_EQ(of_patch.within.size(), 2U);
+  EXPECT_NEAR(of_patch.within[0].difference, 0, 1e-5);
   EXPECT_NEAR(pairs[0].difference, 0.07, 1e-5);
   EXPECT_LT(pairs[0].distance, 0.5);
-  EXPECT_NEAR(pairs[0].variance_air, 0.02, 1e-7);
+  EXPECT_NEAR(pairs[0].variance_air(), 0.02, 1e-7);
 }
 
 // The variance of the height above a slope is g' C g with g = (-0.3, 0.2, 1): here of each point
@@ -152,27 +255,28 @@ TEST(CrossPairs, HaveTheVarianceAboveTheSlope) {
     point.xx = 0.04F, point.yy = 0.02F, point.xy = 0.005F, point.xz = 0.004F, point.yz = 0.003F;
     point.sea_in_horizontal = 0.25F;
   }
-  std::vector<CrossPair> pairs;
-  AppendPairs(patch, pairs);
+  PatchPairs of_patch;
+  AppendPairs(patch, of_patch);
+  const std::vector<CrossPair>& pairs = of_patch.across;
   ASSERT_EQ(pairs.size(), 1U);
-  EXPECT_NEAR(pairs[0].variance_air, 2 * (0.01 + 0.75 * 0.0026), 1e-6);
-  EXPECT_NEAR(pairs[0].variance_sea, 2 * 0.25 * 0.0026, 1e-6);
+  EXPECT_NEAR(pairs[0].variance_air(), 2 * (0.01 + 0.75 * 0.0026), 1e-6);
+  EXPECT_NEAR(pairs[0].variance_sea(), 2 * 0.25 * 0.0026, 1e-6);
   for (PatchPoint& point : patch.points) point.xz = 0.02F;  // Down the slope is too low: less than on a level bottom.
-  pairs.clear();
-  AppendPairs(patch, pairs);
+  of_patch = {};
+  AppendPairs(patch, of_patch);
   EXPECT_NEAR(pairs[0].variance(), 2 * (0.0126 - 2 * 0.3 * 0.016), 1e-6);
-  EXPECT_EQ(pairs[0].variance_sea, 0);
+  EXPECT_EQ(pairs[0].variance_sea(), 0);
 }
 
 TEST(CrossPairs, NeedTwoLinesAndASlope) {
-  std::vector<CrossPair> pairs;
+  PatchPairs pairs;
   Patch one = TwoPlanes(0, 0, 0);
   for (PatchPoint& point : one.points) point.line = 1;
   AppendPairs(one, pairs);
   Patch row = TwoPlanes(0, 0, 0);
   for (PatchPoint& point : row.points) point.y = point.x;  // All in one straight line.
   AppendPairs(row, pairs);
-  EXPECT_TRUE(pairs.empty());
+  EXPECT_TRUE(pairs.across.empty());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The cross-check of surveys whose errors are known: simulated by the exact model, predicted by the budget.
+// The cross-check of surveys whose errors are known: simulated by the exact model, predicted by the budget. The sea is
+// drawn anew for each pulse; that it is shared is in blocks_validation_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,10 +26,8 @@ CrossCheck CheckPoints(const std::vector<AnnotatedPoint>& points) {
   OverlapPatches patches(5, 1, Coverage::kOneSigma);
   patches.Find(points);
   patches.Choose();
-  patches.Fill(points);
-  std::vector<CrossPair> pairs;
-  for (Patch& patch : patches.Take()) AppendPairs(patch, pairs);
-  return CheckPairs(pairs).value();
+  patches.Fill(points, PulseOnWater::kNoSea);  // Slopes are drawn anew for each pulse.
+  return CheckPatches(patches, SharedWaves()).value();
 }
 
 CrossCheck CheckOf(const SimulatedLines& options) { return CheckPoints(testing::Simulate(options)); }
@@ -73,25 +72,28 @@ TEST(CrossCheckOfSimulatedSurveys, CountsTheHorizontalErrorsOnASlope) {
 }
 
 TEST(CrossCheckOfSimulatedSurveys, FindsAnAirSideDeclaredHalfAsLarge) {
-  double sum = 0;
+  double sum = 0, of_lines = 0;
   int accused = 0;
   const int surveys = kSeeds / 2;  // Their factors scatter by 0.08.
   for (int seed = 1; seed <= surveys; ++seed) {
     const CrossCheck check = CheckOf({.seed = static_cast<std::uint64_t>(seed), .declared = 0.5});
-    sum += check.factor_air.value;
-    accused += check.guilty == "air" ? 1 : 0;
+    sum += check.pulse.air.value;
+    of_lines += check.line.factor->value;
+    accused += check.line.differs && check.pulse.differs ? 1 : 0;
     EXPECT_GT(check.chi_square, 1.3) << seed;
   }
-  std::cout << "factor of the air side, mean of " << surveys << " surveys: " << sum / surveys << "; accused in "
-            << accused << "\n";
+  std::cout << "factors of the air side, mean of " << surveys << " surveys: " << sum / surveys << ", of lines "
+            << of_lines / surveys << "; both parts differ in " << accused << "\n";
   EXPECT_NEAR(sum / surveys, 2, 0.1);
+  EXPECT_NEAR(of_lines / surveys, 2, 0.1);
   EXPECT_EQ(accused, surveys);
 }
 
 TEST(CrossCheckOfSimulatedSurveys, FindsAnAirSideDeclaredHalfAsLargeWhereNothingElseErrs) {
   const CrossCheck check = CheckOf({.wave_slope = 0.001, .declared = 0.5});
   EXPECT_NEAR(check.factor.value, 2, 0.1);
-  EXPECT_EQ(check.guilty, "air");
+  EXPECT_EQ(check.guilty, "trajectory");
+  EXPECT_NEAR(check.pulse.factor.value, 2, 0.1);
 }
 
 TEST(CrossCheckOfSimulatedSurveys, IsNotMisledByARoughBottom) {
@@ -108,14 +110,15 @@ TEST(CrossCheckOfSimulatedSurveys, ReportsABoresightThatNobodyKnows) {
     std::cout << "roll of the scanner wrong by 0.05 degree, " << (to_and_fro ? "to and fro" : "in one direction")
               << ": chi-square " << check.chi_square << ", without the means of lines " << check.chi_square_within_lines
               << ", factor " << check.factor.value << " (" << check.factor.low << " to " << check.factor.high
-              << "), accused: " << check.guilty << ", largest difference of lines " << check.lines.front().mean
-              << " +- " << check.lines.front().standard_error << " m\n";
+              << "), accused: " << check.guilty << ", largest difference of lines "
+              << check.line.differences.front().mean << " +- " << check.line.differences.front().standard_error
+              << " m\n";
     return check;
   };
   const CrossCheck one_way = check_of(false, 1);
   EXPECT_GT(one_way.factor.low, 1.3);
   EXPECT_LT(one_way.chi_square_within_lines, 0.5 * one_way.chi_square);
-  EXPECT_GT(std::abs(one_way.lines.front().mean), 5 * one_way.lines.front().standard_error);
+  EXPECT_GT(std::abs(one_way.line.differences.front().mean), 5 * one_way.line.differences.front().standard_error);
   double both_ways = 0;
   constexpr int kBothWays = 4;
   for (int seed = 1; seed <= kBothWays; ++seed) both_ways += check_of(true, seed).chi_square / kBothWays;

@@ -1,28 +1,32 @@
 #include "tests/quality/crosscheck/simulated_lines.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "tests/budget/air/air_forward.h"
 #include "tests/budget/total/total_memory.h"
 #include "tests/flights/beam_path.h"
+#include "tests/quality/crosscheck/travelling_sea.h"
 
 namespace albtpu::testing {
 namespace {
 
 constexpr double kAltitude = 400, kIncidence = 20, kSpeed = 60;
-constexpr double kLineSpacing = 240;
 // rad/s and number of the sinusoids of an error of the trajectory, which are correlated over some seconds.
 constexpr double kSlowest = 0.1, kFastest = 1;
 constexpr int kTerms = 8;
-constexpr double kSwath = 140;  // m on each side; the cone of 20 degrees reaches 146 m.
-// Lines differ by errors that last for hundreds of metres. A ninth of the bottom shows them as the whole of it does:
-// squares of 10 m, which are four patches each, 30 m apart.
-constexpr double kSquare = 10, kPeriod = 30;  // m
+constexpr double kFirstTime = 100, kBetweenLines = 300;  // s
 
-bool InSquare(double x, double y) {
-  const auto in_strip = [](double along) { return along - kPeriod * std::floor(along / kPeriod) < kSquare; };
+bool InSquare(double x, double y, const SimulatedLines& options) {
+  const auto in_strip = [&](double along) {
+    return along - options.period * std::floor(along / options.period) < options.square;
+  };
   return in_strip(x) && in_strip(y);
 }
 
@@ -43,27 +47,69 @@ Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double
 }
 
 // The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
-// its own.
-Eigen::Vector3d SeaSigmas(double wave_slope) {
-  static std::map<double, Eigen::Vector3d> known;  // The surveys of a test have the same waves.
-  if (const auto found = known.find(wave_slope); found != known.end()) return found->second;
+// its own. `slopes`: the covariance of those along and across an axis, from which the beam is turned by `azimuth` to the
+// left, rad.
+Eigen::Vector3d SigmasOfSlopes(const Eigen::Matrix2d& slopes, double azimuth) {
   RandomNumbers random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));
+  const Eigen::Matrix2d turned = Eigen::Rotation2Dd(-azimuth).toRotationMatrix();
+  const Eigen::Matrix2d root = Eigen::Matrix2d(turned * slopes * turned.transpose()).llt().matrixL();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
-  constexpr int kDraws = 200'000;
+  constexpr int kDraws = 100'000;
   for (int i = 0; i < kDraws; ++i) {
-    const Eigen::Vector3d error = ErrorOfSlope(beam, wave_slope * random.Normal(), wave_slope * random.Normal(), 1);
+    const double first = random.Normal();
+    const Eigen::Vector2d slope = root * Eigen::Vector2d(first, random.Normal());
+    const Eigen::Vector3d error = ErrorOfSlope(beam, slope.x(), slope.y(), 1);
     sum += error / kDraws;
     squares += error.cwiseAbs2() / kDraws;
   }
-  return known[wave_slope] = (squares - sum.cwiseAbs2()).cwiseSqrt();
+  return (squares - sum.cwiseAbs2()).cwiseSqrt();
+}
+
+// By the azimuth of the beam, degree clockwise from north.
+class SeaSigmas {
+ public:
+  explicit SeaSigmas(const Eigen::Matrix2d& slopes) {
+    for (int i = 0; i < kSteps; ++i) known_.push_back(SigmasOfSlopes(slopes, std::numbers::pi * i / kSteps));
+  }
+  const Eigen::Vector3d& operator()(double azimuth) const {
+    const auto step = std::lround((90 - azimuth) / 180 * kSteps);  // The wind blows to the east.
+    return known_[static_cast<std::size_t>((step % kSteps + kSteps) % kSteps)];
+  }
+
+ private:
+  static constexpr int kSteps = 24;
+  std::vector<Eigen::Vector3d> known_;
+};
+
+const SeaSigmas& SigmasOf(const SimulatedLines& options) {
+  static std::map<std::pair<double, double>, SeaSigmas> known;  // The surveys of a test have the same waves.
+  const double wind = options.declared_wind > 0 ? options.declared_wind : options.wind_speed;
+  const std::pair key(wind, options.wave_slope);
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  const Eigen::Matrix2d slopes = wind > 0
+                                     ? SlopesUnderFootprint(wind)
+                                     : Eigen::Matrix2d(std::pow(options.wave_slope, 2) * Eigen::Matrix2d::Identity());
+  return known.emplace(key, SeaSigmas(slopes)).first->second;
 }
 
 class Line {
  public:
-  Line(const SimulatedLines& options, int number, double course, double middle, RandomNumbers& random)
-      : options_(options), number_(number), course_(course), middle_(middle), random_(random) {
-    for (int i = 0; i < 6; ++i) wander_.emplace_back(0, 1, kSlowest, kFastest, kTerms, random);
+  // `pass`: how many were flown before.
+  Line(const SimulatedLines& options, int pass, int number, double course, double middle, const TravellingSea* sea,
+       RandomNumbers& random)
+      : options_(options),
+        number_(number),
+        course_(course),
+        middle_(middle),
+        start_(kFirstTime + kBetweenLines * pass),
+        sea_(sea),
+        random_(random) {
+    for (int i = 0; i < 6; ++i) {
+      const double mean = options.lasting ? random.Normal() : 0;
+      wander_.emplace_back(options.trajectory * mean, options.lasting ? 0 : options.trajectory, kSlowest, kFastest,
+                           kTerms, random);
+    }
   }
 
   // At `along` and `across` (m, right positive) of the line.
@@ -86,24 +132,37 @@ class Line {
                          .index = kIndexOfWater};
     const AirErrors errors = TrueErrors();
     Eigen::Matrix<double, kAirUnknowns, 1> drawn = Eigen::Matrix<double, kAirUnknowns, 1>::Zero();
-    const double time = along / kSpeed;
+    // A beam that looks ahead meets the water before the aircraft is there.
+    const double ahead = kAltitude * std::tan(kIncidence * kDegree) * std::sqrt(1 - sine * sine) * (backward ? -1 : 1);
+    const double time = (along - ahead) / kSpeed;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
       drawn[kNorth + i] = errors.position[axis] * wander_[axis].At(time);
       drawn[kRoll + i] = errors.attitude[axis] * kDegree * wander_[axis + 3].At(time);
     }
     drawn[kBoresightX] = options_.roll_of_scanner * kDegree;
-    drawn[kScanA] = errors.scan * kDegree * random_.Normal();
-    drawn[kScanB] = errors.scan * kDegree * random_.Normal();
+    drawn[kScanA] = options_.scan * errors.scan * kDegree * random_.Normal();
+    drawn[kScanB] = options_.scan * errors.scan * kDegree * random_.Normal();
     drawn[kBottomRange] = errors.bottom_range * random_.Normal();
     drawn[kSurfaceHeight] = errors.surface_range * std::cos(kIncidence * kDegree) * random_.Normal();
     const Eigen::Matrix<double, kAirUnknowns, 1> none = Eigen::Matrix<double, kAirUnknowns, 1>::Zero();
     const Eigen::Vector3d beam(std::sin(kIncidence * kDegree) * std::cos(azimuth * kDegree),
                                std::sin(kIncidence * kDegree) * std::sin(azimuth * kDegree),
                                std::cos(kIncidence * kDegree));
-    const Eigen::Vector3d error =
-        ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none) +
-        ErrorOfSlope(beam, options_.wave_slope * random_.Normal(), options_.wave_slope * random_.Normal(), depth);
+    const double gps_time = start_ + time;
+    Eigen::Vector2d slope;  // North, east.
+    if (sea_ == nullptr) {
+      slope.x() = options_.wave_slope * random_.Normal();
+      slope.y() = options_.wave_slope * random_.Normal();
+    } else {
+      const double back = depth * std::tan(std::asin(std::sin(kIncidence * kDegree) / kIndexOfWater));
+      const Eigen::Vector2d of_sea =
+          sea_->SlopeAt(x - back * std::sin(azimuth * kDegree), y - back * std::cos(azimuth * kDegree), gps_time);
+      slope = {of_sea.y(), of_sea.x()};
+    }
+    const Eigen::Vector3d error = ReportedPoint<double>(pulse, false, drawn) -
+                                  ReportedPoint<double>(pulse, false, none) +
+                                  ErrorOfSlope(beam, slope.x(), slope.y(), depth);
     const double rough = options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
     quality::AnnotatedPoint& point = points.emplace_back();
     point.x = x + error.y();
@@ -113,7 +172,9 @@ class Line {
     point.has_number = true;
     point.depth = static_cast<float>(depth);
     point.incidence = static_cast<float>(kIncidence);
-    point.tvu_air = static_cast<float>(azimuth);  // Until the budget is computed.
+    point.beam_azimuth = static_cast<float>(azimuth);
+    point.footprint = static_cast<float>(kSeaFootprint);
+    point.time = gps_time;
     headings.push_back(course_);
   }
 
@@ -123,34 +184,36 @@ class Line {
            std::vector<double>& headings) {
     const auto jitter = [&] { return random_.Uniform(0, options_.spacing); };
     for (double along = 0; along + options_.spacing < options_.length; along += options_.spacing)
-      for (double across = -kSwath; across < kSwath; across += options_.spacing) {
-        if (!whole_swath && std::abs(across) < kLineSpacing - kSwath) continue;
+      for (double across = -options_.swath; across < options_.swath; across += options_.spacing) {
+        if (!whole_swath && std::abs(across) < options_.line_spacing - options_.swath) continue;
         const double a = along + jitter(), c = across + jitter();
         const auto [x, y] = place(a, c, middle_);
-        if (InSquare(x, y)) AddPoint(a, c, x, y, points, headings);
+        if (InSquare(x, y, options_)) AddPoint(a, c, x, y, points, headings);
       }
   }
 
  private:
   const SimulatedLines& options_;
   int number_;
-  double course_, middle_;
+  double course_, middle_, start_;
+  const TravellingSea* sea_;  // Null: slopes are drawn anew for each pulse.
   RandomNumbers& random_;
   std::vector<SmoothMotion> wander_;  // Errors of the trajectory, of variance 1.
 };
 
-// Replaces the azimuth by what the budget makes of it. The axis of the sea is taken as that of each beam, because its
+// What the budget predicts. The axis of the sea is taken as that of each beam, because its
 // errors are known along and across it.
-void Predict(const AirErrors& errors, const Eigen::Vector3d& sea, const std::vector<double>& headings,
+void Predict(const AirErrors& errors, const SeaSigmas& sigmas, const std::vector<double>& headings,
              std::vector<quality::AnnotatedPoint>& points) {
   TotalInputs inputs;
   inputs[BudgetInput::kIncidence] = {kIncidence};
   inputs[BudgetInput::kAltitude] = {kAltitude};
-  inputs[BudgetInput::kRefractionAlong] = {static_cast<float>(sea[0])};
-  inputs[BudgetInput::kRefractionCross] = {static_cast<float>(sea[1])};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float depth = points[i].depth;
-    inputs[BudgetInput::kBeamAzimuth].push_back(points[i].tvu_air);
+    const Eigen::Vector3d& sea = sigmas(points[i].beam_azimuth);
+    inputs[BudgetInput::kRefractionAlong].push_back(static_cast<float>(sea[0]));
+    inputs[BudgetInput::kRefractionCross].push_back(static_cast<float>(sea[1]));
+    inputs[BudgetInput::kBeamAzimuth].push_back(points[i].beam_azimuth);
     inputs[BudgetInput::kHeading].push_back(static_cast<float>(headings[i]));
     inputs[BudgetInput::kDepth].push_back(depth);
     inputs[BudgetInput::kSeaThu].push_back(static_cast<float>(2 * std::hypot(sea[0], sea[1])) * depth);
@@ -193,9 +256,12 @@ std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options) {
   RandomNumbers random(options.seed);
   std::vector<quality::AnnotatedPoint> points;
   std::vector<double> headings;
+  std::optional<TravellingSea> waves;
+  if (options.wind_speed > 0) waves.emplace(options.wind_speed, random);
+  const TravellingSea* const sea = waves.has_value() ? &*waves : nullptr;
   for (int i = 0; i < options.lines; ++i) {
     const bool back = options.to_and_fro && i % 2 == 1;  // x is east, y north; flown east, and back west.
-    Line line(options, i + 1, back ? 270 : 90, i * kLineSpacing, random);
+    Line line(options, i, i + 1, back ? 270 : 90, i * options.line_spacing, sea, random);
     line.Fly(
         false,
         [&](double along, double across, double middle) {
@@ -205,11 +271,11 @@ std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options) {
   }
   for (int i = 0; i < options.cross_lines; ++i) {
     const double middle = (i + 0.5) / options.cross_lines * options.length;
-    Line line(options, 101 + i, 0, middle, random);
+    Line line(options, options.lines + i, 101 + i, 0, middle, sea, random);
     line.Fly(
         true,
         [&](double along, double across, double x) {
-          return std::pair(x + across, along - (options.length - (options.lines - 1) * kLineSpacing) / 2);
+          return std::pair(x + across, along - (options.length - (options.lines - 1) * options.line_spacing) / 2);
         },
         points, headings);
   }
@@ -218,7 +284,7 @@ std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options) {
   for (double& each : declared.attitude) each *= options.declared;
   for (double* const each : {&declared.scan, &declared.bottom_range, &declared.surface_range})
     *each *= options.declared;
-  Predict(declared, SeaSigmas(options.wave_slope), headings, points);
+  Predict(declared, SigmasOf(options), headings, points);
   return points;
 }
 

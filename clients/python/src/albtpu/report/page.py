@@ -191,19 +191,21 @@ def _crosscheck(report: Report) -> str:
     rows = [["pairs of neighbouring points", f"{check['pairs']:,}; {check['outliers']} outliers left out"],
             ["reduced chi-square", f"{check['chi_square']:.2f} (1: as predicted); without the mean difference of each"
              f" two lines {check['chi_square_within_lines']:.2f}"],
-            ["σ would have to be multiplied by", verdict.estimate_text(check["factor"])],
-            ["that of the air side by", f"{verdict.estimate_text(check['factor_air'])};"
-             f" it is {100 * check['air_in_variance']:.0f} % of the predicted variance"],
-            ["that of the sea surface by", verdict.estimate_text(check["factor_sea"])],
+            ["σ of pulses would have to be multiplied by", verdict.estimate_text(check["factor_pulse"])],
+            ["of their air side", verdict.estimate_text(check["factor_air"])],
+            ["of the sea surface", verdict.estimate_text(check["factor_sea"])],
+            ["σ of lines would have to be multiplied by", verdict.estimate_text(check["factor_line"])
+             if check["factor_line"] is not None else "no error of a trajectory is predicted"],
             ["beyond 3 σ", f"{percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
-              f"{each['standard_error']:.3f}" if each["standard_error"] is not None else "–"]
+              f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}"]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
-            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (datum, index,"
-            " calibration) cancel and are not tested.</p>" + table(["", ""], rows, "words")
+            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (lever arm, boresight,"
+            " clock, index, water level, datum) cancel and are not tested.</p>" + table(["", ""], rows, "words")
             + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
-            + table(["lines", "pairs", "mean difference [m]", "standard error [m]"], lines, "sortable"))
+            + table(["lines", "pairs", "mean difference [m]", "standard error [m]",
+                     "predicted of both trajectories [m]"], lines, "sortable"))
 
 
 def _files(report: Report) -> str:

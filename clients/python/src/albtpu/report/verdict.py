@@ -54,6 +54,8 @@ def limit_text(limit: dict[str, Any] | None) -> str:
 
 def estimate_text(estimate: dict[str, Any]) -> str:
     """ "1.02 (95 %: 0.96 to 1.08)" """
+    if estimate["value"] is None:
+        return "not known"
     if estimate["low"] is None:
         return f"{estimate['value']:.2f} (a single overlap gives no interval)"
     return f"{estimate['value']:.2f} (95 %: {estimate['low']:.2f} to {estimate['high']:.2f})"
@@ -140,19 +142,20 @@ def nothing_to_compare(report: Report) -> str:
     return f"{reason[:1].upper()}{reason[1:]}, so the files cannot show whether the prediction is right."
 
 
+# By `guilty_share` of the cross-check.
+GUILTY = {"trajectory": "the trajectory", "air": "the air side of pulses (scanner, ranges)", "sea": "the sea surface",
+          "pulse": "pulses (air side or sea, which the pairs cannot tell apart)"}
+
+
 def _truth(report: Report) -> str:
     check = report["crosscheck"]
     if check is None:
         return nothing_to_compare(report)
-    factor = check["factor"]
-    text = f"Overlapping lines: σ would have to be {estimate_text(factor)} times as large"
-    if factor["low"] is None:
-        return text + "."
-    if factor["low"] <= 1 <= factor["high"]:
-        return text + ", which agrees with the prediction."
-    if abs(factor["value"] - 1) < 0.1 and not check["guilty_share"]:
-        return text + ", which agrees with the prediction within 10 %."
-    word = "small" if factor["value"] > 1 else "large"
-    name = {"air": "air side", "sea": "sea surface"}.get(check["guilty_share"])
-    guilty = f"; the {name} differs most" if name else ""
-    return text + f": the prediction is too {word}{guilty}."
+    text = f"Overlapping lines: σ of pulses would have to be {estimate_text(check['factor_pulse'])} times as large"
+    if check["factor_line"] is not None:
+        text += f", σ of lines {estimate_text(check['factor_line'])}"
+    name = GUILTY.get(check["guilty_share"])
+    if name is None:
+        return text + "; no part differs from its prediction by 10 % and beyond an interval of 99.5 %."
+    factor = check["factor_line" if check["guilty_share"] == "trajectory" else "factor_pulse"]
+    return text + f": the prediction of {name} is too {'small' if factor['value'] > 1 else 'large'}."

@@ -1,4 +1,4 @@
-#include "quality/crosscheck/variance_fit.h"
+#include "quality/crosscheck/pulse_part.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 namespace albtpu::quality {
 namespace {
 
-constexpr double kTail95 = 0.025, kTail99 = 0.005;  // Of two-sided intervals.
-// Of a variance in weights: no pair may have none, or it would have all weight.
+constexpr double kTail95 = 0.025;  // Of two-sided intervals.
+// Of a variance in weights: no sample may have none, or it would have all weight.
 constexpr double kMinFactor = 0.05;
 
 // The fitted terms: air, sea, and the square of the distance.
@@ -36,11 +36,11 @@ struct Sums {
   }
 };
 
-Terms TermsOf(const CrossPair& pair) { return {pair.variance_air, pair.variance_sea, std::pow(pair.distance, 2)}; }
+Terms TermsOf(const PulseSample& sample) { return {sample.air, sample.sea, sample.distance}; }
 
-double VarianceBy(const Terms& factors, const CrossPair& pair) {
-  const Terms terms = TermsOf(pair);
-  double variance = pair.variance_slope;
+double VarianceBy(const Terms& factors, const PulseSample& sample) {
+  const Terms terms = TermsOf(sample);
+  double variance = sample.slope;
   for (std::size_t i = 0; i < kTerms; ++i) variance += factors[i] * terms[i];
   return variance;
 }
@@ -96,82 +96,50 @@ Terms SolveNonNegative(const Sums& sums, unsigned allowed) {
   return best;
 }
 
-// The units of the jackknife: each has some of the cells, which are the pairs of two lines, or places.
-struct Units {
-  std::string name;
-  std::vector<std::size_t> cell_of = {};  // By pair.
-  std::size_t cells = 0;
-  std::vector<std::vector<std::size_t>> members = {};  // Cells of each unit.
-};
-
-Units UnitsOf(const std::vector<CrossPair>& pairs) {
-  Units units{.name = "lines"};
-  std::map<std::pair<int, int>, std::size_t> cells;
-  std::map<int, std::vector<std::size_t>> lines;
-  for (const CrossPair& pair : pairs) {
-    const auto [cell, is_new] = cells.try_emplace({pair.line_a, pair.line_b}, cells.size());
-    if (is_new)
-      for (const int line : {pair.line_a, pair.line_b}) lines[line].push_back(cell->second);
-    units.cell_of.push_back(cell->second);
-  }
-  if (lines.size() >= kMinLines) {
-    for (auto& [line, members] : lines) units.members.push_back(std::move(members));
-  } else {
-    units = {.name = "places"};
-    cells.clear();
-    for (const CrossPair& pair : pairs) {
-      const auto [cell, is_new] = cells.try_emplace(PlaceOf(pair), cells.size());
-      if (is_new) units.members.push_back({cell->second});
-      units.cell_of.push_back(cell->second);
-    }
-  }
-  units.cells = cells.size();
-  return units;
-}
-
-// Sums of each cell, weighted by the inverse square of the variance that `factors` give: the variance of a squared
+// Sums of each place, weighted by the inverse square of the variance that `factors` give: the variance of a squared
 // difference is twice its square.
-std::vector<Sums> SumCells(const std::vector<CrossPair>& pairs, const Units& units, const Terms& factors,
-                           double rough) {
-  std::vector<Sums> cells(units.cells);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const CrossPair& pair = pairs[k];
-    const double weight = 1 / std::pow(VarianceBy(factors, pair), 2);
-    const Terms terms = TermsOf(pair);
-    const double square = std::pow(pair.difference, 2) - pair.variance_slope;
-    Sums& sums = cells[units.cell_of[k]];
+std::vector<Sums> SumPlaces(const std::vector<PulseSample>& samples, const Terms& factors, double rough) {
+  std::map<Place, Sums> places;
+  for (const PulseSample& sample : samples) {
+    const double weight = 1 / std::pow(VarianceBy(factors, sample), 2);
+    const Terms terms = TermsOf(sample);
+    const double square = sample.square - sample.slope;
+    Sums& sums = places[sample.place];
     for (std::size_t i = 0; i < kTerms; ++i) {
       for (std::size_t j = 0; j < kTerms; ++j) sums.products[i][j] += weight * terms[i] * terms[j];
       sums.targets[i] += weight * terms[i] * square;
     }
+    if (!sample.across) continue;
     const double predicted = terms[kAir] + terms[kSea];
     sums.variance_squares += weight * predicted * predicted;
     sums.variance_targets += weight * predicted * (square - rough * terms[kRough]);
   }
-  return cells;
+  std::vector<Sums> list;
+  for (const auto& [place, sums] : places) list.push_back(sums);
+  return list;
 }
 
-Sums Total(const std::vector<Sums>& cells) {
+Sums Total(const std::vector<Sums>& places) {
   Sums total;
-  for (const Sums& cell : cells) total.Add(cell, 1);
+  for (const Sums& place : places) total.Add(place, 1);
   return total;
 }
 
-// `number` of all pairs, and without each unit.
+// `number` of all places, and without each.
 template <typename Number>
-std::vector<double> Jackknife(const std::vector<Sums>& cells, const Units& units, const Number& number) {
-  const Sums total = Total(cells);
+std::vector<double> Jackknife(const std::vector<Sums>& places, const Number& number) {
+  const Sums total = Total(places);
   std::vector<double> values = {number(total)};
-  for (const std::vector<std::size_t>& members : units.members) {
+  for (const Sums& place : places) {
     Sums left = total;
-    for (const std::size_t cell : members) left.Add(cells[cell], -1);
+    left.Add(place, -1);
     values.push_back(number(left));
   }
   return values;
 }
 
 // How far an interval with `tail` on each side reaches from the first of `values`, those of Jackknife. Infinitely far
-// of less than two units.
+// of less than two places.
 double ReachOf(const std::vector<double>& values, double tail) {
   const auto count = static_cast<double>(values.size() - 1);
   if (count < 2) return std::numeric_limits<double>::infinity();
@@ -191,42 +159,82 @@ double OneFactor(const Sums& sums) {
   return sums.variance_squares > 0 ? std::sqrt(std::max(sums.variance_targets / sums.variance_squares, 0.0)) : 0;
 }
 
+// Whether an interval lies on the side of 1 on which the part does.
+bool LiesOnSide(const Estimate& interval, bool above) { return above ? interval.low > 1 : interval.high < 1; }
+
 }  // namespace
 
-Place PlaceOf(const CrossPair& pair) {
-  return {static_cast<int>(std::floor(pair.x / kPlace)), static_cast<int>(std::floor(pair.y / kPlace))};
+std::vector<PulseSample> PulseSamples(const PatchPairs& pairs, const PairGroups& groups, const SharedWaves& waves) {
+  std::vector<PulseSample> samples;
+  for (const PairGroup& cell : groups.cells) {
+    const double n = cell.count();
+    if (n < 2) continue;
+    double sea = 0;
+    for (const std::size_t i : cell.pairs) sea += pairs.across[i].variance_sea();
+    // Of the sum of squares about the mean, the mean has taken n times its variance.
+    const double left = 1 - 1 / n, left_of_sea = sea > 0 ? std::max(1 - n * cell.noise_of_sea / sea, 0.0) : 0;
+    for (const std::size_t i : cell.pairs) {
+      const CrossPair& pair = pairs.across[i];
+      samples.push_back({.place = PlaceOf(pair, groups.place),
+                         .square = std::pow(pair.difference - cell.mean, 2),
+                         .air = left * pair.variance_air(),
+                         .sea = left_of_sea * pair.variance_sea(),
+                         .slope = left * pair.variance_slope,
+                         .distance = left * std::pow(pair.distance, 2)});
+    }
+  }
+  for (const CrossPair& pair : pairs.within) {
+    if (pair.a.pulse.sea == PulseOnWater::kNoSea) continue;
+    const double shared =
+        std::sqrt(double{pair.a.variance_sea} * pair.b.variance_sea) * waves(pair.a.pulse, pair.b.pulse);
+    samples.push_back({.place = PlaceOf(pair, groups.place),
+                       .across = false,
+                       .square = std::pow(pair.difference, 2),
+                       .air = pair.variance_air(),
+                       .sea = std::max(pair.variance_sea() - 2 * shared, 0.0),
+                       .slope = pair.variance_slope,
+                       .distance = std::pow(pair.distance, 2)});
+  }
+  std::erase_if(samples, [](const PulseSample& sample) { return !(sample.air + sample.sea > 0); });
+  return samples;
 }
 
-double PredictedVariance(const CrossPair& pair, double rough) { return VarianceBy({1, 1, rough}, pair); }
-
-VarianceFit FitVariance(const std::vector<CrossPair>& pairs, double factor) {
+PulsePart FitPulses(const std::vector<PulseSample>& samples, double guess) {
+  PulsePart part;
+  part.factor.value = part.air.value = part.sea.value = std::nan("");
+  if (samples.empty()) return part;
   constexpr unsigned kAll = (1U << kTerms) - 1, kSmooth = kAll & ~(1U << kRough);
-  const Units units = UnitsOf(pairs);
-  const double guess = factor * factor;
-  Terms factors = {guess, guess, 0};
-  std::vector<Sums> cells;
+  const double squared = guess * guess;
+  Terms factors = {squared, squared, 0};
+  std::vector<Sums> places;
   for (int pass = 0; pass < 3; ++pass) {
-    cells = SumCells(pairs, units, factors, 0);
-    factors = SolveNonNegative(Total(cells), kAll);
-    for (const Term term : {kAir, kSea}) factors[term] = std::max(factors[term], kMinFactor * guess);
+    places = SumPlaces(samples, factors, 0);
+    factors = SolveNonNegative(Total(places), kAll);
+    for (const Term term : {kAir, kSea}) factors[term] = std::max(factors[term], kMinFactor * squared);
   }
-  const auto rough = [](const Sums& sums) { return SolveNonNegative(sums, kAll)[kRough]; };
-  const std::vector<double> roughness = Jackknife(cells, units, rough);
+  const std::vector<double> roughness =
+      Jackknife(places, [](const Sums& sums) { return SolveNonNegative(sums, kAll)[kRough]; });
   const bool smooth = !(roughness[0] > ReachOf(roughness, kTail95));
   if (smooth) factors[kRough] = 0;
-  cells = SumCells(pairs, units, factors, factors[kRough]);
+  places = SumPlaces(samples, factors, factors[kRough]);
   const unsigned allowed = smooth ? kSmooth : kAll;
-  const auto of_share = [&](Term term) {
-    return Jackknife(cells, units, [=](const Sums& sums) { return std::sqrt(SolveNonNegative(sums, allowed)[term]); });
+  const auto of = [&](Term term) {
+    return Jackknife(places, [=](const Sums& sums) { return std::sqrt(SolveNonNegative(sums, allowed)[term]); });
   };
-  const std::vector<double> air = of_share(kAir), sea = of_share(kSea);
-  return {.factor = IntervalOf(Jackknife(cells, units, OneFactor), kTail95),
-          .air = IntervalOf(air, kTail95),
-          .sea = IntervalOf(sea, kTail95),
-          .air_differs = IntervalOf(air, kTail99).excludes(1),
-          .sea_differs = IntervalOf(sea, kTail99).excludes(1),
-          .rough = factors[kRough],
-          .units = units.name};
+  const std::vector<double> one = Jackknife(places, OneFactor), air = of(kAir), sea = of(kSea);
+  part.factor = IntervalOf(one, kTail95);
+  part.air = IntervalOf(air, kTail95);
+  part.sea = IntervalOf(sea, kTail95);
+  part.rough = factors[kRough];
+  part.places = places.size();
+  part.differs = std::abs(part.factor.value - 1) >= kMinDifference && IntervalOf(one, kTailOfPart).excludes(1);
+  if (part.differs) {
+    const bool above = part.factor.value > 1;
+    const bool of_air = LiesOnSide(IntervalOf(air, kTailOfPart), above),
+               of_sea = LiesOnSide(IntervalOf(sea, kTailOfPart), above);
+    if (of_air != of_sea) part.named = of_air ? "air" : "sea";
+  }
+  return part;
 }
 
 }  // namespace albtpu::quality

@@ -1,10 +1,11 @@
+#include "quality/seas/seas_of_files.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
 #include "absl/strings/str_cat.h"
-#include "quality/surface/survey_surface.h"
 #include "sea/angle.h"
 #include "sea/files/sea_series.h"
 #include "sea/sea_state.h"

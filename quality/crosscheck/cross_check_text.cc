@@ -1,0 +1,136 @@
+// What a cross-check says, for programs and for people.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "quality/crosscheck/cross_check.h"
+
+namespace albtpu::quality {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json NumberJson(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+
+Json EstimateJson(const Estimate& estimate) {
+  Json json = {{"value", NumberJson(estimate.value)}, {"low", nullptr}, {"high", nullptr}};
+  if (std::isfinite(estimate.high)) json["low"] = estimate.low, json["high"] = estimate.high;
+  return json;
+}
+
+Json BandsJson(const std::vector<CrossBand>& bands) {
+  Json list = Json::array();
+  for (const CrossBand& band : bands)
+    list.push_back(
+        {{"from", band.from}, {"to", NumberJson(band.to)}, {"pairs", band.pairs}, {"chi_square", band.chi_square}});
+  return list;
+}
+
+Json LinesJson(const std::vector<LineDifference>& lines) {
+  Json list = Json::array();
+  for (const LineDifference& line : lines) {
+    list.push_back({{"a", line.line_a},
+                    {"b", line.line_b},
+                    {"pairs", line.pairs},
+                    {"mean_difference", line.mean},
+                    {"standard_error", line.standard_error},
+                    {"predicted", line.predicted},
+                    {"z", line.z()}});
+    if (std::isfinite(line.begin_a)) list.back()["a_begin"] = line.begin_a;
+    if (std::isfinite(line.begin_b)) list.back()["b_begin"] = line.begin_b;
+  }
+  return list;
+}
+
+std::string EstimateText(const Estimate& estimate) {
+  if (!std::isfinite(estimate.value)) return "not known: too few pairs are close together";
+  if (!std::isfinite(estimate.high)) return absl::StrFormat("%.2f (one place gives no interval)", estimate.value);
+  return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", estimate.value, estimate.low, estimate.high);
+}
+
+std::string VerdictText(const CrossCheck& check) {
+  if (check.guilty.empty())
+    return absl::StrFormat("no part differs from its prediction by %.0f %% and beyond an interval of 99.5 %%\n",
+                           100 * kMinDifference);
+  if (check.guilty == "pulse")
+    return absl::StrCat(
+        "pulses differ from their prediction; whether it is the air side or the sea, these pairs cannot "
+        "tell",
+        check.sea_known ? "\n" : " without the sea: give it by --survey or flags\n");
+  const char* const name = check.guilty == "air"   ? "the air side of pulses (scanner, ranges)"
+                           : check.guilty == "sea" ? "the sea surface"
+                                                   : "the trajectory of lines";
+  return absl::StrCat("what differs from its prediction: ", name, "\n");
+}
+
+}  // namespace
+
+Json CrossCheckJson(const CrossCheck& check) {
+  Json json = {{"pairs", check.pairs},
+               {"outliers", check.outliers},
+               {"chi_square", check.chi_square},
+               {"chi_square_within_lines", check.chi_square_within_lines},
+               {"beyond_three_sigma", check.beyond_three_sigma},
+               {"median_factor", check.median_factor},
+               {"factor", EstimateJson(check.factor)},
+               {"factor_pulse", EstimateJson(check.pulse.factor)},
+               {"factor_air", EstimateJson(check.pulse.air)},
+               {"factor_sea", EstimateJson(check.pulse.sea)},
+               {"factor_line", nullptr},
+               {"pulse_differs", check.pulse.differs},
+               {"line_differs", check.line.differs},
+               {"intervals_by", "places"},
+               {"places", check.pulse.places},
+               {"line_degrees_of_freedom", check.line.degrees},
+               {"line_lasting", check.line.lasting},
+               {"noise_of_means", check.line.noise},
+               {"sea_known", check.sea_known},
+               {"air_in_variance", check.air_in_variance},
+               {"line_in_variance", check.line_in_variance},
+               {"roughness", std::sqrt(check.pulse.rough)},
+               {"guilty_share", nullptr},
+               {"by_depth", BandsJson(check.by_depth)},
+               {"by_incidence", BandsJson(check.by_incidence)},
+               {"by_share_of_sea", BandsJson(check.by_sea_share)},
+               {"lines", LinesJson(check.line.differences)}};
+  if (check.line.factor.has_value()) json["factor_line"] = EstimateJson(*check.line.factor);
+  if (!check.guilty.empty()) json["guilty_share"] = check.guilty;
+  if (!check.left_out.empty()) json["left_out"] = LeftOutJson(check.left_out);
+  return json;
+}
+
+std::string CrossCheckText(const CrossCheck& check) {
+  std::string text = absl::StrFormat(
+      "%d pairs of neighbouring points of different lines, %d outliers left out\n"
+      "reduced chi-square                   %.2f; without the mean difference of each two lines %.2f\n"
+      "predicted sigma would have to be multiplied by\n"
+      "  of pulses, %3.0f %% of the variance    %s\n"
+      "    of their air side                %s\n"
+      "    of the sea surface               %s\n",
+      check.pairs, check.outliers, check.chi_square, check.chi_square_within_lines, 100 * (1 - check.line_in_variance),
+      EstimateText(check.pulse.factor), EstimateText(check.pulse.air), EstimateText(check.pulse.sea));
+  if (check.line.factor.has_value()) {
+    absl::StrAppendFormat(&text, "  of lines, %3.0f %%                     %s, by %.1f degrees of freedom\n",
+                          100 * check.line_in_variance, EstimateText(*check.line.factor), check.line.degrees);
+  } else {
+    absl::StrAppend(&text, "  of lines                           not tested: no trajectory error is predicted\n");
+  }
+  absl::StrAppend(&text, VerdictText(check));
+  if (!check.sea_known) absl::StrAppend(&text, "the sea is not known: waves are taken as independent\n");
+  absl::StrAppend(&text,
+                  "not tested, because all lines share it: lever arm, boresight, clock, index, water level, datum\n");
+  if (!check.left_out.empty()) absl::StrAppend(&text, LeftOutText(check.left_out), "\n");
+  constexpr std::size_t kShown = 5;
+  for (std::size_t i = 0; i < std::min(kShown, check.line.differences.size()); ++i) {
+    const LineDifference& line = check.line.differences[i];
+    absl::StrAppendFormat(&text, "%s lies %+.3f m above %s (standard error %.3f m, predicted %.3f m, %d pairs)\n",
+                          NameOf(FlightLine{line.line_a, line.begin_a}), line.mean,
+                          NameOf(FlightLine{line.line_b, line.begin_b}), line.standard_error, line.predicted,
+                          line.pairs);
+  }
+  return text;
+}
+
+}  // namespace albtpu::quality

@@ -1,0 +1,71 @@
+// What two pulses of one line share of the waves: the correlation of the sea's share in their heights.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "quality/seas/seas_of_files.h"
+#include "sea/correlation/moving_waves.h"
+
+namespace albtpu::quality {
+
+// A point of the bottom and its beam. Angles in degree, as annotated files have them.
+struct PointOfBeam {
+  double x = 0, y = 0, depth = 0;     // m; east and north.
+  double incidence = 0, azimuth = 0;  // In air; the direction of travel, clockwise from north.
+  double footprint = 0;               // m
+};
+
+// Where and when a pulse met the water.
+struct PulseOnWater {
+  static constexpr std::uint16_t kNoSea = std::numeric_limits<std::uint16_t>::max();
+
+  // `time` in s, 0 where it is not known; `sea` of SharedWaves::Add(), or kNoSea.
+  static PulseOnWater Of(const PointOfBeam& point, double time, std::uint16_t sea);
+
+  double x = 0, y = 0, time = 0;
+  float along_x = 0, along_y = 0;  // The unit vector of the beam's horizontal direction.
+  float tangent = 0;               // Of the angle of the refracted beam from the vertical.
+  float footprint = 0;
+  std::uint16_t sea = kNoSea;
+};
+
+// Pulses of different lines are minutes apart and share nothing; nor do those of different seas.
+//
+// The height of a point errs in proportion to the slope of the water along its beam, of which u C(dx, dt) u' is the
+// covariance (sea/correlation), u and u' the directions of the two beams. At nadir, where the height errs by squares of
+// slopes alone, their correlation is the square of this one; in between, by the tangent of the incidence, it is that of
+// the sum of both. Distances are rounded to 0.25 m, from 4 m on to 1 m and from 16 m on to 4 m, times to 0.1 s,
+// footprints to 10 %. Not for several threads at a time.
+class SharedWaves {
+ public:
+  // Beyond these they are taken to share nothing.
+  static constexpr double kReach = 40, kPause = 1;  // m, s
+
+  std::uint16_t Add(const SeaOfSource& sea);
+  std::size_t seas() const { return seas_.size(); }
+
+  double operator()(const PulseOnWater& a, const PulseOnWater& b) const;
+
+ private:
+  // Of one footprint: the covariance of slopes, on the map, of one pulse and, by steps of place and time, of two.
+  struct Footprint {
+    FootprintWaves waves;
+    Eigen::Matrix2d whole;
+    std::vector<Eigen::Matrix2f> known;  // NaN: not yet.
+  };
+  struct Sea {
+    std::unique_ptr<const MovingWaves> waves;
+    Eigen::Matrix2d to_map;
+    double slope_variance;                           // Of one component, the mean of both.
+    mutable std::map<int, Footprint> of_footprints;  // By steps of the logarithm.
+  };
+
+  std::vector<Sea> seas_;
+};
+
+}  // namespace albtpu::quality
