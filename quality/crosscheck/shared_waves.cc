@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
@@ -22,22 +23,24 @@ struct Steps {
   double from, step;  // m
   int first;          // The number at `from`.
 };
-constexpr Steps kSteps[] = {{0, 0.25, 0}, {4, 1, 16}, {16, 4, 28}};
+constexpr Steps kSteps[] = {{0, 0.05, 0}, {1, 0.25, 20}, {4, 1, 32}, {16, 4, 44}};
 
 int StepOf(double length) {
   const double size = std::abs(length);
-  const Steps& of = size < kSteps[1].from ? kSteps[0] : size < kSteps[2].from ? kSteps[1] : kSteps[2];
+  const Steps& of = *std::ranges::find_if(std::rbegin(kSteps), std::rend(kSteps),
+                                          [size](const Steps& each) { return size >= each.from; });
   const int step = of.first + static_cast<int>(std::lround((size - of.from) / of.step));
   return length < 0 ? -step : step;
 }
 
-constexpr int kFarthest = 28 + static_cast<int>((SharedWaves::kReach - 16) / 4);
+constexpr int kFarthest = 44 + static_cast<int>((SharedWaves::kReach - 16) / 4);
 constexpr int kLatest = static_cast<int>(SharedWaves::kPause / kTimeStep + 0.5);
 constexpr int kPlaces = 2 * kFarthest + 1, kTimes = 2 * kLatest + 1;
 
 double LengthOf(int step) {
   const int size = std::abs(step);
-  const Steps& of = size < kSteps[1].first ? kSteps[0] : size < kSteps[2].first ? kSteps[1] : kSteps[2];
+  const Steps& of = *std::ranges::find_if(std::rbegin(kSteps), std::rend(kSteps),
+                                          [size](const Steps& each) { return size >= each.first; });
   const double length = of.from + (size - of.first) * of.step;
   return step < 0 ? -length : length;
 }

@@ -2,6 +2,7 @@
 // errors of a trajectory last for whole lines. ALBTPU_EVERY_CASE=1 measures 200 blocks of each kind.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -113,16 +113,16 @@ TEST(FlightLines, AreComparedInPatches) {
     OverlapPatches patches(5, 1, Coverage::kOneSigma);
     patches.Find(points);
     patches.Choose();
-    patches.Fill(points);
-    const std::optional<CrossCheck> check = CheckPatches(patches);
+    patches.Fill(points, PulseOnWater::kNoSea);
+    const std::optional<CrossCheck> check = CheckPatches(patches, SharedWaves());
     ASSERT_EQ(check.has_value(), of.compared) << of.first << " " << of.second << " " << of.pause;
     if (!check.has_value()) continue;
-    ASSERT_EQ(check->lines.size(), 1u);
-    EXPECT_EQ(check->lines[0].line_a, of.first);
-    EXPECT_EQ(check->lines[0].line_b, of.second);
+    ASSERT_EQ(check->line.differences.size(), 1u);
+    EXPECT_EQ(check->line.differences[0].line_a, of.first);
+    EXPECT_EQ(check->line.differences[0].line_b, of.second);
     // A mean of 80 pairs or so, of a difference of 0.07 m each.
-    EXPECT_NEAR(check->lines[0].mean, -0.1, 4 * 0.071 / std::sqrt(static_cast<double>(check->pairs)));
-    EXPECT_EQ(std::isnan(check->lines[0].begin_a), of.first != of.second);
+    EXPECT_NEAR(check->line.differences[0].mean, -0.1, 4 * 0.071 / std::sqrt(static_cast<double>(check->pairs)));
+    EXPECT_EQ(std::isnan(check->line.differences[0].begin_a), of.first != of.second);
   }
 }
 

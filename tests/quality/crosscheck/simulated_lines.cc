@@ -160,14 +160,18 @@ class Line {
           sea_->SlopeAt(x - back * std::sin(azimuth * kDegree), y - back * std::cos(azimuth * kDegree), gps_time);
       slope = {of_sea.y(), of_sea.x()};
     }
-    const Eigen::Vector3d error = ReportedPoint<double>(pulse, false, drawn) -
-                                  ReportedPoint<double>(pulse, false, none) +
-                                  ErrorOfSlope(beam, slope.x(), slope.y(), depth);
-    const double rough = options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
+    // Still water would refract the pulse to (x, y), where it is reported but for errors of the air side; waves refract
+    // it to another place. What is reported therefore lies where the pulse met the water, whatever the waves do.
+    const Eigen::Vector3d of_waves = ErrorOfSlope(beam, slope.x(), slope.y(), depth);
+    const double east = x - of_waves.y(), north = y - of_waves.x();
+    const Eigen::Vector3d error =
+        ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none);
+    const double rough =
+        options_.bottom_waves * std::sqrt(2) * std::sin(east * 0.9 + 0.7 * north + 3 * std::sin(north * 0.31));
     quality::AnnotatedPoint& point = points.emplace_back();
     point.x = x + error.y();
     point.y = y + error.x();
-    point.z = -depth - error.z() + rough;
+    point.z = -Depth(east, north, options_.bottom_slope) - of_waves.z() - error.z() + rough;
     point.line = number_;
     point.has_number = true;
     point.depth = static_cast<float>(depth);
