@@ -1,18 +1,26 @@
 #include "quality/crosscheck/pair_groups.h"
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <tuple>
 
 namespace albtpu::quality {
 namespace {
 
-using Key = std::tuple<std::uint16_t, std::uint16_t, Place>;  // Lines and square.
+// Lines, square, and when each line saw it, in steps of kLook.
+using Key = std::tuple<std::uint16_t, std::uint16_t, Place, std::int64_t, std::int64_t>;
+
+Key KeyOf(const CrossPair& pair, double side) {
+  const auto look = [](const PairedPoint& point) {
+    return std::isfinite(point.pulse.time) ? static_cast<std::int64_t>(std::floor(point.pulse.time / kLook)) : 0;
+  };
+  return {pair.line_a, pair.line_b, PlaceOf(pair, side), look(pair.a), look(pair.b)};
+}
 
 std::map<Key, std::vector<std::size_t>> InSquares(const std::vector<CrossPair>& pairs, double side) {
   std::map<Key, std::vector<std::size_t>> squares;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    squares[{pairs[i].line_a, pairs[i].line_b, PlaceOf(pairs[i], side)}].push_back(i);
+  for (std::size_t i = 0; i < pairs.size(); ++i) squares[KeyOf(pairs[i], side)].push_back(i);
   return squares;
 }
 
@@ -71,7 +79,7 @@ PairGroups GroupPairs(const std::vector<CrossPair>& across, double patch, const 
   for (auto& [key, numbers] : squares) {
     const CrossPair& first = across[numbers.front()];
     PairGroup& cell = groups.cells.emplace_back(GroupOf(across, key, std::move(numbers), waves));
-    cell.within = places.at({first.line_a, first.line_b, PlaceOf(first, groups.place)});
+    cell.within = places.at(KeyOf(first, groups.place));
   }
   return groups;
 }

@@ -1,6 +1,6 @@
 // Pairs of points that are close together: what they differ by on average, and how certain their mean is.
 //
-// Pairs of the same two lines in one place share waves and the errors of both trajectories. The mean of their
+// Pairs of the same two lines in one place, seen at one time, share waves and the errors of both trajectories. The mean of their
 // differences therefore has the variance
 //     V_line + noise,    noise = (sum over pairs of V_air + sum over each two pairs of the covariance of waves) / n^2,
 // with C(dx, dt) of each line by itself, because two lines see the sea at other times.
@@ -29,7 +29,8 @@ struct Place {
 };
 Place PlaceOf(const CrossPair& pair, double side);
 
-// The pairs of two lines in a square.
+// The pairs of two lines in a square, each seen at one time: a scanner that looks ahead and back sees it twice, seconds
+// apart, with other errors of the trajectory.
 struct PairGroup {
   std::uint16_t line_a = 0, line_b = 0;
   std::vector<std::size_t> pairs;  // Their numbers.
@@ -53,7 +54,8 @@ struct PairGroups {
 
 // A cell is 5 patches wide, or so many more that two lines have kPairsOfCell pairs in one.
 inline constexpr int kCellsAlongPlace = 4;
-inline constexpr double kPairsOfCell = 8;
+inline constexpr double kPairsOfCell = 4;
+inline constexpr double kLook = 2;  // s
 PairGroups GroupPairs(const std::vector<CrossPair>& across, double patch, const SharedWaves& waves);
 
 }  // namespace albtpu::quality
