@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace albtpu::quality {
@@ -33,22 +34,25 @@ PairGroup GroupOf(const std::vector<CrossPair>& pairs, const Key& key, std::vect
                   const SharedWaves& waves) {
   PairGroup group{.line_a = std::get<0>(key), .line_b = std::get<1>(key), .pairs = std::move(numbers)};
   const double n = group.count();
-  double air = 0, sea = 0, each_sea = 0;
+  double air = 0, each_sea = 0;
+  group.sea_rows.resize(group.pairs.size());
   for (std::size_t i = 0; i < group.pairs.size(); ++i) {
     const CrossPair& pair = pairs[group.pairs[i]];
     group.mean += pair.difference / n;
     air += pair.variance_air() + pair.variance_slope;
     each_sea += pair.variance_sea();
+    group.sea_rows[i] += pair.variance_sea();
     for (std::size_t j = 0; j < i; ++j) {
       const CrossPair& other = pairs[group.pairs[j]];
-      sea += 2 * (Shared(pair.a, other.a, waves) + Shared(pair.b, other.b, waves));
+      const double shared = Shared(pair.a, other.a, waves) + Shared(pair.b, other.b, waves);
+      group.sea_rows[i] += shared;
+      group.sea_rows[j] += shared;
     }
     group.line_a_variance += pair.a.variance_line / n;
     group.line_b_variance += pair.b.variance_line / n;
     group.line_product += std::sqrt(double{pair.a.variance_line} * pair.b.variance_line) / n;
   }
-  // Sums of a measured spectrum may be slightly negative.
-  group.noise_of_sea = std::max(sea + each_sea, 0.0) / (n * n);
+  group.noise_of_sea = std::accumulate(group.sea_rows.begin(), group.sea_rows.end(), 0.0) / (n * n);
   group.noise = group.noise_of_sea + air / (n * n);
   group.of_pair = (air + each_sea) / n;
   return group;

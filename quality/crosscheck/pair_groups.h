@@ -33,9 +33,10 @@ Place PlaceOf(const CrossPair& pair, double side);
 // apart, with other errors of the trajectory.
 struct PairGroup {
   std::uint16_t line_a = 0, line_b = 0;
-  std::vector<std::size_t> pairs;  // Their numbers.
-  std::size_t within = 0;          // Of a cell: the number of its place.
-  double mean = 0;                 // m, of the differences.
+  std::vector<std::size_t> pairs;     // Their numbers.
+  std::vector<double> sea_rows = {};  // m^2, for each pair: the covariances of its waves with those of all, itself too.
+  std::size_t within = 0;             // Of a cell: the number of its place.
+  double mean = 0;                    // m, of the differences.
   // m^2, variances: of the mean, by pulse and sea; the sea's part of that; of all that a pair has anew, the mean.
   double noise = 0, noise_of_sea = 0, of_pair = 0;
   // m^2, means over the pairs: of each line, and of the product of both standard deviations.

@@ -169,18 +169,23 @@ std::vector<PulseSample> PulseSamples(const PatchPairs& pairs, const PairGroups&
   for (const PairGroup& cell : groups.cells) {
     const double n = cell.count();
     if (n < 2) continue;
-    double sea = 0;
-    for (const std::size_t i : cell.pairs) sea += pairs.across[i].variance_sea();
-    // Of the sum of squares about the mean, the mean has taken n times its variance.
-    const double left = 1 - 1 / n, left_of_sea = sea > 0 ? std::max(1 - n * cell.noise_of_sea / sea, 0.0) : 0;
+    double air = 0, slope = 0, distance = 0;  // Sums.
     for (const std::size_t i : cell.pairs) {
       const CrossPair& pair = pairs.across[i];
+      air += pair.variance_air(), slope += pair.variance_slope, distance += std::pow(pair.distance, 2);
+    }
+    // The variance of a difference less the mean: its own, less twice its covariance with the mean, and that of the
+    // mean.
+    const auto less_mean = [n](double own, double sum) { return own * (1 - 2 / n) + sum / (n * n); };
+    for (std::size_t k = 0; k < cell.pairs.size(); ++k) {
+      const CrossPair& pair = pairs.across[cell.pairs[k]];
+      const double sea = pair.variance_sea() - 2 * cell.sea_rows[k] / n + cell.noise_of_sea;
       samples.push_back({.place = PlaceOf(pair, groups.place),
                          .square = std::pow(pair.difference - cell.mean, 2),
-                         .air = left * pair.variance_air(),
-                         .sea = left_of_sea * pair.variance_sea(),
-                         .slope = left * pair.variance_slope,
-                         .distance = left * std::pow(pair.distance, 2)});
+                         .air = less_mean(pair.variance_air(), air),
+                         .sea = std::max(sea, 0.0),
+                         .slope = less_mean(pair.variance_slope, slope),
+                         .distance = less_mean(std::pow(pair.distance, 2), distance)});
     }
   }
   for (const CrossPair& pair : pairs.within) {

@@ -18,8 +18,9 @@ namespace albtpu::testing {
 namespace {
 
 constexpr double kAltitude = 400, kIncidence = 20, kSpeed = 60;
-// rad/s and number of the sinusoids of an error of the trajectory, which are correlated over some seconds.
-constexpr double kSlowest = 0.1, kFastest = 1;
+// rad/s and number of the sinusoids of an error of the trajectory, which last for tens of seconds, as those
+// of a smoothed trajectory do.
+constexpr double kSlowest = 0.02, kFastest = 0.2;
 constexpr int kTerms = 8;
 constexpr double kFirstTime = 100, kBetweenLines = 300;  // s
 

@@ -28,7 +28,7 @@ struct SimulatedLines {
   double roll_of_scanner = 0;       // degree: a boresight that nobody knows of.
   double declared = 1;              // What is declared of the air side, by what it is.
   double scan = 1, trajectory = 1;  // What the errors of the scanner and of the trajectory are, by what is declared.
-  bool lasting = false;             // The errors of the trajectory last for whole lines, otherwise for some seconds.
+  bool lasting = false;             // The errors of the trajectory last for whole lines, otherwise for tens of seconds.
 };
 
 // The errors of the air side that are drawn; what is declared is `declared` times as large.
