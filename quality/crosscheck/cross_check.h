@@ -1,5 +1,5 @@
-// Whether the predicted uncertainty explains the differences between overlapping lines, in two parts: what is drawn anew
-// for each pulse (pulse_part.h), and what each line shares (line_part.h). Errors common to all lines (lever arm,
+// Whether the predicted uncertainty explains the differences between overlapping lines, in two parts: what is drawn
+// anew for each pulse (pulse_part.h), and what each line shares (line_part.h). Errors common to all lines (lever arm,
 // boresight, clock, index, water level, datum) cancel and are not tested here.
 #pragma once
 

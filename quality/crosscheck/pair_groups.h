@@ -1,7 +1,7 @@
 // Pairs of points that are close together: what they differ by on average, and how certain their mean is.
 //
-// Pairs of the same two lines in one place, seen at one time, share waves and the errors of both trajectories. The mean of their
-// differences therefore has the variance
+// Pairs of the same two lines in one place, seen at one time, share waves and the errors of both trajectories. The mean
+// of their differences therefore has the variance
 //     V_line + noise,    noise = (sum over pairs of V_air + sum over each two pairs of the covariance of waves) / n^2,
 // with C(dx, dt) of each line by itself, because two lines see the sea at other times.
 #pragma once

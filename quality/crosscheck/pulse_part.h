@@ -43,8 +43,8 @@ inline constexpr double kTailOfPart = 0.01 / 4;
 //
 // Samples of one place share waves and bottom. Intervals are therefore by jackknife (Efron and Tibshirani 1993, chapter
 // 11) on the scale of k: each place is left out in turn. Where the part differs, it is of the air side or of the sea if
-// only that one's interval, with the same tail, lies on that side of 1: waves that are not those of the prediction share
-// more or less than C says, which makes the other one err to the other side.
+// only that one's interval, with the same tail, lies on that side of 1: waves that are not those of the prediction
+// share more or less than C says, which makes the other one err to the other side.
 PulsePart FitPulses(const std::vector<PulseSample>& samples, double guess);
 
 }  // namespace albtpu::quality
