@@ -48,9 +48,6 @@ struct SurfaceCommandOptions {
 
 constexpr double kCell = 1;  // m, where none is given.
 
-// Of a wind all is in the summaries.
-constexpr std::array<std::string_view, 3> kStatedOfWinds = {"--fetch", "--wind-speed", "--wind-from"};
-
 // The words and the flags that go together.
 absl::Status CheckUsage(const SurfaceCommandOptions& options) {
   const auto wrong = [](const std::string& what) { return formats::UsageError(absl::StrCat("surface: ", what)); };

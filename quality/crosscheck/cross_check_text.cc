@@ -59,7 +59,8 @@ std::string VerdictText(const CrossCheck& check) {
         "pulses differ from their prediction; whether it is the air side or the sea, these pairs cannot "
         "tell",
         check.sea_known ? "\n" : " without the sea: give it by --survey or flags\n");
-  const char* const name = check.guilty == "air"   ? "the air side of pulses (scanner, ranges)"
+  const char* const name = check.guilty == "air"
+                               ? "the air side of pulses (scanner, ranges, or a trajectory that errs within seconds)"
                            : check.guilty == "sea" ? "the sea surface"
                                                    : "the trajectory of lines";
   return absl::StrCat("what differs from its prediction: ", name, "\n");

@@ -111,8 +111,8 @@ struct PatchPairs {
 };
 
 // Of each two lines that have at least `kMinPoints` points each in `patch`, the two nearest points; and of each of
-// these lines its own two nearest points that are not farther apart in time than SharedWaves::kPause. The slope is that of
-// planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
+// these lines its own two nearest points that are not farther apart in time than SharedWaves::kPause. The slope is that
+// of planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
 // does not tilt it. None where the points do not define a slope.
 inline constexpr std::size_t kMinPoints = 3;
 void AppendPairs(Patch& patch, PatchPairs& pairs);

@@ -67,7 +67,7 @@ std::string Axis(absl::string_view name, absl::string_view size, absl::string_vi
                          Element("gmd:resolution", "<gco:Measure uom=\"metre\">", step, "</gco:Measure>")));
 }
 
-std::string Place() {
+std::string CornerPlace() {
   return Element(
       "gmd:spatialRepresentationInfo",
       Element("gmd:MD_Georectified", Element("gmd:numberOfDimensions", Element("gco:Integer", "2")),
@@ -170,7 +170,7 @@ std::string BagMetadata(const BagFacts& facts) {
       Party("gmd:contact", facts.organisation, "pointOfContact"),
       Element("gmd:dateStamp", Element("gco:Date", facts.made.substr(0, 10))),
       Element("gmd:metadataStandardName", Text("ISO 19115")),
-      Element("gmd:metadataStandardVersion", Text("2003/Cor.1:2006")), Place(), System("${HORIZ_WKT}"),
+      Element("gmd:metadataStandardVersion", Text("2003/Cor.1:2006")), CornerPlace(), System("${HORIZ_WKT}"),
       System(Escaped(facts.vertical_wkt.empty() ? kUnknownVertical : facts.vertical_wkt)), Identification(facts),
       Lineage(facts), Constraints(), "</gmi:MI_Metadata>\n");
 }

@@ -9,8 +9,9 @@ namespace {
 constexpr std::uint64_t kStream = 7;  // Apart from the numbers of a survey without errors.
 constexpr std::array<double, 6> kSigmas = {kPositionSigma, kPositionSigma, kHeightSigma,
                                            kRollSigma,     kRollSigma,     kHeadingSigma};
-constexpr double kSlowest = 0.5, kFastest = 4;  // rad/s
-constexpr int kTerms = 40;                      // So many sinusoids are nearly normal.
+// rad/s: the errors of satellite and inertial navigation last for tens of seconds to minutes.
+constexpr double kSlowest = 0.02, kFastest = 0.15;
+constexpr int kTerms = 40;  // So many sinusoids are nearly normal.
 
 // Two unit vectors across `beam`.
 std::array<Eigen::Vector3d, 2> Across(const Eigen::Vector3d& beam) {

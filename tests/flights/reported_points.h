@@ -26,8 +26,8 @@ struct ReportingErrors {
   bool any() const { return trajectory || scan > 0 || slope_along > 0 || slope_across > 0; }
 };
 
-// Errors of the trajectory are smooth functions of the time of a line, over some seconds; those of the scan, of ranges
-// and of the slope of the water are drawn anew for each pulse.
+// Errors of the trajectory are smooth functions of the time of a line, over tens of seconds; those of the scan, of
+// ranges and of the slope of the water are drawn anew for each pulse.
 class ReportedPoints {
  public:
   // `lever_arm` in the body, m; `range_noise`: one sigma of the optical ranges to the surface and to the bottom, m.

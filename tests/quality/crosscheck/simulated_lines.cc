@@ -48,8 +48,8 @@ Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double
 }
 
 // The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
-// its own. `slopes`: the covariance of those along and across an axis, from which the beam is turned by `azimuth` to the
-// left, rad.
+// its own. `slopes`: the covariance of those along and across an axis. The beam is turned from it to the left by
+// `azimuth`, rad.
 Eigen::Vector3d SigmasOfSlopes(const Eigen::Matrix2d& slopes, double azimuth) {
   RandomNumbers random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));

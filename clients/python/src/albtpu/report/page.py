@@ -201,9 +201,9 @@ def _crosscheck(report: Report) -> str:
               f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}"]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
-            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (lever arm, boresight,"
-            " clock, index, water level, datum) cancel and are not tested.</p>" + table(["", ""], rows, "words")
-            + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
+            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (lever arm,"
+            " boresight, clock, index, water level, datum) cancel and are not tested.</p>"
+            + table(["", ""], rows, "words") + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
             + table(["lines", "pairs", "mean difference [m]", "standard error [m]",
                      "predicted of both trajectories [m]"], lines, "sortable"))
 

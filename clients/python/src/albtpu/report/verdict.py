@@ -143,7 +143,8 @@ def nothing_to_compare(report: Report) -> str:
 
 
 # By `guilty_share` of the cross-check.
-GUILTY = {"trajectory": "the trajectory", "air": "the air side of pulses (scanner, ranges)", "sea": "the sea surface",
+GUILTY = {"trajectory": "the trajectory", "sea": "the sea surface",
+          "air": "the air side of pulses (scanner, ranges, or a trajectory that errs within seconds)",
           "pulse": "pulses (air side or sea, which the pairs cannot tell apart)"}
 
 
