@@ -50,20 +50,39 @@ std::string EstimateText(const Estimate& estimate) {
   return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", estimate.value, estimate.low, estimate.high);
 }
 
+// The conclusion, which a reader sees first.
 std::string VerdictText(const CrossCheck& check) {
-  if (check.guilty.empty())
-    return absl::StrFormat("no part differs from its prediction by %.0f %% and beyond an interval of 99.5 %%\n",
-                           100 * kMinDifference);
+  if (check.guilty.empty()) {
+    const bool tested = std::isfinite(check.pulse.factor.high) ||
+                        (check.line.factor.has_value() && std::isfinite(check.line.factor->high));
+    if (!tested) return "too few pairs of overlapping lines are close together to test the prediction\n";
+    return absl::StrFormat(
+        "prediction and overlap agree: no part differs by %.0f %% and beyond an interval of 99.5 %%\n",
+        100 * kMinDifference);
+  }
+  const bool of_lines = check.guilty == "trajectory";
+  const Estimate& factor = of_lines ? *check.line.factor : check.pulse.factor;
+  const char* const size = factor.value > 1 ? "small" : "large";
   if (check.guilty == "pulse")
-    return absl::StrCat(
-        "pulses differ from their prediction; whether it is the air side or the sea, these pairs cannot "
-        "tell",
-        check.sea_known ? "\n" : " without the sea: give it by --survey or flags\n");
+    return absl::StrCat("the prediction of pulses is too ", size,
+                        "; whether of the air side or of the sea, these pairs cannot tell",
+                        check.sea_known ? "\n" : " without the sea: give it by --survey or flags\n");
   const char* const name = check.guilty == "air"
                                ? "the air side of pulses (scanner, ranges, or a trajectory that errs within seconds)"
                            : check.guilty == "sea" ? "the sea surface"
                                                    : "the trajectory of lines";
-  return absl::StrCat("what differs from its prediction: ", name, "\n");
+  return absl::StrCat("the prediction of ", name, " is too ", size, "\n");
+}
+
+// A difference of two lines in units of what is predicted of it.
+std::string DifferenceText(const LineDifference& line) {
+  constexpr double kRare = 3;  // In the magnitude of z, of one difference.
+  return absl::StrFormat(
+      "%s lies %.3f m %s %s: %.1f sigma, %s (%d pairs; standard error %.3f m, trajectories %.3f m)\n",
+      NameOf(FlightLine{line.line_a, line.begin_a}), std::abs(line.mean), line.mean < 0 ? "below" : "above",
+      NameOf(FlightLine{line.line_b, line.begin_b}), std::abs(line.z()),
+      std::abs(line.z()) > kRare ? "more than predicted" : "as predicted", line.pairs, line.standard_error,
+      line.predicted);
 }
 
 }  // namespace
@@ -103,7 +122,9 @@ Json CrossCheckJson(const CrossCheck& check) {
 }
 
 std::string CrossCheckText(const CrossCheck& check) {
-  std::string text = absl::StrFormat(
+  std::string text = VerdictText(check);
+  absl::StrAppendFormat(
+      &text,
       "%d pairs of neighbouring points of different lines, %d outliers left out\n"
       "reduced chi-square                   %.2f; without the mean difference of each two lines %.2f\n"
       "predicted sigma would have to be multiplied by\n"
@@ -118,19 +139,13 @@ std::string CrossCheckText(const CrossCheck& check) {
   } else {
     absl::StrAppend(&text, "  of lines                           not tested: no trajectory error is predicted\n");
   }
-  absl::StrAppend(&text, VerdictText(check));
   if (!check.sea_known) absl::StrAppend(&text, "the sea is not known: waves are taken as independent\n");
   absl::StrAppend(&text,
                   "not tested, because all lines share it: lever arm, boresight, clock, index, water level, datum\n");
   if (!check.left_out.empty()) absl::StrAppend(&text, LeftOutText(check.left_out), "\n");
   constexpr std::size_t kShown = 5;
-  for (std::size_t i = 0; i < std::min(kShown, check.line.differences.size()); ++i) {
-    const LineDifference& line = check.line.differences[i];
-    absl::StrAppendFormat(&text, "%s lies %+.3f m above %s (standard error %.3f m, predicted %.3f m, %d pairs)\n",
-                          NameOf(FlightLine{line.line_a, line.begin_a}), line.mean,
-                          NameOf(FlightLine{line.line_b, line.begin_b}), line.standard_error, line.predicted,
-                          line.pairs);
-  }
+  for (std::size_t i = 0; i < std::min(kShown, check.line.differences.size()); ++i)
+    absl::StrAppend(&text, DifferenceText(check.line.differences[i]));
   return text;
 }
 

@@ -197,11 +197,12 @@ class Page(Report):
     def test_says_whether_the_survey_passes_where_not_and_why(self):
         page = (self.made / "report.html").read_text()
         wanted = self.json["wanted"]
-        self.assertIn("passes IHO S-44 1b" if wanted["passes"] else "does not pass IHO S-44 1b", page)
+        self.assertIn(f"THU and TVU are {'' if wanted['passes'] else 'not '}within the limits of IHO S-44 1b", page)
         self.assertIn("no water surface known above them", page)
-        self.assertIn("Overlapping lines", page)
+        self.assertRegex(page, "Prediction and overlap agree|Overlapping lines contradict")
+        self.assertIn("Not tested, because these files cannot show it: coverage", page)
         self.assertIn("boresight", page)
-        self.assertIn("PASSES" if wanted["passes"] else "DOES NOT PASS", self.said)
+        self.assertIn("are within the limits" if wanted["passes"] else "are NOT within the limits", self.said)
 
     def test_has_every_class_by_depth_line_and_file(self):
         page = (self.made / "report.html").read_text()

@@ -241,7 +241,7 @@ class Lines(Files):
                                                                                 for each in check["lines"]}),
                              len({each[key] for each in right["lines"] for key in "ab"}))
         text = query("crosscheck", self.ids(lambda _: 0), check=0).stdout
-        self.assertRegex(text, r"line 0 from \d+ s on lies [+-]0\.\d+ m above line 0 from \d+ s on")
+        self.assertRegex(text, r"line 0 from \d+ s on lies 0\.\d+ m (above|below) line 0 from \d+ s on")
 
     def test_that_cannot_be_told_apart_are_said_to_be_so(self):
         for shift in (None, lambda times: np.zeros_like(times), lambda times: times * np.nan):

@@ -7,7 +7,8 @@ import pathlib
 from typing import Any
 
 STYLE = """
-:root { --ink: #1a1a1a; --soft: #5a5a5a; --line: #d5d5d5; --good: #006d4f; --bad: #a63d00; }
+:root { --ink: #1a1a1a; --soft: #5a5a5a; --line: #d5d5d5; --good: #006d4f; --open: #7d6100;
+        --bad: #a63d00; }
 * { box-sizing: border-box; }
 body { font: 16px/1.45 system-ui, sans-serif; color: var(--ink); margin: 0 auto; padding: 0 16px 48px;
        max-width: 1240px; background: #fff; }
@@ -17,6 +18,7 @@ h3 { font-size: 1rem; margin: 20px 0 4px; }
 .verdict { border-left: 8px solid; padding: 10px 16px; background: #f6f6f6; }
 .verdict b { font-size: 1.5rem; }
 .pass { border-color: var(--good); } .pass b { color: var(--good); }
+.open { border-color: var(--open); } .open b { color: var(--open); }
 .fail { border-color: var(--bad); } .fail b { color: var(--bad); }
 .verdict ul { margin: 8px 0 0; padding-left: 20px; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 380px), 1fr)); gap: 12px;
@@ -89,10 +91,10 @@ def table(head: list[str], rows: list[list[str]], kind: str = "") -> str:
             f"<tbody>{body}</tbody></table></div>")
 
 
-def verdict_box(passes: bool, sentence: str, points: list[str], after: str = "") -> str:
-    """What the reader wants to know first. `points` and `after` are HTML."""
+def verdict_box(standing: str, sentence: str, points: list[str]) -> str:
+    """What the reader wants to know first. `standing`: "pass", "open" or "fail". `points` are HTML."""
     items = "".join(f"<li>{each}</li>" for each in points)
-    return (f'<div class="verdict {"pass" if passes else "fail"}"><b>{text(sentence)}</b>{after}<ul>{items}</ul></div>')
+    return f'<div class="verdict {standing}"><b>{text(sentence)}</b><ul>{items}</ul></div>'
 
 
 def numbers_table(numbers: list[dict[str, Any]]) -> str:

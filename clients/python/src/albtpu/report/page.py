@@ -23,14 +23,9 @@ def write_page(folder: pathlib.Path) -> None:
 
 
 def _first_screen(report: Report) -> str:
-    wanted = report["wanted"]
-    passes = wanted["passes"]
-    word = "passes" if passes else "does not pass"
     return ("<h1>Total propagated uncertainty of the survey</h1>"
-            + verdict_box(passes, f"The survey {word} {verdict.asked(report)}",
-                          [text(each) for each in verdict.sentences(report)],
-                          f"<br>{percent(wanted['fraction'], 2)} of {wanted['points']:,} points of the bottom meet it;"
-                          f" {wanted['pass_share']:g} % are required."))
+            + verdict_box(verdict.standing(report), verdict.headline(report),
+                          [text(each) for each in verdict.sentences(report)]))
 
 
 def _summary(report: Report) -> str:
@@ -198,14 +193,14 @@ def _crosscheck(report: Report) -> str:
              if check["factor_line"] is not None else "no error of a trajectory is predicted"],
             ["beyond 3 σ", f"{percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
-              f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}"]
+              f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}", verdict.difference_text(each)]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
             " of the bottom, against the prediction for pulses and lines. Errors that all lines share (lever arm,"
             " boresight, clock, index, water level, datum) cancel and are not tested.</p>"
             + table(["", ""], rows, "words") + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
             + table(["lines", "pairs", "mean difference [m]", "standard error [m]",
-                     "predicted of both trajectories [m]"], lines, "sortable"))
+                     "σ of both trajectories [m]", ""], lines, "sortable"))
 
 
 def _files(report: Report) -> str:

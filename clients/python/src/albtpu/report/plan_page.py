@@ -49,7 +49,7 @@ def _answer(plan: Plan) -> str:
         items.append(f"deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}")
     elif none:
         items.append(f"down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {text(unit)} or more")
-    return verdict_box(bool(met), f"Order {order} at {_conditions(plan)}", items) + (
+    return verdict_box("pass" if met else "fail", f"Order {order} at {_conditions(plan)}", items) + (
         "<p class='soft'>All contributions to the uncertainty count, at 95 %, and the biases. Whether the laser"
         " reaches the bottom at these depths is not considered.</p>")
 

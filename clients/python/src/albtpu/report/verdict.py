@@ -32,12 +32,35 @@ def asked(report: Report) -> str:
     return f"{report['wanted']['specification']} {report['wanted']['class']}"
 
 
+def headline(report: Report) -> str:
+    """What was tested, and what was found: THU and TVU of points against limits."""
+    wanted = report["wanted"]
+    where = "are within" if wanted["passes"] else "are not within"
+    return (f"THU and TVU {where} the limits of {asked(report)}: they are at {100 * wanted['fraction']:.2f} % of"
+            f" {wanted['points']:,} points of the bottom; {wanted['pass_share']:g} % are required")
+
+
+def standing(report: Report) -> str:
+    """ "fail" of limits, "open" where the numbers are not tested by overlap, or contradicted, or assumed; or "pass"."""
+    if not report["wanted"]["passes"]:
+        return "fail"
+    check = report["crosscheck"]
+    if check is None or check["guilty_share"] or _assumed(report) > MOST_ASSUMED * len(report["numbers"]):
+        return "open"
+    return "pass"
+
+
+def _assumed(report: Report) -> int:
+    return sum(1 for each in report["numbers"] if each.get("assumed"))
+
+
 def sentences(report: Report) -> list[str]:
-    """Where the survey fails and why, its worst line, what would help, and whether the prediction is right."""
-    found = [*_gaps(report), *_depths(report), *_lines(report), _help(report), _truth(report)]
-    assumed = sum(1 for each in report["numbers"] if each.get("assumed"))
+    """Is the prediction right, what does it rest on, where does the survey fail and why, what helps, what is not tested."""
+    assumed = _assumed(report)
+    found = [_truth(report)]
     if assumed:
         found.append(f"{assumed} of {len(report['numbers'])} numbers were assumed; they are listed at the end.")
+    found += [*_gaps(report), *_depths(report), *_lines(report), _help(report), NOT_TESTED]
     return [each for each in found if each]
 
 
@@ -142,6 +165,11 @@ def nothing_to_compare(report: Report) -> str:
     return f"{reason[:1].upper()}{reason[1:]}, so the files cannot show whether the prediction is right."
 
 
+RARE = 3  # σ, of one difference of lines.
+# What an order also asks, which points alone cannot show.
+NOT_TESTED = ("Not tested, because these files cannot show it: coverage and feature detection; errors that all lines"
+              " share (lever arm, boresight, clock, index, water level, datum).")
+MOST_ASSUMED = 1 / 3  # Of the numbers, where a report may say that all is well.
 # By `guilty_share` of the cross-check.
 GUILTY = {"trajectory": "the trajectory", "sea": "the sea surface",
           "air": "the air side of pulses (scanner, ranges, or a trajectory that errs within seconds)",
@@ -152,11 +180,24 @@ def _truth(report: Report) -> str:
     check = report["crosscheck"]
     if check is None:
         return nothing_to_compare(report)
-    text = f"Overlapping lines: σ of pulses would have to be {estimate_text(check['factor_pulse'])} times as large"
-    if check["factor_line"] is not None:
-        text += f", σ of lines {estimate_text(check['factor_line'])}"
     name = GUILTY.get(check["guilty_share"])
     if name is None:
-        return text + "; no part differs from its prediction by 10 % and beyond an interval of 99.5 %."
-    factor = check["factor_line" if check["guilty_share"] == "trajectory" else "factor_pulse"]
-    return text + f": the prediction of {name} is too {'small' if factor['value'] > 1 else 'large'}."
+        text = "Prediction and overlap agree"
+    else:
+        factor = check["factor_line" if check["guilty_share"] == "trajectory" else "factor_pulse"]
+        text = (f"Overlapping lines contradict the prediction: that of {name} is too"
+                f" {'small' if factor['value'] > 1 else 'large'}")
+    text += f": σ of pulses would have to be multiplied by {estimate_text(check['factor_pulse'])}"
+    if check["factor_line"] is not None:
+        text += f", σ of lines by {estimate_text(check['factor_line'])}"
+    if check["lines"]:
+        worst = max(check["lines"], key=lambda each: abs(each["z"]))
+        text += (f". The largest difference of two lines for its σ is {abs(worst['mean_difference']):.3f} m"
+                 f" ({worst['a']} and {worst['b']}), {difference_text(worst)}")
+    return text + "."
+
+
+def difference_text(line: dict[str, Any]) -> str:
+    """ "1.4 σ: as predicted" """
+    z = abs(line["z"])
+    return f"{z:.1f} σ: {'as predicted' if z <= RARE else 'more than predicted'}"
