@@ -55,6 +55,26 @@ class RadiusFactors {
   std::array<float, kIntervals + 2> factors_;
 };
 
+// The horizontal uncertainty of a covariance at each coverage, m: of variances and their covariance, m^2.
+class HorizontalRadius {
+ public:
+  HorizontalRadius(double xx, double yy, double xy) {
+    const double mean = (xx + yy) / 2, split = std::hypot((xx - yy) / 2, xy);
+    root_of_trace_ = std::sqrt(2 * mean);
+    axis_ratio_ = mean > 0 ? std::sqrt(std::clamp((mean - split) / (mean + split), 0.0, 1.0)) : 0;
+  }
+
+  double At(Coverage coverage) const {
+    if (coverage == Coverage::kOneSigma) return root_of_trace_;
+    const double two_sigma = 2 * root_of_trace_;
+    return coverage == Coverage::kTwoSigma ? two_sigma
+                                           : two_sigma * RadiusFactors::Get()(static_cast<float>(axis_ratio_));
+  }
+
+ private:
+  double root_of_trace_, axis_ratio_;
+};
+
 // The orders of S-44 that a total uncertainty meets.
 
 // 1 plus the number of the strictest order (kS44Orders) whose limits exceed `thu` and `tvu`, both at 95 %, each plus

@@ -1,5 +1,8 @@
 #include "programs/command_line/command_line.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -184,6 +187,13 @@ absl::Status FlushStandardOutput() {
   const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (streamed && printed) return absl::OkStatus();
   return absl::DataLossError("standard output: cannot be written; redirect it to a place with free space");
+}
+
+absl::Status FlushText() {
+  absl::Status status = FlushStandardOutput();
+  pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  const bool is_closed = poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
+  return is_closed ? absl::OkStatus() : status;
 }
 
 }  // namespace albtpu::programs

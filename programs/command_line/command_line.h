@@ -55,4 +55,7 @@ std::string UsageMessage(const CLI::App& program, const CLI::ParseError& error);
 // Flushes standard output. DataLoss if any of what was printed could not be written, to a full disk for example.
 absl::Status FlushStandardOutput();
 
+// The same after a text for people, such as help: whoever closes a pipe has read enough of it.
+absl::Status FlushText();
+
 }  // namespace albtpu::programs

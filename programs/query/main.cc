@@ -48,7 +48,7 @@ int Main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
     program.exit(help, std::cout, std::cerr);
-    return annotate::Report(FlushStandardOutput());
+    return annotate::Report(FlushText());
   } catch (const CLI::ParseError& error) {
     return annotate::Report(formats::UsageError(UsageMessage(program, error)));
   }

@@ -79,8 +79,24 @@ absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options
       files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr}, path);
 }
 
-absl::StatusOr<std::vector<quality::AnnotatedLasFile>> FilesOf(const SurfaceCommandOptions& options) {
-  return quality::OpenAnnotated(std::vector<fs::path>(options.inputs.begin(), options.inputs.end()));
+std::vector<fs::path> PathsOf(const SurfaceCommandOptions& options) {
+  return {options.inputs.begin(), options.inputs.end()};
+}
+
+// But for empty ones.
+absl::StatusOr<std::vector<quality::SurfacePart>> PartsOf(const SurfaceCommandOptions& options,
+                                                          const std::vector<quality::SurfaceFormat>& formats) {
+  std::vector<quality::SurfacePart> parts;
+  for (std::size_t i = 1; i < options.inputs.size(); ++i) {
+    ASSIGN_OR_RETURN(quality::SurfacePart part, quality::OpenPart(options.inputs[i]));
+    if (part.empty()) continue;
+    RETURN_IF_ERROR(quality::CheckFormats(formats, part.facts.map));
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty())
+    return absl::FailedPreconditionError(absl::StrCat(options.inputs[1], options.inputs.size() > 2 ? " and others" : "",
+                                                      ": of files without points; give a part of files with points"));
+  return parts;
 }
 
 absl::Status RunPartial(const SurfaceCommandOptions& options) {
@@ -88,7 +104,7 @@ absl::Status RunPartial(const SurfaceCommandOptions& options) {
   if (options.existing == Existing::kKeep && fs::exists(path))
     return absl::AlreadyExistsError(
         absl::StrCat(path.string(), ": is there already; give another name, or replace it by --overwrite"));
-  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, FilesOf(options));
+  ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotatedOrNone(PathsOf(options)));
   const HiddenFolder hidden(folder);
   if (hidden.path().empty()) return NotWritable(folder);
   ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, files, hidden.path() / path.filename()));
@@ -106,13 +122,9 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
   std::vector<quality::AnnotatedLasFile> files;
   std::vector<quality::SurfacePart> parts;
   if (options.merges()) {
-    for (std::size_t i = 1; i < options.inputs.size(); ++i) {
-      ASSIGN_OR_RETURN(quality::SurfacePart part, quality::OpenPart(options.inputs[i]));
-      parts.push_back(std::move(part));
-      RETURN_IF_ERROR(quality::CheckFormats(formats, parts.back().facts.map));
-    }
+    ASSIGN_OR_RETURN(parts, PartsOf(options, formats));
   } else {
-    ASSIGN_OR_RETURN(files, FilesOf(options));
+    ASSIGN_OR_RETURN(files, quality::OpenAnnotated(PathsOf(options)));
     RETURN_IF_ERROR(quality::CheckFormats(formats, quality::MapOf(files.front())));
   }
   const quality::NewFolder folder(options.output);

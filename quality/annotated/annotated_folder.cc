@@ -44,6 +44,14 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& fold
 }
 
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<fs::path>& folders_or_files) {
+  ASSIGN_OR_RETURN(std::vector<AnnotatedLasFile> files, OpenAnnotatedOrNone(folders_or_files));
+  if (files.empty())
+    return absl::FailedPreconditionError(
+        absl::StrCat(folders_or_files.front().string(), ": no file has points; give the outputs of albtpu-query las"));
+  return files;
+}
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vector<fs::path>& folders_or_files) {
   std::vector<fs::path> paths;
   for (const fs::path& each : folders_or_files) RETURN_IF_ERROR(AddFiles(each, paths));
   std::ranges::sort(paths, {}, [](const fs::path& path) { return std::pair(path.filename(), path); });
@@ -81,10 +89,6 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<fs
     }
     if (last.table_digest() != first.table_digest())
       return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
-  }
-  if (files.empty()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(folders_or_files.front().string(), ": no file has points; give the outputs of albtpu-query las"));
   }
   return files;
 }

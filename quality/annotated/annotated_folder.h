@@ -17,4 +17,8 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesyste
 // The same of several folders and files, each file once, by name whatever its folder is.
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<std::filesystem::path>& folders_or_files);
 
+// The same, but none where no file has points.
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(
+    const std::vector<std::filesystem::path>& folders_or_files);
+
 }  // namespace albtpu::quality

@@ -1,14 +1,11 @@
 #include "quality/annotated/annotated_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -16,12 +13,10 @@
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/run/file_jobs.h"
-#include "annotate/run/file_progress.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
-#include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -30,48 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kRunPoints = 1 << 16;
-constexpr char kRemedy[] = "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
-
-struct FloatOfPoint {
-  std::string_view name;
-  float AnnotatedPoint::*member;
-  bool may_lack = false;  // Only where the survey has it.
-};
-
-constexpr std::size_t kAbsent = 0;  // A record begins with its coordinates.
-
-constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
-                                FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
-                                FloatOfPoint{"tvu_air", &AnnotatedPoint::tvu_air},
-                                FloatOfPoint{"thu_sea", &AnnotatedPoint::thu_sea},
-                                FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
-                                FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
-                                FloatOfPoint{"tvu_extra", &AnnotatedPoint::tvu_extra, true},
-                                FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
-                                FloatOfPoint{"tvu_line", &AnnotatedPoint::tvu_line},
-                                FloatOfPoint{"bias_along_beam", &AnnotatedPoint::bias_along_beam},
-                                FloatOfPoint{"bias_vertical", &AnnotatedPoint::bias_vertical},
-                                FloatOfPoint{"VarianceX", &AnnotatedPoint::variance_x},
-                                FloatOfPoint{"VarianceY", &AnnotatedPoint::variance_y},
-                                FloatOfPoint{"VarianceZ", &AnnotatedPoint::variance_z},
-                                FloatOfPoint{"CovarianceXY", &AnnotatedPoint::covariance_xy},
-                                FloatOfPoint{"CovarianceXZ", &AnnotatedPoint::covariance_xz},
-                                FloatOfPoint{"CovarianceYZ", &AnnotatedPoint::covariance_yz},
-                                FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
-                                FloatOfPoint{"beam_azimuth", &AnnotatedPoint::beam_azimuth},
-                                FloatOfPoint{"footprint", &AnnotatedPoint::footprint},
-                                FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
-
 constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
-constexpr float kGreatest = 1e6F;                  // m or m^2; larger values are not plausible.
-
-// Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
-bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
-
-float KnownOrZero(float value, bool signed_value) {
-  return IsKnown(signed_value ? std::abs(value) : value) ? value : 0;
-}
 
 // Whether a summary has what is read of it later, with the right types.
 bool IsOurs(const Json& summary) {
@@ -93,15 +47,6 @@ std::set<int> NumbersOf(const Json& channel, const char* key) {
   for (const Json& number : channel.is_object() ? channel.value(key, Json::array()) : Json::array())
     if (number.is_number_unsigned() && number <= 255) numbers.insert(number.get<int>());
   return numbers;
-}
-
-// Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
-// those `may_lack_surface`, that is the more severe of two reasons why a depth is missing.
-Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
-  if (point.has_number) return Gap::kNone;
-  const bool depth = point.depth >= 0, beam = std::isfinite(point.incidence);
-  if (depth) return beam ? Gap::kNoAnswer : Gap::kNoTrajectory;
-  return beam && !may_lack_surface ? Gap::kAboveWater : Gap::kNoSurface;
 }
 
 // Metres in a unit of the coordinates of well-known text of version 1: the last one of the horizontal system.
@@ -173,21 +118,6 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   return absl::OkStatus();
 }
 
-absl::Status AnnotatedLasFile::FindFloats() {
-  ASSIGN_OR_RETURN(const std::string record, formats::ReadExtraBytesRecord(reader_));
-  ASSIGN_OR_RETURN(const auto offsets, formats::FloatOffsets(reader_.name(), record, reader_.header().extra_bytes()));
-  const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
-  for (const FloatOfPoint& each : kFloats) {
-    const auto found = offsets.find(each.name);
-    if (found == offsets.end() && !each.may_lack)
-      return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
-    offsets_.push_back(found == offsets.end() ? kAbsent : begin + found->second);
-  }
-  ASSIGN_OR_RETURN(const auto bytes, formats::ByteOffsets(reader_.name(), record, reader_.header().extra_bytes()));
-  if (const auto found = bytes.find("share_of"); found != bytes.end()) share_of_ = begin + found->second;
-  return absl::OkStatus();
-}
-
 absl::Status AnnotatedLasFile::FindCrs() {
   ASSIGN_OR_RETURN(formats::CrsDescription description, formats::DescribeCrs(reader_));
   const Json& parameters = (*summary_)["parameters"];
@@ -229,82 +159,6 @@ std::string AnnotatedLasFile::table_digest() const {
   const Json table = summary_->value("table", Json());
   const Json digest = table.is_object() ? table.value("digest", Json()) : Json();
   return digest.is_string() ? digest.get<std::string>() : "";
-}
-
-absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit,
-                                                        const VisitDry& visit_dry) const {
-  annotate::FileProgress::File shown(progress, reader_.name());
-  absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader_, 0, 0);
-  if (!runs.ok()) return reader_.Named(runs.status());
-  const formats::LasHeader& header = reader_.header();
-  const formats::LasPointFields fields(header);
-  std::array<bool, formats::kClassCount> wanted = {};
-  for (const int each : classes_)
-    if (each >= 0 && each < formats::kClassCount) wanted[each] = true;
-  const std::set<int> water_surface = formats::WaterSurfaceClasses(header.point_format);
-  const auto read_floats = [&](std::string_view record, AnnotatedPoint& point) {
-    for (std::size_t k = 0; k < kFloats.size(); ++k)
-      if (offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
-  };
-  formats::LasRun run;
-  LeftOutPoints left_out;
-  std::vector<AnnotatedPoint> points;
-  while (true) {
-    const absl::StatusOr<bool> more = runs->Next(kRunPoints, run);
-    if (!more.ok()) return reader_.Named(more.status());
-    if (!*more) break;
-    points.clear();
-    for (std::size_t i = 0; i < run.own; ++i) {
-      const std::string_view record =
-          std::string_view(run.records).substr(i * header.record_length, header.record_length);
-      const int point_class = fields.Class(record);
-      if (point_class == formats::kLowNoise || point_class == formats::kHighNoise) {
-        ++left_out.noise;
-        continue;
-      }
-      if (visit_dry && share_of_.has_value() &&
-          static_cast<std::uint8_t>(record[*share_of_]) == static_cast<std::uint8_t>(formats::ShareOf::kLand)) {
-        AnnotatedPoint dry;
-        read_floats(record, dry);
-        const auto sigma = static_cast<float>(dry.tvu / VerticalFactor(coverage_));
-        if (IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))
-          visit_dry({.point_class = point_class,
-                     .of_water_surface = water_surface.contains(point_class),
-                     .variance_horizontal = dry.variance_x + dry.variance_y,
-                     .variance_vertical = sigma * sigma});
-      }
-      if (!wanted[point_class]) continue;
-      if (!use_withheld_ && fields.IsWithheld(record)) {
-        ++left_out.withheld;
-        continue;
-      }
-      AnnotatedPoint& point = points.emplace_back();
-      point.x = fields.X(record);
-      point.y = fields.Y(record);
-      point.z = fields.Z(record) * metres_per_height_unit_;
-      if (fields.has_gps_time()) point.time = fields.GpsTime(record);
-      point.line = fields.PointSourceId(record);
-      read_floats(record, point);
-      point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
-                         IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
-      const auto is_its = [&](const formats::ScannerPoints& scanner) { return scanner.Has(fields, record); };
-      const bool scanned = channels_.empty() || point.has_number || std::ranges::any_of(channels_, is_its);
-      point.gap = scanned ? GapOf(point, may_lack_surface_) : Gap::kNoChannel;
-      for (float AnnotatedPoint::*const length :
-           {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
-            &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
-        point.*length = KnownOrZero(point.*length, false);
-      for (float AnnotatedPoint::*const bias :
-           {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,
-            &AnnotatedPoint::covariance_xz, &AnnotatedPoint::covariance_yz})
-        point.*bias = KnownOrZero(point.*bias, true);
-    }
-    visit(points);
-    const std::uint64_t done = run.first + run.own;
-    shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
-  }
-  RETURN_IF_ERROR(reader_.CheckUnchanged());
-  return left_out;
 }
 
 Json LeftOutJson(const LeftOutPoints& points) { return {{"withheld", points.withheld}, {"noise", points.noise}}; }

@@ -96,11 +96,16 @@ class AnnotatedLasFile {
   using VisitDry = std::function<void(const DryPoint&)>;
 
   // All bathymetric points in their order, some at a time, without those left out. Also each dry point with a total, of
-  // whatever class: a bathymetric one is visited as both. Fails when the file cannot be read or was modified.
+  // whatever class: a bathymetric one is visited as both. Visits come one after the other, from several threads. Fails
+  // when the file cannot be read or was modified.
   absl::StatusOr<LeftOutPoints> ForEach(annotate::FileProgress& progress, const Visit& visit,
                                         const VisitDry& visit_dry = {}) const;
 
  private:
+  static constexpr char kRemedy[] =
+      "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
+  class PointMaker;
+
   explicit AnnotatedLasFile(formats::LasReader reader) : reader_(std::move(reader)) {}
   absl::Status ReadSummary();
   absl::Status FindFloats();

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -50,11 +49,8 @@ SurfacePoint PointOf(const AnnotatedPoint& point, double factor, std::uint16_t s
   of.xz = point.covariance_xz, of.yz = point.covariance_yz;
   of.incidence = point.incidence, of.azimuth = point.beam_azimuth, of.footprint = point.footprint;
   of.depth = point.depth, of.bias = point.bias_vertical;
-  // At 95 %, by the axes of the ellipse.
-  const double mean = (double{point.variance_x} + point.variance_y) / 2;
-  const double split = std::hypot((double{point.variance_x} - point.variance_y) / 2, double{point.covariance_xy});
-  const double ratio = mean > 0 ? std::sqrt(std::clamp((mean - split) / (mean + split), 0.0, 1.0)) : 0;
-  of.thu = static_cast<float>(2 * std::sqrt(2 * mean) * RadiusFactors::Get()(static_cast<float>(ratio)));
+  of.thu =
+      static_cast<float>(HorizontalRadius(point.variance_x, point.variance_y, point.covariance_xy).At(Coverage::kP95));
   of.flight_line = static_cast<std::uint16_t>(point.line);
   of.source = source;
   return of;
@@ -91,21 +87,23 @@ SurfaceMap MapOf(const AnnotatedLasFile& file) {
 
 absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
                                          const fs::path& path) {
-  const AnnotatedLasFile& first = files.front();
   SurfacePart part = {.path = path, .facts = {}, .points_end = 0};
   PartFacts& facts = part.facts;
   facts.cell = options.cell;
-  facts.map = MapOf(first);
-  facts.coverage = first.coverage();
-  facts.table_digest = first.table_digest();
-  const double factor = VerticalFactor(first.coverage());
+  if (!files.empty()) {
+    const AnnotatedLasFile& first = files.front();
+    facts.map = MapOf(first);
+    facts.coverage = first.coverage();
+    facts.table_digest = first.table_digest();
+  }
+  const double factor = VerticalFactor(facts.coverage);
   ASSIGN_OR_RETURN(PointTilesWriter writer, PointTilesWriter::Create(path, options.cell / facts.map.metres_per_unit));
   annotate::FileProgress progress = ProgressOver(files);
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
     ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, options.seas));
     ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file.summary())));
-    RETURN_IF_ERROR(CheckWater(first, file, facts));
+    RETURN_IF_ERROR(CheckWater(files.front(), file, facts));
     const bool has_dates = file.has_dates();
     ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) {
       for (const AnnotatedPoint& point : points) {

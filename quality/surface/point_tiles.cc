@@ -42,6 +42,26 @@ bool IsOwn(const SurfacePoint& point, const TilePlace& tile, double cell) {
          TileIndex(static_cast<std::int64_t>(std::floor(point.y / cell))) == tile.row;
 }
 
+// By SurfacePoint::Order, of which lines and times tell nearly all points apart: points are large to be moved about.
+std::vector<SurfacePoint> Sorted(const std::vector<SurfacePoint>& points) {
+  struct Key {
+    double time;
+    std::uint32_t flight_line, at;
+  };
+  std::vector<Key> keys(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keys[i] = {points[i].time, points[i].flight_line, static_cast<std::uint32_t>(i)};
+  std::ranges::sort(keys, [&](const Key& a, const Key& b) {
+    if (a.flight_line != b.flight_line) return a.flight_line < b.flight_line;
+    if (a.time != b.time) return a.time < b.time;
+    return points[a.at].Order() < points[b.at].Order();
+  });
+  std::vector<SurfacePoint> sorted;
+  sorted.reserve(points.size());
+  for (const Key& key : keys) sorted.push_back(points[key.at]);
+  return sorted;
+}
+
 std::uint64_t KeyOf(const TilePlace& tile) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(tile.row)) << 32 |
          static_cast<std::uint32_t>(tile.column);
@@ -178,8 +198,7 @@ absl::StatusOr<std::vector<SurfacePoint>> PointTiles::Read(const TilePlace& tile
       points[i].source = sources[points[i].source];
     }
   }
-  std::ranges::sort(points, {}, &SurfacePoint::Order);
-  return points;
+  return Sorted(points);
 }
 
 }  // namespace albtpu::quality

@@ -28,19 +28,21 @@ std::uint16_t SeaSharing::Add(const SeaOfSource& sea) {
 }
 
 SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const {
-  const double steep = std::clamp(incidence, 0.0, kMostIncidence) / kIncidenceStep;
+  const double steep = std::clamp(incidence, 0.0, double{kMostIncidence}) / kIncidenceStep;
   const double turned = azimuth / 360 * kAzimuths;
   const int width =
       static_cast<int>(std::lround(std::log(std::clamp(footprint, kLeastFootprint, kMostFootprint)) / kFootprintStep));
-  const int i = std::min(static_cast<int>(steep), static_cast<int>(kMostIncidence) / kIncidenceStep - 1);
+  const int i = std::min(static_cast<int>(steep), kIncidences - 2);
   const int j = static_cast<int>(std::floor(turned));
+  const Key key = {source, width};
+  Beams& beams = BeamsOf(key);
   SeaInCell sum;
   for (const int di : {0, 1})
     for (const int dj : {0, 1}) {
       const double weight = std::abs(1 - di - (steep - i)) * std::abs(1 - dj - (turned - j));
       if (weight == 0) continue;
       const int around = ((j + dj) % kAzimuths + kAzimuths) % kAzimuths;
-      const SeaInCell& each = At({source, i + di, i + di == 0 ? 0 : around, width});
+      const SeaInCell& each = At(beams, key, i + di, i + di == 0 ? 0 : around);
       sum.pulse += weight * each.pulse;
       sum.cell += weight * each.cell;
       sum.height_pulse += weight * each.height_pulse;
@@ -49,12 +51,17 @@ SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double 
   return sum;
 }
 
-const SeaInCell& SeaSharing::At(const Key& key) const {
-  {
-    const absl::MutexLock lock(&mutex_);
-    if (const auto found = known_.find(key); found != known_.end()) return *found->second;
-  }
-  const auto [source, incidence, azimuth, width] = key;
+SeaSharing::Beams& SeaSharing::BeamsOf(const Key& key) const {
+  const absl::MutexLock lock(&mutex_);
+  std::unique_ptr<Beams>& beams = beams_[key];
+  if (beams == nullptr) beams = std::make_unique<Beams>();
+  return *beams;
+}
+
+const SeaInCell& SeaSharing::At(Beams& beams, const Key& key, int incidence, int azimuth) const {
+  std::atomic<const SeaInCell*>& known = beams.known[static_cast<std::size_t>(incidence * kAzimuths + azimuth)];
+  if (const SeaInCell* const found = known.load(); found != nullptr) return *found;
+  const auto [source, width] = key;
   const Sea& sea = *seas_[source];
   const BeamOptions beam = {
       .incidence = RadiansOfDegrees(incidence * kIncidenceStep),
@@ -66,12 +73,13 @@ const SeaInCell& SeaSharing::At(const Key& key) const {
   const SharedWaves pulse = of_beam.pulse();
   const SharedWaves cell = of_beam.InCell({.side = cell_, .orientation = sea.x_azimuth - std::numbers::pi / 2});
   const Eigen::Matrix3d turn = ToMap(sea.x_azimuth);
-  auto known = std::make_unique<const SeaInCell>(SeaInCell{.pulse = turn * pulse.errors() * turn.transpose(),
-                                                           .cell = turn * cell.errors() * turn.transpose(),
-                                                           .height_pulse = pulse.footprint.heights,
-                                                           .height_cell = cell.footprint.heights});
-  const absl::MutexLock lock(&mutex_);
-  return *known_.emplace(key, std::move(known)).first->second;
+  auto made = std::make_unique<const SeaInCell>(SeaInCell{.pulse = turn * pulse.errors() * turn.transpose(),
+                                                          .cell = turn * cell.errors() * turn.transpose(),
+                                                          .height_pulse = pulse.footprint.heights,
+                                                          .height_cell = cell.footprint.heights});
+  // Another thread may have made the same one meanwhile.
+  const SeaInCell* other = nullptr;
+  return known.compare_exchange_strong(other, made.get()) ? *made.release() : *other;
 }
 
 }  // namespace albtpu::quality

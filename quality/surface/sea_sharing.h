@@ -1,10 +1,13 @@
 // The seas over which the points of a survey were measured, and what pulses in one cell share of each.
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
@@ -29,21 +32,29 @@ class SeaSharing {
   SeaInCell operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const;
 
  private:
-  static constexpr int kIncidenceStep = 5, kAzimuths = 16;  // degree; of a turn
-  static constexpr double kMostIncidence = 30;              // degree
+  static constexpr int kIncidenceStep = 5, kMostIncidence = 30;  // degree
+  static constexpr int kIncidences = kMostIncidence / kIncidenceStep + 1, kAzimuths = 16;
 
   struct Sea {
     WaveCorrelation waves;
     double x_azimuth, water_index;
   };
-  using Key = std::tuple<std::uint16_t, int, int, int>;  // Sea, steps of incidence, azimuth and ln footprint.
+  // Of one sea and one footprint, by steps of incidence and azimuth; null where none was asked for yet.
+  struct Beams {
+    std::array<std::atomic<const SeaInCell*>, std::size_t{kIncidences}* kAzimuths> known = {};
+    ~Beams() {
+      for (const auto& each : known) delete each.load();
+    }
+  };
+  using Key = std::pair<std::uint16_t, int>;  // Sea, steps of ln footprint.
 
-  const SeaInCell& At(const Key& key) const;
+  Beams& BeamsOf(const Key& key) const;
+  const SeaInCell& At(Beams& beams, const Key& key, int incidence, int azimuth) const;
 
   double cell_;
   std::vector<std::unique_ptr<const Sea>> seas_;
   mutable absl::Mutex mutex_;
-  mutable std::map<Key, std::unique_ptr<const SeaInCell>> known_ ABSL_GUARDED_BY(mutex_);
+  mutable std::map<Key, std::unique_ptr<Beams>> beams_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace albtpu::quality

@@ -103,7 +103,7 @@ PartFacts FactsOf(const Json& json) {
 }
 
 bool IsWhole(const PartFacts& facts) {
-  return !facts.files.empty() && facts.cell > 0 && facts.map.metres_per_unit > 0 &&
+  return facts.files.empty() == facts.seas.empty() && facts.cell > 0 && facts.map.metres_per_unit > 0 &&
          std::ranges::all_of(facts.sources, [&](const auto& source) { return source.sea < facts.seas.size(); });
 }
 

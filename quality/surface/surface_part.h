@@ -59,6 +59,8 @@ struct SurfacePart {
   std::filesystem::path path;
   PartFacts facts;
   std::uint64_t points_end = 0;  // Bytes: where the points end in the file.
+
+  bool empty() const { return facts.files.empty(); }  // Of files without points, which leave nothing to know.
 };
 
 // Appends the facts to the points (PointTilesWriter), and a digest of everything. ResourceExhausted on a full disk.
@@ -67,9 +69,9 @@ absl::Status SealPart(const SurfacePart& part);
 // DataLoss for a file that is none, was cut short or changed; InvalidArgument for one of another version.
 absl::StatusOr<SurfacePart> OpenPart(const std::filesystem::path& path);
 
-// What one process would know that read the files of all parts, which are put into the order of their files.
-// `sources[i][j]` is the number of source j of part i. InvalidArgument, with the names of two, where parts differ in a
-// setting, or have a file in common.
+// What one process would know that read the files of all parts, none of them empty, which are put into the order of
+// their files. `sources[i][j]` is the number of source j of part i. InvalidArgument, with the names of two, where parts
+// differ in a setting, or have a file in common.
 struct JoinedParts {
   PartFacts facts;
   std::vector<std::vector<std::uint16_t>> sources;

@@ -1,7 +1,6 @@
 #include "quality/surface/surface_tile.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -48,9 +47,9 @@ Plane PlaneOf(const Moments& m, double side) {
   if (m.n < 4) return plane;
   Eigen::Matrix2d spread;
   spread << m.xx - m.x * m.x / m.n, m.xy - m.x * m.y / m.n, m.xy - m.x * m.y / m.n, m.yy - m.y * m.y / m.n;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread, Eigen::EigenvaluesOnly);
+  const double least_spread = spread.trace() / 2 - std::hypot((spread(0, 0) - spread(1, 1)) / 2, spread(0, 1));
   constexpr double kLeast = 0.3;  // Of a cell: evenly spread over 3 cells, points have 0.87.
-  if (!(axes.eigenvalues()(0) / m.n > kLeast * kLeast * side * side)) return plane;
+  if (!(least_spread / m.n > kLeast * kLeast * side * side)) return plane;
   plane.of_unit_noise = spread.inverse();
   plane.slope = plane.of_unit_noise * Eigen::Vector2d(m.xz - m.x * m.z / m.n, m.yz - m.y * m.z / m.n);
   plane.has_slope = true;
@@ -108,13 +107,14 @@ class Cells {
       middle /= n;
       medians[c].Add(middle.x(), middle.y(), MedianOf(heights), n);
     }
+    std::vector<double> residuals, sorted;
     ForInner([&](std::size_t c) {
+      if (begin_[c + 1] - begin_[c] < 3) return;  // Of two, who knows which is wrong.
       const Plane plane = PlaneOf(Around(medians, c), side_);
-      std::vector<double> residuals, sorted;
+      residuals.clear();
       for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i)
         residuals.push_back(points_[i].z - plane.slope.dot(places_[i]));
       sorted = residuals;
-      if (sorted.size() < 3) return;  // Of two, who knows which is wrong.
       const double median = MedianOf(sorted);
       for (double& each : sorted) each = std::abs(each - median);
       const double rough = kOfMedianDeviation * MedianOf(sorted);
@@ -128,7 +128,13 @@ class Cells {
 
   SurfaceNode Node(std::size_t c, const std::vector<Moments>& kept, const NodeSources& sources) const {
     SurfaceNode node;
-    std::vector<SurfacePoint> points;
+    std::vector<SurfacePoint> others;  // Where some are left out.
+    std::span<const SurfacePoint> points(points_.data() + begin_[c], begin_[c + 1] - begin_[c]);
+    if (std::find(kept_.begin() + begin_[c], kept_.begin() + begin_[c + 1], false) != kept_.begin() + begin_[c + 1]) {
+      for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i)
+        if (kept_[i]) others.push_back(points_[i]);
+      points = others;
+    }
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     double mean = 0;
     for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i) {
@@ -136,7 +142,6 @@ class Cells {
         ++node.left_out;
         continue;
       }
-      points.push_back(points_[i]);
       middle += places_[i];
       mean += points_[i].z;
       node.bias += points_[i].bias;

@@ -24,7 +24,7 @@ struct SurfaceOptions {
 SurfaceMap MapOf(const AnnotatedLasFile& file);
 
 // Puts the points of files into a part at `path`, which must be new, and is not sealed. Memory does not depend on their
-// number.
+// number. Of no files the part is empty.
 absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& files, const SurfaceOptions& options,
                                          const std::filesystem::path& path);
 

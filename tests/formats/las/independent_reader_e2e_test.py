@@ -8,7 +8,6 @@ import shutil
 import struct
 import subprocess
 import sys
-import unittest
 
 import numpy as np
 
@@ -17,6 +16,7 @@ sys.path.insert(0, str(HERE.parents[1] / "programs/query"))
 
 import programs  # noqa: E402
 from las_file import LasFile  # noqa: E402
+from python_packages import interpreter  # noqa: E402
 from reported_survey import annotate  # noqa: E402
 from simulated_survey import SimulatedSurvey  # noqa: E402
 
@@ -69,19 +69,7 @@ def with_records(source, target, lists, values):
 class IndependentReader(programs.Test):
     @classmethod
     def setUpClass(cls):
-        folder = pathlib.Path(programs.PATHS["laspy"])
-        cls.python = folder / "bin/python"
-        try:
-            if subprocess.run([cls.python, "-c", "import laspy, lazrs"], capture_output=True).returncode != 0:
-                raise FileNotFoundError
-        except FileNotFoundError:
-            shutil.rmtree(folder, ignore_errors=True)
-            made = subprocess.run([sys.executable, "-m", "venv", folder], capture_output=True, text=True)
-            if made.returncode == 0:
-                made = subprocess.run([cls.python, "-m", "pip", "install", "-q", *PACKAGES], capture_output=True,
-                                      text=True, timeout=600)
-            if made.returncode != 0:
-                raise unittest.SkipTest(f"laspy cannot be installed: {made.stderr.strip()[-200:]}") from None
+        cls.python = interpreter(programs.PATHS["laspy"], PACKAGES, "laspy, lazrs")
 
     def setUp(self):
         super().setUp()

@@ -216,6 +216,14 @@ class CommandLineTest(programs.Test):
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
+    def test_a_closed_pipe_ends_help_and_not_answers(self):
+        for arguments, code in ((("las", "--help"), 0), (("--version",), 0), (("keys",), 1)):
+            reader, writer = os.pipe()
+            os.close(reader)
+            result = query(*arguments, stdout=writer)
+            os.close(writer)
+            self.assertEqual((result.returncode, bool(result.stderr)), (code, code != 0), arguments)
+
     def test_a_closed_standard_error_does_not_stop_the_work(self):
         reader, writer = os.pipe()
         os.close(reader)

@@ -4,6 +4,7 @@ that of one process."""
 import json
 import pathlib
 import shutil
+import struct
 import tempfile
 import unittest
 
@@ -12,6 +13,7 @@ import numpy as np
 
 import programs
 import reported_survey
+from las_file import LasFile
 from programs import query
 from simulated_survey import SimulatedSurvey
 
@@ -149,7 +151,7 @@ class Command(programs.Test):
         self.assertFalse((self.folder / "new").exists())
 
 
-class Merge(programs.Test):
+class Merging(programs.Test):
     def merge(self, *given, output="merged"):
         return query("surface", "merge", *given, "--output", self.folder / output)
 
@@ -157,6 +159,8 @@ class Merge(programs.Test):
         for name in ("surface.nc", "surface.json"):
             self.assertEqual((self.folder / output / name).read_bytes(), (made / name).read_bytes(), name)
 
+
+class Merge(Merging):
     def test_makes_the_surface_of_one_process(self):
         self.assertEqual(self.merge(*parts).returncode, 0)
         self.assert_same()
@@ -208,6 +212,35 @@ class Merge(programs.Test):
         twice = make_part("twice.part", *sorted(annotated.glob("*.las"))[:2])
         self.assert_fails(self.merge(twice, parts[1]), 1, "give each file in one part")
         self.assert_fails(self.merge(parts[0], parts[0]), 1, "give each file in one part")
+
+
+class EmptyPart(Merging):
+    """Of files without points."""
+
+    def setUp(self):
+        super().setUp()
+        tile = self.folder / "empty/tile.las"
+        tile.parent.mkdir()
+        las = LasFile(sorted(annotated.glob("*.las"))[0])
+        head = bytearray(las.bytes[:las.offset_to_points])
+        struct.pack_into("<I", head, 107, 0)
+        if las.version_minor >= 4:
+            struct.pack_into("<QIQ", head, 235, 0, 0, 0)
+        tile.write_bytes(head)
+        self.empty = self.folder / "empty.part"
+        result = query("surface", tile.parent, "--partial", self.empty, "--cell", CELL, check=0)
+        self.assertIn("0 points of 0 files", result.stdout)
+        self.assertIn("tile.las: has no points, and is left out", result.stderr)
+
+    def test_changes_no_byte(self):
+        self.assertEqual(self.merge(self.empty, *parts).returncode, 0)
+        self.assert_same()
+        self.assertEqual(self.merge(*parts, self.empty, output="last").returncode, 0)
+        self.assert_same("last")
+
+    def test_alone_makes_no_surface(self):
+        self.assert_fails(self.merge(self.empty), 1, "empty.part: of files without points; give a part of files with")
+        self.assertFalse((self.folder / "merged").exists())
 
 
 class Partial(programs.Test):

@@ -55,7 +55,7 @@ def setUpModule():
     assert result.returncode == 0, result.stderr
 
 
-def told(program, *arguments):
+def output_of(program, *arguments):
     return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
 
 
@@ -80,7 +80,7 @@ class Raster(programs.Test):
         """A point anywhere in the cell of a node, up to 1 mm from its sides, has the values of the node."""
         for row, column in self.nodes(6):
             for side in (CELL / 2 - 1e-3, 0, 1e-3 - CELL / 2):
-                found = told("gdallocationinfo", "-valonly", "-geoloc", path, self.x[column] + side, self.y[row] - side)
+                found = output_of("gdallocationinfo", "-valonly", "-geoloc", path, self.x[column] + side, self.y[row] - side)
                 expected = [self.values(band)[row, column] for band in bands]
                 np.testing.assert_allclose([float(value) for value in found.split()], expected, rtol=1e-6)
 
@@ -96,7 +96,7 @@ class Raster(programs.Test):
 class GeoTiff(Raster):
     @unittest.skipIf(MISSING, f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
     def test_says_what_it_is(self):
-        info = json.loads(told("gdalinfo", "-json", made / "surface.tif"))
+        info = json.loads(output_of("gdalinfo", "-json", made / "surface.tif"))
         self.assert_placed(info)
         self.assertEqual(info["metadata"]["IMAGE_STRUCTURE"]["LAYOUT"], "COG")
         self.assertEqual([band["description"] for band in info["bands"][:2]], ["elevation", "uncertainty"])
@@ -108,7 +108,7 @@ class GeoTiff(Raster):
             self.assertIn(part, self.grid.comment)
 
     def test_has_the_nodes_where_points_lie(self):
-        info = json.loads(told("gdalinfo", "-json", made / "surface.tif"))
+        info = json.loads(output_of("gdalinfo", "-json", made / "surface.tif"))
         self.assert_has_nodes_at_points(made / "surface.tif", [band["description"] for band in info["bands"]])
 
     def test_has_all_values_of_all_layers(self):
@@ -180,7 +180,7 @@ class Bag(Raster):
 
     @unittest.skipIf(MISSING, f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
     def test_is_opened_by_gdal(self):
-        self.assert_placed(json.loads(told("gdalinfo", "-json", made / "surface.bag")))
+        self.assert_placed(json.loads(output_of("gdalinfo", "-json", made / "surface.bag")))
 
     def test_has_the_nodes_where_points_lie(self):
         self.assert_has_nodes_at_points(made / "surface.bag", ["elevation", "uncertainty"])
@@ -202,7 +202,7 @@ class VerticalDatum(programs.Test):
         if MISSING:
             self.skipTest(f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
         for name in ("surface.tif", "surface.bag"):
-            wkt = json.loads(told("gdalinfo", "-json", new / name))["coordinateSystem"]["wkt"]
+            wkt = json.loads(output_of("gdalinfo", "-json", new / name))["coordinateSystem"]["wkt"]
             self.assertIn(f'ID["EPSG",{EPSG}]', wkt)
             self.assertIn('VERTCRS["NAVD88 height"', wkt)
 
