@@ -303,7 +303,7 @@ absl::Status WriteCog(const Raster& raster, const fs::path& path) {
   RETURN_IF_ERROR(CheckGdal());
   Options options;
   options("COMPRESS", "DEFLATE")("PREDICTOR", "YES")("BLOCKSIZE", absl::StrCat(kBlock))("BIGTIFF", "IF_SAFER");
-  options("OVERVIEW_RESAMPLING", "NEAREST");
+  options("OVERVIEW_RESAMPLING", "NEAREST")("NUM_THREADS", "ALL_CPUS");
   return Copy(raster, std::numeric_limits<float>::quiet_NaN(), "COG", options, path);
 }
 

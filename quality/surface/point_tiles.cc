@@ -185,7 +185,10 @@ absl::StatusOr<std::vector<SurfacePoint>> PointTiles::Read(const TilePlace& tile
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(nullptr, &std::fclose);
   for (const Block& block : found->second) {
     const auto& [path, end, sources] = files_[block.file];
-    if (block.file != open) file.reset(std::fopen(path.c_str(), "rb"));
+    if (block.file != open) {
+      file.reset(std::fopen(path.c_str(), "rb"));
+      if (file != nullptr) std::setvbuf(file.get(), nullptr, _IONBF, 0);  // Blocks are read whole.
+    }
     open = block.file;
     const std::size_t before = points.size();
     points.resize(before + block.points);

@@ -38,7 +38,7 @@ class PointTilesWriter {
   absl::Status Finish();
 
  private:
-  static constexpr std::size_t kBlock = 128;               // Points.
+  static constexpr std::size_t kBlock = 512;               // Points.
   static constexpr std::size_t kMostBuffered = 192 << 20;  // Bytes.
 
   PointTilesWriter(std::filesystem::path path, double cell) : path_(std::move(path)), cell_(cell) {}

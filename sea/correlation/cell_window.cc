@@ -140,6 +140,14 @@ LagDensity::LagDensity(const BeamOptions& beam, double side, double orientation)
   reach_ = width_ + std::numbers::sqrt2 * side;
   over_cell_ = side < width_ / 2;
   nodes_ = over_cell_ && side > 0 ? SquareNodes(side, axis_) : OverlapNodes(beam, along_);
+  if (side == 0 || over_cell_) return;
+  const Eigen::Vector2d other(-axis_.y(), axis_.x());
+  const auto count = static_cast<Eigen::Index>(nodes_.size());
+  node_x_.resize(count), node_y_.resize(count), weights_.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Node& node = nodes_[static_cast<std::size_t>(i)];
+    node_x_[i] = axis_.dot(node.at) / side, node_y_[i] = other.dot(node.at) / side, weights_[i] = node.weight;
+  }
 }
 
 double LagDensity::OfFootprint(const Eigen::Vector2d& lag) const {
@@ -163,13 +171,8 @@ double LagDensity::operator()(const Eigen::Vector2d& lag) const {
   if (std::max(far_x, far_y) >= 1 + margin) return 0;
   if (std::min(far_x, far_y) >= margin && std::max(far_x, far_y) <= 1 - margin)
     return (1 - far_x) * (1 - far_y) / (side_ * side_);
-  const double ax = axis_.x() / side_, ay = axis_.y() / side_;
-  for (const Node& node : nodes_) {
-    const double to_x = std::abs(x - ax * node.at.x() - ay * node.at.y());
-    const double to_y = std::abs(y + ay * node.at.x() - ax * node.at.y());
-    sum += node.weight * std::max(0.0, 1 - to_x) * std::max(0.0, 1 - to_y);
-  }
-  return sum / (side_ * side_);
+  const auto triangles = (1 - (x - node_x_).abs()).max(0) * (1 - (y - node_y_).abs()).max(0);
+  return (weights_ * triangles).sum() / (side_ * side_);
 }
 
 }  // namespace albtpu

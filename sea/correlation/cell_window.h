@@ -48,6 +48,7 @@ class LagDensity {
   double width_, reach_;     // m, of the footprint's density and of the whole
   bool over_cell_ = false;   // the convolution is a sum over the cell, which is narrower, and not over the footprint
   std::vector<Node> nodes_;  // of the narrower of the two
+  Eigen::ArrayXd node_x_, node_y_, weights_;  // the same on the axes of the cell, in its sides
 };
 
 }  // namespace albtpu
