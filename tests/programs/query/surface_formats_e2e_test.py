@@ -80,7 +80,8 @@ class Raster(programs.Test):
         """A point anywhere in the cell of a node, up to 1 mm from its sides, has the values of the node."""
         for row, column in self.nodes(6):
             for side in (CELL / 2 - 1e-3, 0, 1e-3 - CELL / 2):
-                found = output_of("gdallocationinfo", "-valonly", "-geoloc", path, self.x[column] + side, self.y[row] - side)
+                place = (self.x[column] + side, self.y[row] - side)
+                found = output_of("gdallocationinfo", "-valonly", "-geoloc", path, *place)
                 expected = [self.values(band)[row, column] for band in bands]
                 np.testing.assert_allclose([float(value) for value in found.split()], expected, rtol=1e-6)
 

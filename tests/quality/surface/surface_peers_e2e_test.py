@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -15,11 +16,14 @@ import h5py
 import netCDF4
 import numpy as np
 
-import programs
-import reported_survey
-from programs import query
-from python_packages import interpreter
-from simulated_survey import SimulatedSurvey
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "programs/query"))
+
+import programs  # noqa: E402
+import reported_survey  # noqa: E402
+from programs import query  # noqa: E402
+from python_packages import interpreter  # noqa: E402
+from simulated_survey import SimulatedSurvey  # noqa: E402
 
 CELL = 2
 PACKAGES = ("xarray==2026.9.0", "netCDF4==1.7.5.1.post1", "rasterio==1.4.4", "lxml==6.1.3")
