@@ -15,22 +15,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The horizontal uncertainty at each coverage, m.
-struct HorizontalUncertainty {
-  explicit HorizontalUncertainty(const AnnotatedPoint& point) {
-    const float mean = (point.variance_x + point.variance_y) / 2;
-    const float split = std::hypot((point.variance_x - point.variance_y) / 2, point.covariance_xy);
-    root_of_trace = std::sqrt(2 * mean);
-    ratio = mean + split > 0 ? std::sqrt(std::clamp((mean - split) / (mean + split), 0.F, 1.F)) : 0;
-  }
-  double At(Coverage coverage) const {
-    if (coverage == Coverage::kOneSigma) return root_of_trace;
-    const double two_sigma = 2 * root_of_trace;
-    return coverage == Coverage::kTwoSigma ? two_sigma : two_sigma * RadiusFactors::Get()(ratio);
-  }
-  float root_of_trace = 0, ratio = 0;
-};
-
 ordered_json SpreadJson(const annotate::LengthSpread& spread) {
   return {{"mean", spread.mean()},
           {"median", spread.quantile(0.5)},
@@ -48,7 +32,7 @@ ClassJudge::ClassJudge(const std::vector<Specification>& specifications) {
 
 std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
   if (!point.has_number) return 0;
-  const HorizontalUncertainty horizontal(point);
+  const HorizontalRadius horizontal(point.variance_x, point.variance_y, point.covariance_xy);
   const double sigma_vertical = std::sqrt(point.variance_z);
   std::uint64_t met = 0;
   for (std::size_t i = 0; i < classes_.size(); ++i) {

@@ -55,7 +55,7 @@ def _assumed(report: Report) -> int:
 
 
 def sentences(report: Report) -> list[str]:
-    """Is the prediction right, what does it rest on, where does the survey fail and why, what helps, what is not tested."""
+    """Is the prediction right, what does it rest on, where and why does a survey fail, what helps, what is untested."""
     assumed = _assumed(report)
     found = [_truth(report)]
     if assumed:
