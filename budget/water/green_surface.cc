@@ -129,6 +129,14 @@ class Delays {
   std::vector<double> delays_;
 };
 
+// The attenuation of light in the first decimetres over K = sqrt(a^2 + 6 B a b), which is that of light that was
+// scattered many times. What is scattered forwards stays within the field of view: a + B b remain (quasi-single
+// scattering: Gordon 1973, doi:10.1364/AO.12.002803).
+double FirstOverK(const WaterOptics& optics) {
+  const double back = optics.scattering_over_absorption * std::sqrt(optics.least_fraction * optics.most_fraction);
+  return (1 + back) / std::sqrt(1 + 6 * back);
+}
+
 }  // namespace
 
 double GreenSurfaceDelay(double glint, double attenuation, const WaterReceiver& receiver) {
@@ -143,7 +151,7 @@ GreenSurface GreenSurfaceOf(const WaterOptics& optics, const WaterReceiver& rece
   constexpr int kMeans = 16;
   double mean = 0, squares = 0, spread = 0;
   for (const auto& [shift, weight] : waters) {
-    const Delays delays(optics.attenuation * std::exp(shift), receiver);
+    const Delays delays(optics.attenuation * FirstOverK(optics) * std::exp(shift), receiver);
     const double none = delays.none();
     mean += weight * none / 2;
     squares += weight * none * none / 3;  // of a mean that is uniform from 0 to that without a glint

@@ -31,7 +31,7 @@ struct GreenSurface {
 GreenSurface GreenSurfaceOf(const WaterOptics& optics, const WaterReceiver& receiver);
 
 // m, of the range in air, where the glint is `glint` times c beta / (2 n_g) [ns], 0 or more; infinity: nothing else.
-// `attenuation` is K, 1/m, above 0.
+// `attenuation` is K, 1/m, above 0: a + B b of a water of absorption a that scatters the fraction B of b backwards.
 double GreenSurfaceDelay(double glint, double attenuation, const WaterReceiver& receiver);
 
 // How the reported point moves for each metre by which the surface is found too far along the beam: outwards, and down.
