@@ -118,7 +118,6 @@ inline constexpr std::array<std::string_view, 7> kTimeFormats = {"auto", "week",
 inline constexpr std::array<std::string_view, 4> kVelocityAxes = {"auto", "wander", "body", "north"};
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
-inline constexpr std::array<std::string_view, 2> kSurfaceChannels = {"green", "infrared"};
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
 inline constexpr std::array<std::string_view, 2> kConfidences = {"1sigma", "95%"};
 inline constexpr std::array<std::string_view, 2> kPointChoices = {"all", "bathymetric"};

@@ -36,7 +36,8 @@ std::vector<std::string> Assumptions(const TotalPlan& plan) {
   for (const StatedNumber& number : plan.numbers)
     if (number.assumed) lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
   if (plan.water.channel_assumed)
-    lines.push_back("returns from the surface lie on it (assumed: [surface] channel is not given)");
+    lines.push_back(absl::StrCat("returns from the surface lie on it (assumed: [surface] channel is not given",
+                                 plan.water.lasers, ")"));
   return lines;
 }
 
@@ -207,6 +208,19 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
   return open;
 }
 
+namespace {
+
+// What to think of a surface of which nobody says by which laser it was located. It follows the word "given".
+std::string LasersOf(const config::Sensor& sensor) {
+  if (!sensor.surface_channel.has_value()) return "";
+  if (sensor.surface_channel->value == "infrared") return absl::StrCat(", ", sensor.title, " has an infrared laser");
+  return absl::StrCat("; ", sensor.title,
+                      " has no infrared laser, and a green one finds the surface too low: where the processing did not "
+                      "correct this, give [surface] channel = \"green\"");
+}
+
+}  // namespace
+
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
   if (!survey.sensor.name.has_value()) {
     return formats::UsageError(
@@ -251,6 +265,7 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
     state("extra_vertical", absl::StrCat(options.extra_vertical, " m"), "[extra]", false);
   ASSIGN_OR_RETURN(plan.water, PlanWater(water, options.index, plan.numbers));
   RETURN_IF_ERROR(PlanGreenSurface(survey, options, plan.water, plan.numbers));
+  plan.water.lasers = LasersOf(sensor);
   return plan;
 }
 

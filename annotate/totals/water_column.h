@@ -33,7 +33,9 @@ struct WaterPlan {
   double processed_with = 0;
   // Of a surface that returns of a green laser located; its spread is among the errors of the air side.
   std::optional<GreenSurface> surface;
-  bool channel_assumed = false;  // Nothing says which laser located the surface by its returns.
+  // Nothing says which laser located the surface by its returns. What the sensor's file says of its lasers.
+  bool channel_assumed = false;
+  std::string lasers = {};
 
   bool has_share() const { return share != nullptr || surface.has_value(); }
 };

@@ -96,6 +96,18 @@ std::optional<SourcedDivergence> ReadDivergence(TomlKeys& root) {
   return std::nullopt;
 }
 
+std::optional<SourcedChannel> ReadSurfaceChannel(TomlKeys& root) {
+  for (TomlKeys& keys : root.Table("surface_channel")) {
+    const std::vector<std::string> words(kSurfaceChannels.begin(), kSurfaceChannels.end());
+    SourcedChannel channel{.value = keys.OneOf(kValue, words).value_or(""), .source = ReadSource(keys)};
+    keys.Finish();
+    if (!keys.Has(kValue)) keys.Fail("value is missing; give \"green\" or \"infrared\"");
+    if (!keys.Has("source")) keys.Fail("source is missing; give where this is from");
+    return channel;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 absl::StatusOr<Sensor> ParseSensor(std::string_view text) {
@@ -107,6 +119,7 @@ absl::StatusOr<Sensor> ParseSensor(std::string_view text) {
   for (std::size_t i = 0; i < kErrorSourceCount; ++i)
     if (kErrorSources[i].of_sensor) ReadNumbers(keys, i, sensor);
   sensor.divergence = ReadDivergence(keys);
+  sensor.surface_channel = ReadSurfaceChannel(keys);
   keys.Finish();
   if (!problem.status().ok()) return problem.status();
   if (sensor.title.empty())

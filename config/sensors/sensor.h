@@ -12,9 +12,12 @@
 //     greatest = 2
 //     unit = "mrad"
 //     source = "..."
+//     [surface_channel]
+//     value = "green"                     # the laser that can locate the water surface; "infrared" where it has one
+//     source = "..."
 //
-// The tables are the sources of error that a sensor may state (budget/air/air_errors.h): standard deviations, of which
-// some are a list of three; and the divergence. What is not published is absent.
+// Tables of numbers are the sources of error that a sensor may state (budget/air/air_errors.h), standard deviations of
+// which some are a list of three; and the divergence. What is not published is absent.
 #pragma once
 
 #include <algorithm>
@@ -63,6 +66,14 @@ struct SourcedDivergence {
   std::string source;
 };
 
+// The lasers whose returns can locate the water surface: a green one, which finds it too low (green_surface.h).
+inline constexpr std::array<std::string_view, 2> kSurfaceChannels = {"green", "infrared"};
+
+struct SourcedChannel {
+  std::string value;  // One of kSurfaceChannels: "green" of a sensor without an infrared laser.
+  std::string source;
+};
+
 struct Sensor {
   std::string name;   // The file's, without .toml; empty for a text that is no file.
   std::string title;  // As people call it.
@@ -70,6 +81,7 @@ struct Sensor {
   StatedErrors errors;
   std::array<std::string, kErrorSourceCount> origins;  // Where each stated number is from; empty for the others.
   std::optional<SourcedDivergence> divergence;
+  std::optional<SourcedChannel> surface_channel;
 };
 
 // mrad, full angle. A green beam of less would leave the aircraft with a diameter of 3.4 cm or more (4 lambda/(pi D));

@@ -152,6 +152,7 @@ std::string Text(const config::Sensor& sensor) {
     line(source.name, source.size() > 1 ? absl::StrCat("[", numbers, "]") : numbers, source.unit, sensor.origins[i]);
   }
   if (const auto& known = sensor.divergence) line("divergence", DivergenceText(*known), "mrad", known->source);
+  if (const auto& known = sensor.surface_channel) line("surface_channel", known->value, "laser", known->source);
   std::vector<std::string> unknown = config::UnknownOf(sensor);
   const bool no_divergence = std::erase(unknown, "divergence") > 0;
   if (!unknown.empty())
@@ -177,6 +178,8 @@ ordered_json Json(const config::Sensor& sensor) {
     divergence["unit"] = "mrad";
     divergence["source"] = known->source;
   }
+  if (const auto& known = sensor.surface_channel)
+    json["surface_channel"] = {{"value", known->value}, {"source", known->source}};
   json["unknown"] = config::UnknownOf(sensor);
   return json;
 }

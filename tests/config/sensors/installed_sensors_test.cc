@@ -57,6 +57,9 @@ TEST(ShippedSensors, HaveASourceForEachNumber) {
     if (sensor.divergence.has_value()) {
       EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
     }
+    if (sensor.surface_channel.has_value()) {
+      EXPECT_THAT(sensor.surface_channel->source, names_a_source) << sensor.name;
+    }
     EXPECT_LT(UnknownOf(sensor).size(), 10u) << sensor.name << " has no number";
   }
 }

@@ -29,6 +29,9 @@ least = 0.7
 greatest = 2
 unit = "mrad"
 source = "measured"
+[surface_channel]
+value = "green"
+source = "its data sheet"
 )";
 
 std::string ErrorOf(const std::string& text) {
@@ -55,6 +58,8 @@ TEST(Sensor, HasNumbersWithTheirSources) {
   EXPECT_EQ(sensor->divergence.value().least, 0.7);
   EXPECT_EQ(sensor->divergence.value().greatest, 2);
   EXPECT_EQ(sensor->divergence.value().source, "measured");
+  EXPECT_EQ(sensor->surface_channel.value().value, "green");
+  EXPECT_EQ(sensor->surface_channel.value().source, "its data sheet");
 }
 
 TEST(Sensor, LacksWhatNoSourceGives) {
@@ -102,6 +107,18 @@ TEST(Sensor, NeedsTheSourceAndTheUnitOfEachNumber) {
                 StartsWith("line 5: 'scan.source' is "))
         << blank;
   }
+}
+
+TEST(Sensor, SaysWhichLaserCanLocateTheSurface) {
+  EXPECT_FALSE(ParseSensor("title = 'a'\n")->surface_channel.has_value());
+  EXPECT_EQ(ParseSensor("title = 'a'\n[surface_channel]\nvalue = 'infrared'\nsource = 'b'\n")->surface_channel->value,
+            "infrared");
+  EXPECT_THAT(ErrorOf("title = 'a'\n[surface_channel]\nvalue = 'red'\nsource = 'b'\n"),
+              StartsWith("line 3: 'surface_channel.value' is 'red' (expected green, infrared)"));
+  EXPECT_EQ(ErrorOf("title = 'a'\n[surface_channel]\nvalue = 'green'\n"),
+            "line 2: [surface_channel] source is missing; give where this is from");
+  EXPECT_EQ(ErrorOf("title = 'a'\n[surface_channel]\nsource = 'b'\n"),
+            "line 2: [surface_channel] value is missing; give \"green\" or \"infrared\"");
 }
 
 TEST(Sensor, RefusesEachWrongNumber) {

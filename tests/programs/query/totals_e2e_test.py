@@ -75,6 +75,36 @@ class TotalsTest(programs.Test):
             self.assertEqual(total["assumed"], ["divergence 1 mrad (assumed: the default of the sensor)",
                                                 *(on_it if located != "level" else [])])
 
+    def test_a_sensor_says_which_laser_can_locate_the_surface(self):
+        answers = {}
+        for laser in ("none", "green", "infrared"):
+            sensor = self.folder / f"{laser}.toml"
+            sensor.write_text("title = 'Scanner 3'\n" + ("" if laser == "none" else f"""
+[surface_channel]
+value = '{laser}'
+source = 'its data sheet'
+"""))
+            text = f"[sensor]\nname = '{sensor}'\n[surface]\nlocated = 'pulse'\n" + DECIDED + WIND + SIGMA
+            answers[laser] = json.loads(query("pulse", "--survey", self.toml(text), "--table", self.table,
+                                              "--incidence", 20, "--depth", 10, "--footprint", 0.6, "--json",
+                                              check=0).stdout)
+        said = {laser: [line for line in answer["assumed"] if line.startswith("returns from the surface")]
+                for laser, answer in answers.items()}
+        begin = "returns from the surface lie on it (assumed: [surface] channel is not given"
+        self.assertEqual(said, {
+            "none": [begin + ")"],
+            "green": [begin + "; Scanner 3 has no infrared laser, and a green one finds the surface too low: where the "
+                      "processing did not correct this, give [surface] channel = \"green\")"],
+            "infrared": [begin + ", Scanner 3 has an infrared laser)"]})
+        # What is assumed is said, and changes no number.
+        for laser in ("green", "infrared"):
+            self.assertEqual(answers[laser]["covariance_total"], answers["none"]["covariance_total"])
+            self.assertEqual(answers[laser]["bias_vertical"], answers["none"]["bias_vertical"])
+        shown = json.loads(query("sensors", self.folder / "green.toml", "--json", check=0).stdout)
+        self.assertEqual(shown["surface_channel"], {"value": "green", "source": "its data sheet"})
+        shown = query("sensors", self.folder / "green.toml", check=0).stdout
+        self.assertIn("surface_channel green laser, its data sheet", shown)
+
     def test_las_has_the_total_its_shares_and_its_covariance(self):
         flight = SimulatedSurvey(self.folder / "flight").folder
         text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\nerrors = ['{flight}/smrmsg.out']\n"
