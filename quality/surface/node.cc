@@ -57,7 +57,7 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
 
 double NodeVariance::within_cell(std::size_t points) const {
   const auto n = static_cast<double>(points);
-  return points > 1 ? n / (n - 1) * std::max(of_point - apart_from_survey(), 0.0) : 0;
+  return points > 1 ? n / (n - 1) * std::max(of_point - (apart_from_survey() - of_plane), 0.0) : 0;
 }
 
 NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope,

@@ -45,6 +45,7 @@ struct NodeVariance {
   double pulse = 0, sea = 0, line = 0, survey = 0;
   int passes = 0;
   double of_point = 0;  // Of one point, without what the survey shares: the mean.
+  double of_plane = 0;  // What the error of the plane's slope adds to `pulse`, or takes away.
 
   double apart_from_survey() const { return pulse + sea + line; }
   double total() const { return apart_from_survey() + survey; }

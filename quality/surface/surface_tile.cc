@@ -37,7 +37,8 @@ struct Moments {
 struct Plane {
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   Eigen::Matrix2d of_unit_noise =
-      Eigen::Matrix2d::Zero();  // The covariance of the slope, if heights have the variance 1.
+      Eigen::Matrix2d::Zero();                       // The covariance of the slope, if heights have the variance 1.
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  // The mean of its points, m from the middle of the cell.
   bool has_slope = false;
 };
 
@@ -51,6 +52,7 @@ Plane PlaneOf(const Moments& m, double side) {
   constexpr double kLeast = 0.3;  // Of a cell: evenly spread over 3 cells, points have 0.87.
   if (!(least_spread / m.n > kLeast * kLeast * side * side)) return plane;
   plane.of_unit_noise = spread.inverse();
+  plane.middle = Eigen::Vector2d(m.x, m.y) / m.n;
   plane.slope = plane.of_unit_noise * Eigen::Vector2d(m.xz - m.x * m.z / m.n, m.yz - m.y * m.z / m.n);
   plane.has_slope = true;
   return plane;
@@ -164,7 +166,10 @@ class Cells {
     node.variance = VarianceOf(points, plane.slope, sources);
     // The slope is no better known than the scatter of the points that it is made of.
     const double scatter = points.size() > 1 ? node.variance.within_cell(points.size()) : node.variance.pulse;
-    node.variance.pulse += scatter * middle.dot(plane.of_unit_noise * middle);
+    // The mean of the cell is of points that the slope is made of, too: their covariance is U (middle - plane.middle).
+    const Eigen::Vector2d lever = middle - 2 * (middle - plane.middle);
+    node.variance.of_plane = std::max(-node.variance.pulse, scatter * middle.dot(plane.of_unit_noise * lever));
+    node.variance.pulse += node.variance.of_plane;
     if (points.size() > 1) {
       double squares = 0;
       for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "quality/surface/surface_tile.h"
@@ -138,6 +139,29 @@ TEST_F(Tile, OfAPlaneHasItsHeightsInTheMiddleOfCells) {
       EXPECT_NEAR(node.slope_x, 0.4, 1e-6);
       EXPECT_NEAR(node.deviation, 0, 1e-7);
     }
+}
+
+// The plane is made of the cell's own points, too: with two points a cell this is 3 % of the variance.
+TEST_F(Tile, OfFewIndependentPointsIsAsUncertainAsItSays) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> error(0, std::sqrt(kPulse + kSea));
+  std::uniform_real_distribution<double> place(-kTileBorder, kTileCells + kTileBorder);
+  constexpr int kSide = kTileCells + 2 * kTileBorder, kTiles = 60;
+  double squares = 0, nodes = 0;
+  for (int tile = 0; tile < kTiles; ++tile) {
+    std::vector<SurfacePoint> points;
+    for (int i = 0; i < 2 * kSide * kSide; ++i) {
+      points.push_back(PointAt(1e-4 * i));
+      points.back().x = place(random), points.back().y = place(random);
+      points.back().z = -5 + error(random);
+    }
+    for (const SurfaceNode& node : NodesOf({}, points, 1, 1, Sharing(0))) {
+      if (node.points == 0) continue;
+      squares += std::pow(node.elevation + 5, 2) / (node.variance.pulse + node.variance.sea);
+      ++nodes;
+    }
+  }
+  EXPECT_NEAR(squares / nodes, 1, 3 * std::sqrt(2 / nodes));
 }
 
 TEST_F(Tile, LeavesOutPointsFarFromTheOthersAndCountsThem) {

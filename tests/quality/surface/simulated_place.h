@@ -1,0 +1,67 @@
+// A place of a simulated survey, with truth: a sloping bottom under waves that travel, which two lines see.
+//
+// Waves are drawn anew for every survey, and every pulse meets them at its own place and time. A pulse is refracted by
+// the law of Snell at the slope that its footprint averages, and reported as processing would, with errors of its own,
+// of its line and of the survey. No covariance of two pulses is used.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "quality/surface/node.h"
+#include "quality/surface/sea_sharing.h"
+#include "sea/spectra/harmonic_spectrum.h"
+
+namespace albtpu::quality {
+
+enum class ScanPattern {
+  kPalmer,  // an ellipse of 14 degrees ahead and 20 degrees aside: each line sees a place fore and aft
+  kRaster,  // a triangular wave across the line, 20 degrees to both sides
+  kRandom   // one beam of 20 degrees, at places that are drawn: what R (1 - R) / n is exact for
+};
+
+// One line over the place; the aircraft flies straight.
+struct SimulatedLine {
+  ScanPattern pattern;
+  int number;
+  double heading;  // degree clockwise from north
+  double aside;    // m: of the middle of the place, to the right of the line
+  double start;    // s: when it passes the place
+};
+
+struct DrawnSurvey {
+  std::vector<SurfacePoint> points;  // In the order of SurfacePoint::Order.
+  // Of the sea's share of the heights of single pulses, over their depths: sums of the drawn and of the stated ones.
+  double sum = 0, squares = 0, stated = 0, n = 0;
+};
+
+// Any number of threads may use it at a time.
+class SimulatedPlace {
+ public:
+  static constexpr double kWest = 2.5, kWidth = 25;  // m: where pulses meet the water, on both axes.
+  // The bottom has all its points this far from the edge, m.
+  static constexpr double kMargin = 2.5;
+
+  // `spacing` between pulses, m. `cells` are those that nodes will be asked for.
+  SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells);
+
+  DrawnSurvey Survey(std::uint64_t seed) const;
+  // Nodes of cells of a side that was named.
+  NodeSources SourcesFor(double cell) const;
+
+  static double HeightAt(const Eigen::Vector2d& at);
+
+ private:
+  const SeaSharing& SharingAt(double cell) const;
+
+  std::vector<SimulatedLine> lines_;
+  double spacing_;
+  HarmonicSpectrum sea_;
+  std::vector<std::pair<double, std::unique_ptr<SeaSharing>>> sharing_;
+};
+
+}  // namespace albtpu::quality
