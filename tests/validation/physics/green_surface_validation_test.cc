@@ -50,8 +50,8 @@ TEST(GreenSurfaceEcho, OfLightScatteredOnceHasTheAttenuationOfTheBeam) {
     }
 }
 
-// What is scattered forwards stays in a field of view of metres: a + B b, and neither the beam's attenuation nor that of
-// light that was scattered many times. With ALBTPU_EVERY_CASE=1 it prints long pulses and peaks, too.
+// What is scattered forwards stays in a field of view of metres: a + B b, and neither the attenuation of the beam nor
+// that of light that was scattered many times. With ALBTPU_EVERY_CASE=1 it prints long pulses and peaks, too.
 TEST(GreenSurfaceEcho, OfAllLightHasTheAttenuationOfWhatIsScatteredBack) {
   const std::vector<double> fields = {0.3, 1, 5};
   const std::vector<double> pulses = EveryCase() ? std::vector<double>{1.5, 5} : std::vector<double>{1.5};
@@ -76,7 +76,7 @@ TEST(GreenSurfaceEcho, OfAllLightHasTheAttenuationOfWhatIsScatteredBack) {
               std::printf(
                   "a %.2f b %.2f 1/m B %.4f, %.1f ns %s, glint %.1f, view %.1f m: %.1f +- %.1f mm, formula with a + B "
                   "b "
-                  "%+.1f, with K %+.1f, with a + b %+.1f\n",
+                  "b %+.1f, with K %+.1f, with a + b %+.1f\n",
                   water.absorption, water.scattering, water.fraction, pulse, half ? "half" : "peak", glint,
                   fields[field], 1e3 * walked.delay, 1e3 * walked.standard_error, -1e3 * over(water.first()),
                   -1e3 * over(water.diffuse()), -1e3 * over(water.of_beam()));
