@@ -86,8 +86,8 @@ source = 'its data sheet'
 """))
             text = f"[sensor]\nname = '{sensor}'\n[surface]\nlocated = 'pulse'\n" + DECIDED + WIND + SIGMA
             answers[laser] = json.loads(query("pulse", "--survey", self.toml(text), "--table", self.table,
-                                              "--incidence", 20, "--depth", 10, "--footprint", 0.6, "--json",
-                                              check=0).stdout)
+                                              "--incidence", 20, "--depth", 10, "--footprint", 0.6, "--altitude", 400,
+                                              "--beam-azimuth", 90, "--json", check=0).stdout)
         said = {laser: [line for line in answer["assumed"] if line.startswith("returns from the surface")]
                 for laser, answer in answers.items()}
         begin = "returns from the surface lie on it (assumed: [surface] channel is not given"
