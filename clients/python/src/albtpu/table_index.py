@@ -88,10 +88,11 @@ class _Snell:
 
     def _changes(self, variance: float) -> list[Doubles]:
         both = self._of(variance, variance, 0)
-        x, y = (self._of(*pair, 0) - self._level for pair in ((variance, 0), (0, variance)))
-        mixed = 2 * (self._of(variance, variance, variance / 2) - both)
+        x, y = self._of(variance, 0, 0) - self._level, self._of(0, variance, 0) - self._level
         together = both - self._level - x - y
-        return [x / variance + together / (2 * variance), y / variance + together / (2 * variance), mixed / variance]
+        mixed = self._of(variance, variance, variance / 2) - both
+        mixed /= variance / 2
+        return [x / variance + together / (2 * variance), y / variance + together / (2 * variance), mixed]
 
     def _of(self, xx: float, yy: float, xy: float) -> Doubles:
         gains = _effective_gains(self._incidence, self._index, np.array([[xx, xy], [xy, yy]]))
