@@ -7,12 +7,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "annotate/las/las_beams.h"
 #include "annotate/las/las_csv.h"
 #include "annotate/las/las_prescan.h"
 #include "annotate/seas/sea_facts.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
+#include "formats/las/las_points.h"
 #include "formats/las/las_writer.h"
 #include "formats/text/text.h"
 #include "laz/items/point_encoders.h"
@@ -142,7 +144,8 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
         annotated.totals.Merge(chunk.totals);
         annotated.dry.Merge(chunk.dry);
         annotated.sloped += chunk.sloped;
-        annotated.submerged += chunk.submerged;
+        for (const auto& [point_class, points] : chunk.submerged) annotated.submerged[point_class] += points;
+        annotated.low_ground += chunk.low_ground;
         for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
         for (std::size_t i = 0; i < annotated.points_by_channel.size(); ++i) {
           annotated.points_by_channel[i] += chunk.points_by_channel[i];
@@ -158,6 +161,24 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
         return writer.has_value() ? writer->Write(passing.output(), chunk.own) : absl::OkStatus();
       });
   return status.ok() && writer.has_value() ? writer->End(runs.tail_begin(), runs.tail_end()) : status;
+}
+
+// Points under the water of classes that are not taken as bathymetric.
+void NoteSubmerged(AnnotatedLas& annotated) {
+  std::uint64_t unclassified = 0, others = 0;
+  std::vector<std::string> classes;
+  for (const auto& [point_class, points] : annotated.submerged) {
+    (formats::IsUnclassified(point_class) ? unclassified : others) += points;
+    if (!formats::IsUnclassified(point_class)) classes.push_back(absl::StrCat(point_class));
+  }
+  const auto note = [&](std::uint64_t points, const std::string& of, const std::string& what) {
+    if (points == 0) return;
+    annotated.notes.push_back(absl::StrCat(points, of, " lie below the water surface and ", what,
+                                           "; --classes with their class makes them bathymetric"));
+  };
+  note(unclassified, " unclassified points", "have no number");
+  note(others, absl::StrCat(" points of class ", absl::StrJoin(classes, " and ")), "have no number");
+  note(annotated.low_ground, " points of the ground", "have the numbers of land");
 }
 
 }  // namespace
@@ -212,10 +233,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
         absl::StrFormat("terrain slope: known at %d of %d dry points, from planes of %s points within %g m",
                         annotated.sloped, annotated.dry.count(), from, 1.5 * terrain.planes->cell()));
   }
-  if (annotated.submerged > 0)
-    annotated.notes.push_back(absl::StrCat(annotated.submerged,
-                                           " unclassified points lie below the water surface and have no number; "
-                                           "--classes with their class makes them bathymetric"));
+  NoteSubmerged(annotated);
   if (annotated.withheld > 0)
     annotated.notes.push_back(absl::StrCat(
         annotated.withheld, " bathymetric points are withheld and have no number; --use-withheld gives them one"));

@@ -37,8 +37,10 @@ struct AnnotatedLas {
   std::vector<TotalSummary> totals_by_channel = {};
   std::uint64_t dry_without_channel = 0;
   DrySummary dry = {};
-  std::uint64_t sloped = 0;     // Dry points whose total has the slope of the terrain.
-  std::uint64_t submerged = 0;  // Unclassified points below the water, which have no number.
+  std::uint64_t sloped = 0;  // Dry points whose total has the slope of the terrain.
+  // By class: points below the water that are not of the ground, which have no number. And points of the ground there.
+  std::map<int, std::uint64_t> submerged = {};
+  std::uint64_t low_ground = 0;
   SurfaceCounts surface = {};
   CoordinateSpread incidence = {};      // degree
   JsonBox geometry = {};                // The determination of the beams, for a summary.

@@ -67,6 +67,10 @@ class LasBeams {
   // Null where no point needs a position. `found_seconds`: of a unit of the points' times, as the track says.
   absl::StatusOr<const Track*> FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
                                          const WaterHeights& water, double& found_seconds);
+  // By the times of all points; where that fails and a few lie far from all others, by those of the others.
+  absl::StatusOr<FileTrack> TrackOf(const TrackedFile& file, const BeamPlan& plan);
+  // Fails where times are rounded so that they do not tell where the sensor was.
+  absl::Status CheckTimeStep(const std::string& name, double seconds);
   void AddNote(const std::string& note);
 
   LasPlace place_;

@@ -56,7 +56,9 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
   if (annotation.total.has_value()) SelectForTotals(selection_);
   selection_.standard_errors = style_.standard_errors;
   for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
-  for (const int point_class : annotation.plan.water_classes) is_water_[point_class] = true;
+  for (const int point_class : formats::WaterSurfaceClasses(header.point_format)) is_on_water_[point_class] = true;
+  for (const int point_class : annotation.plan.water_classes) is_water_[point_class] = is_on_water_[point_class] = true;
+  for (int i = 0; i < formats::kClassCount; ++i) is_ground_[i] = formats::IsGround(i, header.point_format);
   for (int i = 0; i < formats::kClassCount && dry_points_; ++i)
     is_dry_[i] = !is_chosen_[i] && formats::MayBeDry(i, header.point_format);
   for (int i = 0; i < formats::kClassCount; ++i)
@@ -106,8 +108,9 @@ std::uint8_t LasChunkWork::ScannerOf(std::string_view record) const {
 
 void LasChunkWork::Begin(Chunk& chunk) const {
   chunk.classes = {};
-  chunk.withheld = chunk.synthetic = chunk.sloped = chunk.submerged = chunk.sigmas_assumed = chunk.dry_without_channel =
-      0;
+  chunk.withheld = chunk.synthetic = chunk.sloped = chunk.low_ground = chunk.sigmas_assumed =
+      chunk.dry_without_channel = 0;
+  chunk.submerged.clear();
   chunk.dry = {};
   chunk.surface = {};
   chunk.incidence = {};
@@ -232,10 +235,14 @@ void LasChunkWork::FindDryTotals(const Scanner& scanner, Chunk& chunk) const {
   chunk.dry_incidence.clear();
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     if (beams.dry[i] == 0 || beams.why_not[i].has_value()) continue;
-    // A return from under the water that nobody classified is none from land.
-    if (chunk.scratch.above[i] < 0 && formats::IsUnclassified(fields_.Class(Record(chunk, chunk.chosen[i])))) {
-      ++chunk.submerged;
-      continue;
+    // A return from under the water is none from land, unless it is of the ground, which may lie lower behind a dike.
+    const int point_class = fields_.Class(Record(chunk, chunk.chosen[i]));
+    if (chunk.scratch.above[i] < 0 && !is_on_water_[static_cast<std::size_t>(point_class)]) {
+      if (!is_ground_[static_cast<std::size_t>(point_class)]) {
+        ++chunk.submerged[point_class];
+        continue;
+      }
+      ++chunk.low_ground;
     }
     chunk.dry_rows.push_back(static_cast<std::uint32_t>(i));
     chunk.dry_incidence.push_back(beams.incidence[i]);

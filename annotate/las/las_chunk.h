@@ -91,7 +91,9 @@ class LasChunkWork {
     std::uint64_t withheld = 0, synthetic = 0;  // Of the chosen classes; withheld ones have no number.
     DrySummary dry;                             // Of dry points, where the plan has them.
     std::uint64_t sloped = 0;                   // Of these with the slope of the terrain.
-    std::uint64_t submerged = 0;                // Unclassified points below the water, which have no number.
+    // By class: points below the water that are not of the ground, which have no number. And those of the ground there.
+    std::map<int, std::uint64_t> submerged;
+    std::uint64_t low_ground = 0;
     SurfaceCounts surface;
     CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
     UncertaintySummary summary;
@@ -177,6 +179,7 @@ class LasChunkWork {
   AnswerStyle style_;
   AnswerSelection selection_;
   std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_dry_ = {}, is_terrain_ = {};
+  std::array<bool, formats::kClassCount> is_ground_ = {}, is_on_water_ = {};
   AnswerSource source_;
   const LasCsv* csv_ = nullptr;
 };

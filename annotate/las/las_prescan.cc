@@ -56,6 +56,7 @@ struct Part {
   double off_level_height = 0;  // Sum, m.
   Box all, of_numbered;
   double first_time, last_time;
+  formats::TimeTally tally;
   SurfaceReturns surface;
   TerrainReturns ground, unclassified;
   std::vector<ReturnPair> pairs;
@@ -114,6 +115,8 @@ class PrescanWork {
     part.all = part.of_numbered = EmptyBox();
     part.first_time = std::numeric_limits<double>::infinity();
     part.last_time = -part.first_time;
+    part.tally = {};
+    std::optional<std::size_t> pulse;  // The last first return.
     part.surface = SurfaceReturns();
     part.ground.Clear();
     part.unclassified.Clear();
@@ -128,7 +131,11 @@ class PrescanWork {
       if ((roles & (kGround | kUnclassified)) != 0) AddTerrain(part, i);
       if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
       if ((roles & kNumbered) != 0) AddNumbered(at, part, i);
-      if (pairs_ && !formats::IsNoTime(part.times[i])) AddPairs(part, i);
+      if (!pairs_ || formats::IsNoTime(part.times[i])) continue;
+      AddPairs(part, i);
+      if (roles == 0 || fields_.ReturnNumber(Record(part, i)) > 1) continue;
+      if (pulse.has_value()) AddPulses(part, *pulse, i);
+      pulse = i;
     }
     return absl::OkStatus();
   }
@@ -177,6 +184,13 @@ class PrescanWork {
     if (formats::IsNoTime(part.times[i])) return;
     part.first_time = std::min(part.first_time, part.times[i]);
     part.last_time = std::max(part.last_time, part.times[i]);
+    part.tally.Add(part.times[i]);
+  }
+
+  // Different channels of a scanner may have sent pulses at one time, and a beam that was split has equal times.
+  void AddPulses(Part& part, std::size_t before, std::size_t i) const {
+    if (fields_.ScannerChannel(Record(part, before)) == fields_.ScannerChannel(Record(part, i)))
+      part.tally.AddPulses(part.times[before], part.times[i]);
   }
 
   PulseReturn ReturnOf(const Part& part, std::size_t i) const {
@@ -238,6 +252,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
   Extend(part.of_numbered.least, part.of_numbered.greatest, prescan.of_numbered);
   prescan.first_time = std::min(prescan.first_time, part.first_time);
   prescan.last_time = std::max(prescan.last_time, part.last_time);
+  prescan.tally.Merge(part.tally);
 }
 
 }  // namespace

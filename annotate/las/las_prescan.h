@@ -15,6 +15,7 @@
 #include "budget/beams/terrain_planes.h"
 #include "budget/beams/water_surface.h"
 #include "formats/las/las_reader.h"
+#include "formats/trajectories/time_tally.h"
 
 namespace albtpu::annotate {
 
@@ -46,6 +47,7 @@ struct LasPrescan {
   Box of_numbered;
   // Of the same points, those that are times (formats::IsNoTime).
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
+  formats::TimeTally tally;                                  // Of the same times; pulses where pairs are wanted.
   std::uint64_t surface_returns = 0, synthetic_surface = 0;  // The latter are part of the former.
   // Returns of `level_classes`, those of them that lie farther than kLevelTolerance from the water level, and the mean
   // height [m] of these.

@@ -1,5 +1,6 @@
 #include "annotate/run/annotation_run.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -89,7 +90,7 @@ class Run {
                             absl::StrCat(complete.message(), "; add --overwrite, or choose another name"));
       }
     }
-    RETURN_IF_ERROR(formats::CheckNotTheSameFile(job.input, SummaryPath(job.output)));
+    RETURN_IF_ERROR(CheckWritesNoInput(job));
     RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, run_.existing));
     std::error_code ignored;  // If this fails, creating the output reports why.
     if (job.in_subfolder) fs::create_directories(job.output.parent_path(), ignored);
@@ -101,6 +102,22 @@ class Run {
     Note(absl::StrCat(job.output.string(), ":"), annotated.text);
     Judge(job, annotated.findings.tally);
     return absl::OkStatus();
+  }
+
+  // With --overwrite, an output that has the name of a file which the run reads would replace it.
+  absl::Status CheckWritesNoInput(const Job& job) const {
+    const auto check = [&](const fs::path& output) -> absl::Status {
+      RETURN_IF_ERROR(formats::CheckNotTheSameFile(job.input, output));
+      const auto is_output = [&](const fs::path& file) { return !formats::CheckNotTheSameFile(file, output).ok(); };
+      const bool is_read = std::ranges::any_of(jobs_, [&](const Job& each) { return is_output(each.input); }) ||
+                           std::ranges::any_of(run_.files, is_output);
+      if (!is_read) return absl::OkStatus();
+      return absl::FailedPreconditionError(
+          absl::StrCat(output.string(), ": is read by this run and would be replaced; write to another file"));
+    };
+    RETURN_IF_ERROR(check(job.output));
+    RETURN_IF_ERROR(check(SummaryPath(job.output)));
+    return job.csv.empty() ? absl::OkStatus() : check(job.csv);
   }
 
   std::string DoneText() const {

@@ -5,6 +5,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "formats/files/file_access.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -46,6 +47,8 @@ std::string CsvDialect::Text() const {
 }
 
 absl::StatusOr<char> SeparatorOf(std::string_view name, std::string_view header) {
+  if (IsUtf16(header))
+    return absl::InvalidArgumentError(absl::StrCat(std::string(name), ": is UTF-16 text; save it as UTF-8"));
   std::array<std::size_t, kSeparators.size()> counts = {};
   bool quoted = false;
   char before = '\0';

@@ -91,4 +91,17 @@ absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::
   return absl::OkStatus();
 }
 
+bool IsUtf16(std::string_view text) {
+  constexpr std::size_t kCharacters = 3;
+  if (text.size() < 2 * (kCharacters + 1)) return false;
+  const bool has_mark = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  if (has_mark) text.remove_prefix(2);
+  std::size_t even = 0, odd = 0;  // Zeros.
+  for (std::size_t i = 0; i < kCharacters; ++i) {
+    even += text[2 * i] == '\0';
+    odd += text[2 * i + 1] == '\0';
+  }
+  return (even == kCharacters && odd == 0) || (odd == kCharacters && even == 0);
+}
+
 }  // namespace albtpu::formats

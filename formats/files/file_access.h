@@ -77,4 +77,8 @@ absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(
 // while it is read.
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output);
 
+// Whether a text is UTF-16, as spreadsheets write it, by its beginning: the mark of its byte order before characters
+// of which one byte is 0, or such characters alone.
+bool IsUtf16(std::string_view text);
+
 }  // namespace albtpu::formats

@@ -22,6 +22,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are read as they lie in the file");
 
+// Arc minutes of roll and pitch: a fifth of what the best airborne systems state after processing, 0.0025 degrees.
+constexpr double kLeastAttitudeError = 0.03;
+
 constexpr double kLowestHeight = -1000, kMaxHeight = 20000;  // m; wider than any airborne survey.
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
@@ -259,6 +262,27 @@ absl::Status SmrmsgFile::CheckSigmas(std::size_t record) const {
   return absl::OkStatus();
 }
 
+// Errors of attitude in degrees or radians are a small part of what they are in arc minutes; 0 stands for errors that
+// nobody computed.
+absl::Status SmrmsgFile::CheckUnits() const {
+  double position = 0, attitude = 0;
+  for (std::size_t record = 0; record < size(); ++record) {
+    for (const std::size_t field : {1, 2, 3}) position = std::max(position, Number(record, field));
+    for (const std::size_t field : {7, 8}) attitude = std::max(attitude, Number(record, field));
+  }
+  if (position > 0 && attitude >= kLeastAttitudeError) return absl::OkStatus();
+  const std::string of = attitude > 0 || position == 0 ? "position" : "roll and pitch";
+  if (position == 0 || attitude == 0) {
+    return Invalid(name_, absl::StrCat("all its errors of ", of,
+                                       " are 0, which no trajectory has; leave the file out, and the errors of a good "
+                                       "trajectory are taken, or state them by [sigma] of a survey file"));
+  }
+  return Invalid(name_, absl::StrFormat("its errors of roll and pitch are at most %.2g arc minutes, less than any "
+                                        "inertial system has (they are in degrees or radians); convert them to arc "
+                                        "minutes",
+                                        attitude));
+}
+
 absl::Status SmrmsgFile::Check() {
   if (bytes_.empty()) return absl::InvalidArgumentError(absl::StrCat(name_, ": is empty; give an SMRMSG"));
   if (bytes_.size() % kRecordSize != 0) {
@@ -280,7 +304,7 @@ absl::Status SmrmsgFile::Check() {
                         "exported",
                         name_, record + 1, time, before));
   }
-  return absl::OkStatus();
+  return CheckUnits();
 }
 
 double SmrmsgFile::TimeAt(std::size_t record) const {

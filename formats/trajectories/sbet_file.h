@@ -97,6 +97,7 @@ class SmrmsgFile {
   double Number(std::size_t record, std::size_t field) const;
   absl::Status Check();
   absl::Status CheckSigmas(std::size_t record) const;
+  absl::Status CheckUnits() const;
 
   std::string name_;
   std::optional<MappedFile> file_;

@@ -111,6 +111,8 @@ absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem
   bool is_text = false;
   {
     ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "a trajectory"));
+    if (IsUtf16(file.bytes()))
+      return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is UTF-16 text; save it as UTF-8"));
     is_text = AsciiTrajectory::Recognizes(file.bytes().substr(0, kBeginning));
   }
   if (is_text) return AsciiTrajectory::Open(path);

@@ -223,11 +223,30 @@ bool IsAmbiguous(const TimeSpan& trajectory, const PointTimes& points) {
   int weeks = 0;
   const double first_week = std::floor(gps / kSecondsPerWeek) - 1;
   const double last_week = std::floor((points.span.last + kAdjustedGpsOffset) / kSecondsPerWeek);
-  for (double week = first_week; week <= std::min(last_week, first_week + 3); ++week) {
-    const double offset = week * kSecondsPerWeek - kAdjustedGpsOffset;
+  // Counted in whole numbers: the next week of a time that no clock gives is the same one.
+  for (int i = 0; i <= 3 && first_week + i <= last_week; ++i) {
+    const double offset = (first_week + i) * kSecondsPerWeek - kAdjustedGpsOffset;
     if (Overlap({trajectory.first + offset, trajectory.last + offset}, points.span) >= 0) ++weeks;
   }
   return weeks > 1;
+}
+
+// The clock that trajectories do not have, but by which this one has records at the times of the points.
+std::optional<std::string> ClockOfTrajectory(const TimeSpan& trajectory, TrajectoryClock clock,
+                                             const PointTimes& points) {
+  const auto fits = [&](double scale, double shift) {
+    const TimeSpan read = {trajectory.first * scale + shift, trajectory.last * scale + shift};
+    return read.first >= 0 && BestOffset(read, clock, points).overlap >= 0;
+  };
+  for (const double scale : {1.0, 1e-3}) {
+    const std::string unit = scale == 1 ? "seconds" : "milliseconds";
+    if (scale != 1 && fits(scale, 0)) return unit;
+    if (fits(scale, kGpsMinusUtcNow - kGpsEpoch)) return absl::StrCat("Unix ", unit);
+    if (trajectory.first < 0 || trajectory.last * scale > 2 * kSecondsPerDay) continue;
+    for (int day = 1; day < 7; ++day)
+      if (fits(scale, day * kSecondsPerDay)) return absl::StrCat(unit, " of the day");
+  }
+  return std::nullopt;
 }
 
 // The reason why two ranges do not overlap, and what to do about it.
@@ -239,8 +258,15 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
   if (span.first == 0 && span.last == 0)
     return {"the GPS times of the points are all 0", "export the LAS again with GPS times"};
   if (points.form == PointTimeForm::kWeekSeconds && (span.first < 0 || span.last > kLastWeekTime)) {
-    return {"the header of the LAS states seconds of the GPS week, but these are adjusted standard GPS times",
-            "set bit 0 of its global encoding, or give --time-format adjusted"};
+    const PointTimes adjusted = {span, PointTimeForm::kAdjustedStandard};
+    if (span.last - span.first < kSecondsPerWeek && BestOffset(trajectory, clock, adjusted).overlap >= 0) {
+      return {"the header of the LAS states seconds of the GPS week, but these are adjusted standard GPS times",
+              "set bit 0 of its global encoding, or give --time-format adjusted"};
+    }
+    return {
+        "the header of the LAS states seconds of the GPS week, but these are of another clock, and of none by which "
+        "the trajectory is there",
+        "give the trajectory of this flight, or name the clock by --time-format"};
   }
   const PointTimes other_form = {span, PointTimeForm::kWeekSeconds};
   if (points.form == PointTimeForm::kAdjustedStandard && span.first >= 0 && span.last <= kLastWeekTime &&
@@ -271,6 +297,10 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
   if (counted > 0 && BestOffset(reduced, clock, points).overlap >= 0) {
     return {absl::StrFormat("another week: it is %.0f week%s later", counted, counted == 1 ? "" : "s"),
             "give the trajectory of this flight"};
+  }
+  if (const std::optional<std::string> units = ClockOfTrajectory(trajectory, clock, points); units.has_value()) {
+    return {absl::StrCat("another flight, or its times are ", *units),
+            "give the trajectory of this one, with seconds of the GPS week or GPS times"};
   }
   return {"another flight", "give the trajectory of this one"};
 }

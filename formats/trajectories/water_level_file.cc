@@ -9,6 +9,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/files/file_access.h"
 #include "formats/text/text.h"
@@ -20,8 +21,10 @@ namespace albtpu::formats {
 namespace {
 
 constexpr char kTime[] = "time", kLevel[] = "water_level";
-constexpr double kLargestTime = 1e11;  // s; later than any GPS time.
-constexpr double kLargestLevel = 1e5;  // In any unit of heights.
+constexpr double kLargestTime = 1e11;       // s; later than any GPS time.
+constexpr double kLargestLevel = 1e5;       // In any unit of heights.
+constexpr double kHighestJump = 50;         // m or feet; the highest tides rise by 16 m in six hours.
+constexpr std::size_t kMostOfHeader = 200;  // Characters of it in messages.
 constexpr std::size_t kLargestFile = 64 << 20;
 
 std::string CellText(const CsvRecord& record, std::size_t cell) {
@@ -41,6 +44,7 @@ class WaterLevelReader {
       return Error(
           "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
           "number in place of the file");
+    RETURN_IF_ERROR(CheckJumps());
     if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
     series_.has_dates_ = utc_;
     series_.offset_ = reference_.offset;
@@ -50,6 +54,21 @@ class WaterLevelReader {
   }
 
  private:
+  // Between two levels that are interpolated no water rises by so much; the numbers that stand for a missing level,
+  // such as -9999 or 99.99, do.
+  absl::Status CheckJumps() const {
+    for (std::size_t i = 1; i < series_.size(); ++i) {
+      const double minutes = (series_.times_[i] - series_.times_[i - 1]) / 60;
+      const double before = series_.levels_[i - 1], level = series_.levels_[i];
+      if (60 * minutes > WaterLevelSeries::kLongestGap || std::abs(level - before) <= kHighestJump) continue;
+      return Error(
+          absl::StrFormat("goes from %g to %g within %.0f minutes, which no water does: one of them stands for "
+                          "a missing level; remove it",
+                          before, level, minutes));
+    }
+    return absl::OkStatus();
+  }
+
   absl::Status ReadRecords() {
     ASSIGN_OR_RETURN(block_.dialect, DialectOf(name_, block_.text));
     CsvRecords records(name_, block_);
@@ -127,9 +146,12 @@ class WaterLevelReader {
       *column = cell;
     }
     if (!time.has_value() || !level.has_value()) {
-      return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": there is no column '",
-                                                     time.has_value() ? kLevel : kTime,
-                                                     "'; name the columns time and water_level in the first line"));
+      std::vector<std::string> found;
+      for (std::size_t cell = 0; cell < record.cell_count(); ++cell) found.push_back(CellText(record, cell));
+      return absl::InvalidArgumentError(
+          absl::StrCat(name_, " line ", record.line, ": there is no column '", time.has_value() ? kLevel : kTime,
+                       "' (columns found: ", OneLine(absl::StrJoin(found, ", ")).substr(0, kMostOfHeader),
+                       "); name the columns time and water_level in the first line"));
     }
     time_column_ = *time;
     level_column_ = *level;

@@ -197,6 +197,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
   const std::string notes = answerer.SeaText();
   std::vector<std::filesystem::path> files;
   if (sea.file.has_value()) files.emplace_back(*sea.file);
+  if (options.flags.survey.has_value()) files.emplace_back(*options.flags.survey);
   const auto annotate = [&](const annotate::Job& job,
                             annotate::FileProgress& progress) -> absl::StatusOr<annotate::AnnotatedFile> {
     ASSIGN_OR_RETURN(annotate::AnnotatedCsv csv,

@@ -215,6 +215,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   LasFiles files(options, annotation, kind, source, !options.files.output_folder.empty() || jobs.size() > 1);
   std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
+  if (options.flags.survey.has_value()) read.push_back(*options.flags.survey);
   nlohmann::ordered_json parameters = Parameters(annotation, sea, options.format);
   parameters["sea_index"] = annotate::IndexOrUsual(settings.water);
   const absl::Status status = annotate::AnnotateFiles(

@@ -12,6 +12,7 @@
 #include "annotate/run/file_progress.h"
 #include "annotate/seas/sea_correlation.h"
 #include "annotate/seas/sea_facts.h"
+#include "formats/files/file_access.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
@@ -77,6 +78,8 @@ absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions
                      "--sea-time, such as ",
                      SeaTimeText(*seas.record(records.back()).time)));
   }
+  if (seas.settings().file.has_value())
+    RETURN_IF_ERROR(formats::CheckNotTheSameFile(*seas.settings().file, options.output));
   ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(SeaCompiler(), seas.sea(records.front()), index));
   return WriteTable(table, options.output, options.existing);
 }

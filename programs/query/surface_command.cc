@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/seas/sea_timeline.h"
+#include "formats/files/file_access.h"
 #include "formats/text/text.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
@@ -105,6 +106,7 @@ absl::Status RunPartial(const SurfaceCommandOptions& options) {
     return absl::AlreadyExistsError(
         absl::StrCat(path.string(), ": is there already; give another name, or replace it by --overwrite"));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotatedOrNone(PathsOf(options)));
+  for (const quality::AnnotatedLasFile& file : files) RETURN_IF_ERROR(formats::CheckNotTheSameFile(file.path(), path));
   const HiddenFolder hidden(folder);
   if (hidden.path().empty()) return NotWritable(folder);
   ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, files, hidden.path() / path.filename()));

@@ -34,7 +34,11 @@ absl::StatusOr<std::string> ReadText(const std::filesystem::path& path) {
       return absl::InvalidArgumentError(absl::StrCat("has more than ", kMaxSeaBytes, " bytes; split the file"));
   }
   if (!file.eof()) return absl::UnavailableError("cannot be read; check its permissions");
-  if (IsGzip(bytes)) return Inflated(bytes);
+  if (IsGzip(bytes)) {
+    ASSIGN_OR_RETURN(bytes, Inflated(bytes));
+  }
+  // The byte order mark with which some programs begin UTF-8 files.
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   return bytes;
 }
 
@@ -51,6 +55,8 @@ std::string_view FirstLine(std::string_view text) {
 
 absl::Status OfAnotherKind(std::string_view text, std::string_view first_line) {
   if (text.empty()) return absl::InvalidArgumentError("is empty; get another copy of the file");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return absl::InvalidArgumentError("is UTF-16 text; save it as UTF-8");
   if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
     return absl::InvalidArgumentError(
         "is a NetCDF file (this reads text); read it in Python with xarray and wavespectra");

@@ -108,5 +108,21 @@ TEST(OutputFile, IsNotTheInputUnderAnotherName) {
   EXPECT_TRUE(CheckNotTheSameFile(input, folder / "other").ok());
 }
 
+TEST(FileAccess, KnowsUtf16) {
+  const auto wide = [](std::string_view text, bool big) {
+    std::string bytes;
+    for (const char each : text) bytes += big ? std::string{'\0', each} : std::string{each, '\0'};
+    return bytes;
+  };
+  for (const bool big : {false, true}) {
+    EXPECT_TRUE(IsUtf16(wide("time,depth", big)));
+    EXPECT_TRUE(IsUtf16((big ? "\xFE\xFF" : "\xFF\xFE") + wide("time,depth", big)));
+  }
+  EXPECT_FALSE(IsUtf16("time,depth"));
+  EXPECT_FALSE(IsUtf16("\xEF\xBB\xBFtime,depth"));
+  EXPECT_FALSE(IsUtf16(std::string(136, '\0')));
+  EXPECT_FALSE(IsUtf16(""));
+}
+
 }  // namespace
 }  // namespace albtpu::formats

@@ -279,6 +279,18 @@ TEST(Smrmsg, RefusesWhatIsNoSmrmsg) {
   EXPECT_THAT(ErrorOf(std::string(160, 'x')), HasSubstr("give an SMRMSG"));
 }
 
+TEST(Smrmsg, DoubtsErrorsThatNoTrajectoryHas) {
+  EXPECT_THAT(ErrorOf(Bytes({100, .02, .02, .05, .01, .01, .01, .005, .005, .02})),
+              HasSubstr("0.005 arc minutes, less than any inertial system has (they are in degrees or radians)"));
+  EXPECT_THAT(ErrorOf(Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0})), HasSubstr("all its errors of position are 0"));
+  EXPECT_THAT(ErrorOf(Bytes({100, .02, .02, .05, 0, 0, 0, 0, 0, .5})),
+              HasSubstr("all its errors of roll and pitch are 0"));
+  // One record without errors is no such file, nor are velocities without.
+  EXPECT_TRUE(SmrmsgFile::Parse("errors.out",
+                                Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0, 101, .02, .02, .05, 0, 0, 0, .15, .15, .3}))
+                  .ok());
+}
+
 TEST(Smrmsg, IsReadFromAFile) {
   const TemporaryFolder folder;
   const absl::StatusOr<SmrmsgFile> file = SmrmsgFile::Open(folder.Write("errors.out", SmrmsgBytes(100, 3)));

@@ -114,6 +114,27 @@ TEST(TrajectoryTime, NamesTheOtherClockWhereItFits) {
               HasSubstr("(its times fit as GPS time); give --trajectory-time gps"));
 }
 
+TEST(TrajectoryTime, NamesTheClockThatTrajectoriesDoNotHave) {
+  const double begin = kBeginOfWeek1896 + 305000, gps = begin + 1e9;
+  const PointTimes points = Adjusted(begin, begin + 10);
+  constexpr double kUnix = 315964800 - 18;
+  EXPECT_THAT(Refusal({gps + kUnix - 20, gps + kUnix + 20}, points), HasSubstr("or its times are Unix seconds"));
+  EXPECT_THAT(Refusal({304990e3, 305020e3}, points), HasSubstr("or its times are milliseconds)"));
+  EXPECT_THAT(Refusal({305000 - 3 * 86400 - 20, 305000 - 3 * 86400 + 20}, points),
+              HasSubstr("or its times are seconds of the day"));
+}
+
+TEST(TrajectoryTime, ClaimsNoClockOfPointsThatDoesNotFit) {
+  EXPECT_THAT(Refusal({305000, 305100}, {{305000e6, 305010e6}, PointTimeForm::kWeekSeconds}),
+              HasSubstr("of another clock, and of none by which the trajectory is there"));
+}
+
+// The next week of a time that no clock gives is the same number.
+TEST(TrajectoryTime, EndsWithTimesThatNoClockGives) {
+  for (const double time : {1e17, 1e300})
+    EXPECT_FALSE(Refusal({305000, 305010}, Adjusted(-time, time)).empty()) << time;
+}
+
 TEST(GpsTime, IsAheadOfUtcByTheLeapSeconds) {
   EXPECT_EQ(LeapSecondsAtUtc(0), 0);
   EXPECT_EQ(*ParseUtc("2017-01-01T00:00:00Z") - *ParseUtc("2016-12-31T23:59:59Z"), 2);

@@ -193,6 +193,17 @@ TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
   EXPECT_THAT(std::string(other.status().message()), ::testing::HasSubstr("if --time-format unix is right"));
 }
 
+TEST(FindWaterLevels, RefusesNumbersThatStandForMissingLevels) {
+  const albtpu::testing::TemporaryFolder folder;
+  for (const double missing : {-9999.0, 9999.0, 99.99, -99.99, 999.9}) {
+    const std::filesystem::path path =
+        folder.Write(absl::StrFormat("tide%g.csv", missing),
+                     absl::StrFormat("time,water_level\n100,-23.5\n460,-23.5\n820,%g\n1180,-23.4\n", missing));
+    const auto levels = ReadWaterLevels(path, kWeekSeconds, {});
+    EXPECT_THAT(std::string(levels.status().message()), ::testing::HasSubstr("goes from -23.5 to")) << missing;
+  }
+}
+
 TEST(FindWaterLevels, TakesTheWeekOfTheCreationOfThePoints) {
   constexpr double kOfWeek = 4 * 86400 + 600 + 17;
   const albtpu::testing::TemporaryFolder folder;

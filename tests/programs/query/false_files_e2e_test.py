@@ -110,6 +110,50 @@ class Clocks(FalseFiles):
                 self.assertTrue((columns["total_thu"][wrong] == -1).all())
 
 
+    def test_times_that_lie_far_from_all_others(self):
+        for time in (1.0, -1e9, 1e9, 5e-324, 1e16, 1e300, -1e300):
+            with self.subTest(time=time):
+                def change(points):
+                    wrong = points.points(40)[5:8]
+                    for i in wrong:
+                        points.put("<d", points.at(i, 22), time)
+                    return wrong
+                columns, wrong = self.mend(change, "3 points have GPS times a month or more from those of all others")
+                self.assertTrue((columns["total_thu"][wrong] == -1).all())
+
+    def test_times_that_were_rounded(self):
+        for step in (1.0, 0.5, 1e9):
+            points = Points(self.sound)
+            for i in range(points.count):
+                time, = points.get("<d", points.at(i, 22))
+                points.put("<d", points.at(i, 22), step * round(time / step) if step < 1e9 else 147532418.0)
+            printed, columns = self.annotated(bytes(points.data), *self.flags())
+            self.assertIsNone(columns, printed)
+            self.assertIn("the GPS times of its points are rounded", printed)
+
+
+class Classes(FalseFiles):
+    def test_bottom_of_another_class_is_no_land(self):
+        expected = self.of_sound(*self.flags())
+        for number in (29, 64, 3):
+            points = Points(self.sound)
+            others = points.points(40)[::2]
+            for i in others:
+                points.classify(i, number)
+            printed, columns = self.annotated(bytes(points.data), *self.flags())
+            self.assertIn(f" points of class {number} lie below the water surface and have no number", printed)
+            deep = [i for i in others if expected["water_depth"][i] > 1]
+            self.assertTrue((columns["total_thu"][deep] == -1).all())
+            self.assert_same(columns, expected, others)
+
+    def test_ground_below_the_water_is_said(self):
+        points = Points(self.sound)
+        for i in points.points(40)[::2]:
+            points.classify(i, 2)
+        printed, _ = self.annotated(bytes(points.data), *self.flags())
+        self.assertIn(" points of the ground lie below the water surface and have the numbers of land", printed)
+
+
 class ScanAngles(FalseFiles):
     def test_in_another_unit(self):
         for factor in (0.006, 0.001, 1 / 57.3):
@@ -190,6 +234,23 @@ class SoundFlights(programs.Test):
                     refused.append((round(height, 2), surface, result.stderr.splitlines()[-1]))
         print(f"{FLIGHTS} sound flights: {len(refused)} refused")
         self.assertEqual(refused, [])
+
+
+class Outputs(FalseFiles):
+    def test_never_replace_what_the_run_reads(self):
+        trajectory, errors = self.folder / "a.out", self.folder / "b.out"
+        trajectory.write_bytes(self.survey.sbet.read_bytes())
+        errors.write_bytes(self.survey.errors.read_bytes())
+        source, survey = self.folder / "in.las", self.folder / "s.toml"
+        source.write_bytes(self.sound)
+        survey.write_bytes(self.toml_file.read_bytes())
+        common = ("--survey", survey, "--table", self.quick, "--trajectory", trajectory, "--trajectory-errors", errors,
+                  "--water-level", self.survey.water_level, "--overwrite")
+        before = {path.name: path.read_bytes() for path in self.folder.iterdir()}
+        for path in (trajectory, errors, survey):
+            self.assert_fails(query("las", source, path, *common), 1, f"{path.name}: is read by this run")
+            self.assert_fails(query("las", source, "--csv", path, *common), 1, f"{path.name}: is read by this run")
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, before)
 
 
 if __name__ == "__main__":

@@ -66,6 +66,8 @@ TEST_F(SeaFile, FindsTheHistoryByTheLetterBeforeTheYear) {
 
 TEST_F(SeaFile, IsKnownByItsFirstLine) {
   EXPECT_TRUE(ReadSeaFile(Write("sea", "# made by hand\n\nf,E\n0.1,1\n0.2,2\n")).ok());
+  EXPECT_TRUE(ReadSeaFile(Write("marked", "\xEF\xBB\xBF" + kEnergy)).ok());
+  EXPECT_EQ(ErrorOf(Write("wide", std::string("\xFF\xFE#\0Y\0", 6))), "is UTF-16 text; save it as UTF-8");
   EXPECT_THAT(ErrorOf(Write("a", "Some other text\n")), HasSubstr("begins with 'Some other text' (expected a file of"));
   EXPECT_EQ(ErrorOf(Write("b", "")), "is empty; get another copy of the file");
   EXPECT_THAT(ErrorOf(Write("c", "CDF\x01...")), HasSubstr("is a NetCDF file"));

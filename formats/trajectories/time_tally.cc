@@ -1,0 +1,96 @@
+#include "formats/trajectories/time_tally.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace albtpu::formats {
+namespace {
+
+constexpr double kBin = 86400;               // s
+constexpr std::int64_t kFarthestDay = 1e12;  // Days beyond are one.
+constexpr std::size_t kMostDays = 4096;      // Of a file; where there are more, times are disorder.
+constexpr std::int64_t kDaysApart = 30;      // Days, between times of different surveys.
+constexpr double kNearlyAll = 0.99;
+constexpr std::uint64_t kFewPulses = 100;  // Fewer say nothing of how times were rounded.
+constexpr double kLongestPulseStep = 60;   // s; a longer one is a pause between lines.
+
+std::int64_t DayOf(double time) {
+  const double day = std::floor(time / kBin);
+  return static_cast<std::int64_t>(
+      std::clamp(day, -static_cast<double>(kFarthestDay), static_cast<double>(kFarthestDay)));
+}
+
+}  // namespace
+
+void TimeTally::Add(double time) {
+  ++points_;
+  const std::int64_t number = DayOf(time);
+  if (days_.size() >= kMostDays && !days_.contains(number)) {
+    has_too_many_days_ = true;
+    return;
+  }
+  Day& day = days_[number];
+  day.span =
+      day.points == 0 ? TimeSpan{time, time} : TimeSpan{std::min(day.span.first, time), std::max(day.span.last, time)};
+  ++day.points;
+}
+
+void TimeTally::AddPulses(double before, double time) {
+  const double step = std::abs(time - before);
+  ++pulses_;
+  equal_ += step == 0;
+  if (step == 0 || step > kLongestPulseStep) return;
+  ++steps_;
+  sum_of_steps_ += step;
+}
+
+void TimeTally::Merge(const TimeTally& other) {
+  for (const auto& [number, each] : other.days_) {
+    if (days_.size() >= kMostDays && !days_.contains(number)) {
+      has_too_many_days_ = true;
+      continue;
+    }
+    Day& day = days_[number];
+    day.span = day.points == 0
+                   ? each.span
+                   : TimeSpan{std::min(day.span.first, each.span.first), std::max(day.span.last, each.span.last)};
+    day.points += each.points;
+  }
+  points_ += other.points_;
+  has_too_many_days_ |= other.has_too_many_days_;
+  pulses_ += other.pulses_;
+  equal_ += other.equal_;
+  steps_ += other.steps_;
+  sum_of_steps_ += other.sum_of_steps_;
+}
+
+TimeTally::Cluster TimeTally::Largest() const {
+  Cluster largest, current;
+  std::int64_t before = std::numeric_limits<std::int64_t>::min() / 2;
+  for (const auto& [number, day] : days_) {
+    if (number - before > kDaysApart) current = {0, day.span};
+    before = number;
+    current.points += day.points;
+    current.span.last = day.span.last;
+    if (current.points > largest.points) largest = current;
+  }
+  return largest;
+}
+
+std::optional<TimeSpan> TimeTally::Bulk() const {
+  if (has_too_many_days_) return std::nullopt;
+  const Cluster largest = Largest();
+  const double share = static_cast<double>(largest.points) / static_cast<double>(std::max<std::uint64_t>(points_, 1));
+  if (largest.points == points_ || share < kNearlyAll) return std::nullopt;
+  return largest.span;
+}
+
+std::uint64_t TimeTally::outside_of_bulk() const { return points_ - Largest().points; }
+
+std::optional<double> TimeTally::CoarseStep() const {
+  if (pulses_ < kFewPulses || 2 * equal_ <= pulses_) return std::nullopt;
+  return steps_ > 0 ? sum_of_steps_ / static_cast<double>(steps_) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace albtpu::formats

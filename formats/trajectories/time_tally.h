@@ -1,0 +1,47 @@
+// How the times of points lie: which of them are far from all others, and whether they tell pulses apart.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "formats/trajectories/trajectory_time.h"
+
+namespace albtpu::formats {
+
+// Of times that are times (IsNoTime), in the unit of the file.
+class TimeTally {
+ public:
+  void Add(double time);
+  // The times of two first returns that follow each other in the file.
+  void AddPulses(double before, double time);
+  void Merge(const TimeTally& other);
+
+  // The span of nearly all times, without a few that lie a month or more from them, as where software wrote a time of
+  // its own for points that it made. nullopt where there are no such few ones.
+  std::optional<TimeSpan> Bulk() const;
+  std::uint64_t outside_of_bulk() const;
+
+  // Where most pulses have the time of another one, because times were rounded: the mean step between different times;
+  // infinite where all are equal. nullopt otherwise.
+  std::optional<double> CoarseStep() const;
+
+ private:
+  struct Day {
+    std::uint64_t points = 0;
+    TimeSpan span;
+  };
+  struct Cluster {
+    std::uint64_t points = 0;
+    TimeSpan span;
+  };
+  Cluster Largest() const;
+
+  std::map<std::int64_t, Day> days_;
+  std::uint64_t points_ = 0;
+  bool has_too_many_days_ = false;
+  std::uint64_t pulses_ = 0, equal_ = 0, steps_ = 0;
+  double sum_of_steps_ = 0;
+};
+
+}  // namespace albtpu::formats
