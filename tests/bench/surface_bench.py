@@ -1,6 +1,6 @@
 """`albtpu-query surface` of a survey of many points: minutes, memory and what reading takes.
 
-Usage: surface_bench.py BUILD [--millions N] [--formats netcdf,geotiff,bag] [--folder DIR]
+Usage: surface_bench.py BUILD [--millions N] [--format netcdf,geotiff,bag] [--folder DIR]
 
 Five lines of a simulated survey, 4.4 million points of the bottom, are annotated and then copied, each time 1.5 km
 further, until there are enough. `surface --partial` reads as much and makes no nodes. Prints a Markdown table.
@@ -73,7 +73,7 @@ def rows(options, folder):
     command = (options.build / "bin/albtpu-query", "surface", survey)
     part, output = folder / "survey.part", folder / "surface"
     for what, run in (("read alone (`--partial`)", (*command, "--partial", part)),
-                      ("surface", (*command, "--output", output, "--format", options.formats))):
+                      ("surface", (*command, "--output", output, "--format", options.format))):
         elapsed, processor, peak = las_bench.run(run)
         files = " ".join(f"{path.name} {path.stat().st_size / 1e6:.0f}" for path in sorted(output.glob("surface.*")))
         yield what, f"{elapsed:.0f}", f"{processor:.0f}", f"{peak:.0f}", files
@@ -82,7 +82,7 @@ def rows(options, folder):
 
 def main():
     parser = bench.parser(__doc__, millions=20.0)
-    parser.add_argument("--formats", default="netcdf")
+    parser.add_argument("--format", default="netcdf")
     parser.add_argument("--folder", help="where to write the files, 320 bytes for each point")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
