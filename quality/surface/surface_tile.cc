@@ -112,7 +112,7 @@ class Cells {
     std::vector<double> residuals, sorted;
     ForInner([&](std::size_t c) {
       if (begin_[c + 1] - begin_[c] < 3) return;  // Of two, who knows which is wrong.
-      const Plane plane = PlaneOf(Around(medians, c), side_);
+      const Plane plane = PlaneOf(Around(medians, c, 1), side_);
       residuals.clear();
       for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i)
         residuals.push_back(points_[i].z - plane.slope.dot(places_[i]));
@@ -160,7 +160,9 @@ class Cells {
     node.points = static_cast<std::uint32_t>(points.size());
     middle /= n, mean /= n, node.bias /= n;
     node.depth /= static_cast<float>(n), node.thu /= static_cast<float>(n);
-    const Plane plane = PlaneOf(Around(kept, c), side_);
+    // Few points may tell no slope in 3 x 3 cells, but in 5 x 5.
+    Plane plane = PlaneOf(Around(kept, c, 1), side_);
+    if (!plane.has_slope) plane = PlaneOf(Around(kept, c, kTileBorder), side_);
     node.slope_x = static_cast<float>(plane.slope.x()), node.slope_y = static_cast<float>(plane.slope.y());
     node.elevation = mean - plane.slope.dot(middle);
     node.variance = VarianceOf(points, plane.slope, sources);
@@ -201,11 +203,11 @@ class Cells {
       for (std::size_t column = 1; column + 1 < kSide; ++column) visit(row * kSide + column);
   }
 
-  // Of the 3 x 3 cells, about the middle of the cell.
-  Moments Around(const std::vector<Moments>& of_cells, std::size_t c) const {
+  // Of the cells that are at most `reach` away in each direction, about the middle of the cell.
+  Moments Around(const std::vector<Moments>& of_cells, std::size_t c, int reach) const {
     Moments sum;
-    for (const int row : {-1, 0, 1})
-      for (const int column : {-1, 0, 1}) {
+    for (int row = -reach; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column) {
         const auto other = static_cast<std::size_t>(static_cast<int>(c) + row * kSide + column);
         if (of_cells[other].n > 0) sum += of_cells[other].About(-column * side_, -row * side_);
       }

@@ -36,12 +36,7 @@ class NodeErrors {
                       .of_points = v.of_point + v.survey});
     if (v.within_cell(node.points) > 0) nodes_.back().within = std::pow(node.deviation, 2) / v.within_cell(node.points);
   }
-  void Add(const NodeErrors& other) {
-    nodes_.insert(nodes_.end(), other.nodes_.begin(), other.nodes_.end());
-    level_ += other.level_;
-  }
-  void AddLevel() { ++level_; }
-  std::size_t level() const { return level_; }
+  void Add(const NodeErrors& other) { nodes_.insert(nodes_.end(), other.nodes_.begin(), other.nodes_.end()); }
   std::size_t size() const { return nodes_.size(); }
   double Mean() const {
     double sum = 0;
@@ -75,7 +70,6 @@ class NodeErrors {
     double within = -1;                   // The variance within the cell, over the predicted one.
   };
   std::vector<Node> nodes_;
-  std::size_t level_ = 0;
 };
 
 std::vector<SurfaceNode> NodesIn(const SimulatedPlace& place, const std::vector<SurfacePoint>& points, double cell) {
@@ -94,11 +88,6 @@ void AddNodes(const std::vector<SurfaceNode>& nodes, double cell, NodeErrors& er
     const Vector2d at(cell * (static_cast<double>(i % kTileCells) + 0.5),
                       cell * (static_cast<double>(i / kTileCells) + 0.5));
     if (at.minCoeff() < margin || at.maxCoeff() > end || nodes[i].points == 0) continue;
-    // Few points that do not tell the slope have a level plane, and no statement of what that costs.
-    if (nodes[i].slope_x == 0 && nodes[i].slope_y == 0) {
-      errors.AddLevel();
-      continue;
-    }
     errors.Add(nodes[i], SimulatedPlace::HeightAt(at));
   }
 }
@@ -149,11 +138,10 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
     }
     const double standard_error = std::sqrt(squares / kSeeds / (kSeeds - 1));
     std::printf(
-        "%s, cells of %.1f m, %zu nodes (%zu without a slope): normalized variance %.3f +- %.3f, %.1f %% within 95 %%; "
-        "points as independent "
+        "%s, cells of %.1f m, %zu nodes: normalized variance %.3f +- %.3f, %.1f %% within 95 %%; points as independent "
         "%.2f, mean TVU %.2f; scatter in cells %.3f\n",
-        c.name.c_str(), kCells[cell], all.size(), all.level(), found.ours, standard_error, 100 * found.held,
-        found.independent, found.mean_of_points, found.within_cells);
+        c.name.c_str(), kCells[cell], all.size(), found.ours, standard_error, 100 * found.held, found.independent,
+        found.mean_of_points, found.within_cells);
     EXPECT_NEAR(found.ours, 1, 0.03 + 3 * standard_error) << kCells[cell];
   }
   double sum = 0, square = 0, stated = 0, n = 0;
