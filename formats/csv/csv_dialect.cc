@@ -48,7 +48,7 @@ std::string CsvDialect::Text() const {
 
 absl::StatusOr<char> SeparatorOf(std::string_view name, std::string_view header) {
   if (IsUtf16(header))
-    return absl::InvalidArgumentError(absl::StrCat(std::string(name), ": is UTF-16 text; save it as UTF-8"));
+    return absl::InvalidArgumentError(absl::StrCat(std::string(name), " line 1: is UTF-16 text; save it as UTF-8"));
   std::array<std::size_t, kSeparators.size()> counts = {};
   bool quoted = false;
   char before = '\0';
