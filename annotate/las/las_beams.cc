@@ -54,8 +54,8 @@ absl::Status CheckChannels(const formats::LasReader& reader, const LasAnnotation
 }
 
 constexpr double kMillisecond = 1e-3;  // s, exact.
-// s. A position within half of the longest step of those of a trajectory is wrong by the 6 m that an aircraft flies in
-// 0.1 s: by 0.9 degrees at 400 m. Half of the noted one by 0.3 m, less than a footprint.
+// s. Rounding to such steps moves the sensor by up to half a step. At 60 m/s and 400 m, half of the longest is 6 m, or
+// 0.9 degrees of incidence; half of the noted one is 0.3 m, less than a footprint.
 constexpr double kLongestTimeStep = 0.2, kNotedTimeStep = 0.01;
 constexpr double kRoundedBounds = 1;  // m; programs round the bounds of a header.
 
@@ -133,7 +133,7 @@ absl::StatusOr<FileTrack> LasBeams::TrackOf(const TrackedFile& file, const BeamP
   if (!track.ok()) return track;
   track->notes.push_back(absl::StrFormat(
       "%d points have GPS times a month or more from those of all others (%g to %g in a file of %.1f "
-      "to %.1f): as of points without a time, no trajectory is of theirs",
+      "to %.1f): they have no trajectory, like points without a time",
       prescan_.tally.outside_of_bulk(), file.times.span.first, file.times.span.last, bulk->first, bulk->last));
   return track;
 }
@@ -146,7 +146,7 @@ absl::Status LasBeams::CheckTimeStep(const std::string& name, double seconds) {
     if (step >= kNotedTimeStep)
       AddNote(
           absl::StrFormat("the GPS times of the points are rounded: pulses share them, and they are %.2g s apart, so "
-                          "that each point has a position of the sensor that is up to %.2g s from its own",
+                          "that positions of the sensor are off by up to %.2g s of flight",
                           step, step / 2));
     return absl::OkStatus();
   }

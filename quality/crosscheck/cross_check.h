@@ -43,17 +43,24 @@ struct CrossCheck {
   // doi:10.1002/sim.3095).
   Estimate factor;
   double air_in_variance = 0, line_in_variance = 0;  // Fractions of the predicted variance; the rest is the sea's.
-  // Which part is wrong: "trajectory", "air" (scanner and ranges), "sea", or "pulse", where air and sea cannot be told
-  // apart; empty: none. Where a trajectory is wrong, its fast errors look like a sea, so that only it is named.
+  // The part that differs: "trajectory", "air" (scan angles and ranges), "sea", or "pulse", where sensor and sea cannot
+  // be separated; empty: none. A wrong trajectory also has fast errors, which look like a sea: it is named alone.
   std::string guilty;
   std::vector<CrossBand> by_depth, by_incidence, by_sea_share;
 };
 
 inline constexpr double kOutlier = 6;
+inline constexpr double kRareDifference = 3;  // Of |z|: a larger difference of two lines is more than predicted.
 
 // `pairs` lose their outliers. `patch`: the side of the patches, m. Absent without pairs across lines. The lines of the
 // result have their numbers as IDs.
 std::optional<CrossCheck> CheckPairs(PatchPairs& pairs, double patch, const SharedWaves& waves);
+
+// Whether the prediction agrees with the overlap; nullopt where too few pairs are close together to test it.
+std::optional<bool> Agrees(const CrossCheck& check);
+
+// "prediction and overlap agree: ...": what to conclude, one line without its end.
+std::string Conclusion(const CrossCheck& check);
 
 nlohmann::ordered_json CrossCheckJson(const CrossCheck& check);
 

@@ -37,7 +37,8 @@ Json LinesJson(const std::vector<LineDifference>& lines) {
                     {"mean_difference", line.mean},
                     {"standard_error", line.standard_error},
                     {"predicted", line.predicted},
-                    {"z", line.z()}});
+                    {"z", line.z()},
+                    {"as_predicted", std::abs(line.z()) <= kRareDifference}});
     if (std::isfinite(line.begin_a)) list.back()["a_begin"] = line.begin_a;
     if (std::isfinite(line.begin_b)) list.back()["b_begin"] = line.begin_b;
   }
@@ -50,45 +51,54 @@ std::string EstimateText(const Estimate& estimate) {
   return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", estimate.value, estimate.low, estimate.high);
 }
 
-// The conclusion, which a reader sees first.
-std::string VerdictText(const CrossCheck& check) {
-  if (check.guilty.empty()) {
-    const bool tested = std::isfinite(check.pulse.factor.high) ||
-                        (check.line.factor.has_value() && std::isfinite(check.line.factor->high));
-    if (!tested) return "too few pairs of overlapping lines are close together to test the prediction\n";
-    return absl::StrFormat(
-        "prediction and overlap agree: no part differs by %.0f %% and beyond an interval of 99.5 %%\n",
-        100 * kMinDifference);
-  }
-  const bool of_lines = check.guilty == "trajectory";
-  const Estimate& factor = of_lines ? *check.line.factor : check.pulse.factor;
-  const char* const size = factor.value > 1 ? "small" : "large";
-  if (check.guilty == "pulse")
-    return absl::StrCat("the prediction of pulses is too ", size,
-                        "; whether of the air side or of the sea, these pairs cannot tell",
-                        check.sea_known ? "\n" : " without the sea: give it by --survey or flags\n");
-  const char* const name = check.guilty == "air"
-                               ? "the air side of pulses (scanner, ranges, or a trajectory that errs within seconds)"
-                           : check.guilty == "sea" ? "the sea surface"
-                                                   : "the trajectory of lines";
-  return absl::StrCat("the prediction of ", name, " is too ", size, "\n");
-}
-
 // A difference of two lines in units of what is predicted of it.
 std::string DifferenceText(const LineDifference& line) {
-  constexpr double kRare = 3;  // In the magnitude of z, of one difference.
   return absl::StrFormat(
       "%s lies %.3f m %s %s: %.1f sigma, %s (%d pairs; standard error %.3f m, trajectories %.3f m)\n",
       NameOf(FlightLine{line.line_a, line.begin_a}), std::abs(line.mean), line.mean < 0 ? "below" : "above",
       NameOf(FlightLine{line.line_b, line.begin_b}), std::abs(line.z()),
-      std::abs(line.z()) > kRare ? "more than predicted" : "as predicted", line.pairs, line.standard_error,
+      std::abs(line.z()) > kRareDifference ? "more than predicted" : "as predicted", line.pairs, line.standard_error,
       line.predicted);
 }
 
 }  // namespace
 
+std::optional<bool> Agrees(const CrossCheck& check) {
+  if (!check.guilty.empty()) return false;
+  const bool tested = std::isfinite(check.pulse.factor.high) ||
+                      (check.line.factor.has_value() && std::isfinite(check.line.factor->high));
+  return tested ? std::optional(true) : std::nullopt;
+}
+
+std::string Conclusion(const CrossCheck& check) {
+  const std::optional<bool> agrees = Agrees(check);
+  if (!agrees.has_value()) return "too few pairs of overlapping lines are close together to test the prediction";
+  if (*agrees)
+    return absl::StrFormat("prediction and overlap agree: no part differs by %.0f %% and beyond an interval of 99.5 %%",
+                           100 * kMinDifference);
+  const Estimate& factor = check.guilty == "trajectory" ? *check.line.factor : check.pulse.factor;
+  const char* part = "pulses";
+  const char* reason = "";
+  if (check.guilty == "trajectory") {
+    part = "the trajectory";
+  } else if (check.guilty == "sea") {
+    part = "the sea surface";
+  } else if (check.guilty == "air") {
+    part = "the sensor";
+    reason = " (scan angles or ranges, or a trajectory whose errors change within seconds)";
+  } else {
+    reason = check.sea_known ? "; of the sensor or of the sea, these pairs cannot tell"
+                             : "; of the sensor or of the sea, these pairs cannot tell without the sea: give it by "
+                               "--survey or flags";
+  }
+  return absl::StrCat("overlapping lines contradict the prediction: that of ", part, " is too ",
+                      factor.value > 1 ? "small" : "large", reason);
+}
+
 Json CrossCheckJson(const CrossCheck& check) {
-  Json json = {{"pairs", check.pairs},
+  Json json = {{"conclusion", Conclusion(check)},
+               {"agrees", nullptr},
+               {"pairs", check.pairs},
                {"outliers", check.outliers},
                {"chi_square", check.chi_square},
                {"chi_square_within_lines", check.chi_square_within_lines},
@@ -115,6 +125,7 @@ Json CrossCheckJson(const CrossCheck& check) {
                {"by_incidence", BandsJson(check.by_incidence)},
                {"by_share_of_sea", BandsJson(check.by_sea_share)},
                {"lines", LinesJson(check.line.differences)}};
+  if (const std::optional<bool> agrees = Agrees(check); agrees.has_value()) json["agrees"] = *agrees;
   if (check.line.factor.has_value()) json["factor_line"] = EstimateJson(*check.line.factor);
   if (!check.guilty.empty()) json["guilty_share"] = check.guilty;
   if (!check.left_out.empty()) json["left_out"] = LeftOutJson(check.left_out);
@@ -122,14 +133,14 @@ Json CrossCheckJson(const CrossCheck& check) {
 }
 
 std::string CrossCheckText(const CrossCheck& check) {
-  std::string text = VerdictText(check);
+  std::string text = Conclusion(check) + "\n";
   absl::StrAppendFormat(
       &text,
       "%d pairs of neighbouring points of different lines, %d outliers left out\n"
       "reduced chi-square                   %.2f; without the mean difference of each two lines %.2f\n"
       "predicted sigma would have to be multiplied by\n"
       "  of pulses, %3.0f %% of the variance    %s\n"
-      "    of their air side                %s\n"
+      "    of the sensor                    %s\n"
       "    of the sea surface               %s\n",
       check.pairs, check.outliers, check.chi_square, check.chi_square_within_lines, 100 * (1 - check.line_in_variance),
       EstimateText(check.pulse.factor), EstimateText(check.pulse.air), EstimateText(check.pulse.sea));

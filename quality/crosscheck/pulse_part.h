@@ -28,7 +28,7 @@ struct PulsePart {
   Estimate factor;       // By which the predicted standard deviations would have to be multiplied; at 95 %.
   Estimate air, sea;     // The same of each.
   bool differs = false;  // `factor` from 1 by kMinDifference, beyond an interval of 1 - kTailOfPart.
-  std::string named;     // "air" or "sea": what makes it differ; empty where the two cannot be told apart.
+  std::string named;     // "air" or "sea": what makes it differ; empty where the two cannot be separated.
   double rough = 0;      // Of the bottom, m^2 in the square of a metre of distance; 0 where it is not significant.
   std::size_t places = 0;
 };

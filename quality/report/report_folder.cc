@@ -45,10 +45,8 @@ absl::Status Finish(const HiddenFolder& hidden, const Json& json, std::vector<st
 
 // What the overlap of lines says of the prediction, the conclusion first.
 std::string OverlapText(const nlohmann::ordered_json& check) {
-  std::string text = check["guilty_share"].is_null() ? "prediction and overlap agree"
-                                                     : absl::StrCat("overlapping lines CONTRADICT the prediction of ",
-                                                                    check["guilty_share"].get<std::string>());
-  absl::StrAppendFormat(&text, " (%d pairs", check["pairs"].get<std::uint64_t>());
+  std::string text = check["conclusion"].get<std::string>();
+  absl::StrAppendFormat(&text, "\n  (%d pairs", check["pairs"].get<std::uint64_t>());
   for (const auto& [name, key] : {std::pair{"pulses", "factor_pulse"}, {"lines", "factor_line"}}) {
     const auto& factor = check[key];
     if (factor.is_null() || !factor["value"].is_number()) continue;
@@ -60,7 +58,7 @@ std::string OverlapText(const nlohmann::ordered_json& check) {
   if (const auto& lines = check["lines"]; !lines.empty()) {
     const auto worst = std::ranges::max_element(
         lines, {}, [](const nlohmann::ordered_json& line) { return std::abs(line["z"].get<double>()); });
-    absl::StrAppendFormat(&text, "; largest difference of lines for its sigma %.3f m, %.1f sigma",
+    absl::StrAppendFormat(&text, "; worst difference of two lines %.3f m, %.1f sigma",
                           std::abs((*worst)["mean_difference"].get<double>()), std::abs((*worst)["z"].get<double>()));
   }
   return text + ")\n";
@@ -122,9 +120,9 @@ std::string ReportText(const nlohmann::ordered_json& report) {
   const auto& wanted = report["wanted"];
   const auto points = wanted["points"].get<std::uint64_t>(), numbers = wanted["with_number"].get<std::uint64_t>();
   std::string text =
-      absl::StrFormat("%s %s: THU and TVU %s %.2f %% of %d points (at least %g %% asked)\n",
+      absl::StrFormat("%s %s: THU and TVU %s %.2f %% of %d points (at least %g %% required)\n",
                       wanted["specification"].get<std::string>(), wanted["class"].get<std::string>(),
-                      wanted["passes"].get<bool>() ? "are within the limits at" : "are NOT within the limits: only at",
+                      wanted["passes"].get<bool>() ? "are within the limits at" : "are NOT within the limits: at",
                       100 * wanted["fraction"].get<double>(), points, wanted["pass_share"].get<double>());
   if (numbers < points) {
     std::vector<std::string> why;

@@ -187,7 +187,7 @@ def _crosscheck(report: Report) -> str:
             ["reduced chi-square", f"{check['chi_square']:.2f} (1: as predicted); without the mean difference of each"
              f" two lines {check['chi_square_within_lines']:.2f}"],
             ["σ of pulses would have to be multiplied by", verdict.estimate_text(check["factor_pulse"])],
-            ["of their air side", verdict.estimate_text(check["factor_air"])],
+            ["of the sensor (scan angles, ranges)", verdict.estimate_text(check["factor_air"])],
             ["of the sea surface", verdict.estimate_text(check["factor_sea"])],
             ["σ of lines would have to be multiplied by", verdict.estimate_text(check["factor_line"])
              if check["factor_line"] is not None else "no error of a trajectory is predicted"],
@@ -196,8 +196,8 @@ def _crosscheck(report: Report) -> str:
               f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}", verdict.difference_text(each)]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
-            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (lever arm,"
-            " boresight, clock, index, water level, datum) cancel and are not tested.</p>"
+            " of the bottom, against the prediction for pulses and lines. Errors that all lines share"
+            f" ({verdict.SHARED}) cancel and are not tested.</p>"
             + table(["", ""], rows, "words") + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
             + table(["lines", "pairs", "mean difference [m]", "standard error [m]",
                      "σ of both trajectories [m]", ""], lines, "sortable"))
