@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
@@ -17,6 +18,7 @@ using Eigen::Vector2d;
 constexpr double kFootprintStep = 0.1;                         // Of its logarithm.
 constexpr double kLeastFootprint = 0.01, kMostFootprint = 10;  // m, of MovingWaves.
 constexpr double kTimeStep = 0.1;                              // s
+constexpr double kTurn = 2 * std::numbers::pi;
 
 // A length as whole steps, which are longer where it is long, and back.
 struct Steps {
@@ -26,24 +28,20 @@ struct Steps {
 constexpr Steps kSteps[] = {{0, 0.05, 0}, {1, 0.25, 20}, {4, 1, 32}, {16, 4, 44}};
 
 int StepOf(double length) {
-  const double size = std::abs(length);
   const Steps& of = *std::ranges::find_if(std::rbegin(kSteps), std::rend(kSteps),
-                                          [size](const Steps& each) { return size >= each.from; });
-  const int step = of.first + static_cast<int>(std::lround((size - of.from) / of.step));
-  return length < 0 ? -step : step;
+                                          [length](const Steps& each) { return length >= each.from; });
+  return of.first + static_cast<int>(std::lround((length - of.from) / of.step));
 }
-
-constexpr int kFarthest = 44 + static_cast<int>((SharedWaves::kReach - 16) / 4);
-constexpr int kLatest = static_cast<int>(SharedWaves::kPause / kTimeStep + 0.5);
-constexpr int kPlaces = 2 * kFarthest + 1, kTimes = 2 * kLatest + 1;
 
 double LengthOf(int step) {
-  const int size = std::abs(step);
   const Steps& of = *std::ranges::find_if(std::rbegin(kSteps), std::rend(kSteps),
-                                          [size](const Steps& each) { return size >= each.first; });
-  const double length = of.from + (size - of.first) * of.step;
-  return step < 0 ? -length : length;
+                                          [step](const Steps& each) { return step >= each.first; });
+  return of.from + (step - of.first) * of.step;
 }
+
+constexpr int kDistances = 44 + static_cast<int>((SharedWaves::kReach - 16) / 4) + 1;
+constexpr int kDirections = 72;  // in a turn
+constexpr int kLatest = static_cast<int>(SharedWaves::kPause / kTimeStep + 0.5), kTimes = 2 * kLatest + 1;
 
 // From the axes of a sea, x towards `x_azimuth`, to east and north.
 Matrix2d ToMap(double x_azimuth) {
@@ -87,22 +85,27 @@ double SharedWaves::operator()(const PulseOnWater& a, const PulseOnWater& b) con
     const double rounded = std::clamp(std::exp(of_width * kFootprintStep), kLeastFootprint, kMostFootprint);
     FootprintWaves waves = sea.waves->Under({.footprint = rounded});
     const Matrix2d whole = sea.to_map * waves.Whole().slopes * sea.to_map.transpose();
-    const std::vector<Eigen::Matrix2f> unknown(std::size_t{kPlaces} * kPlaces * kTimes,
+    const std::vector<Eigen::Matrix2f> unknown(std::size_t{kTimes} * kDistances * kDirections,
                                                Eigen::Matrix2f::Constant(std::numeric_limits<float>::quiet_NaN()));
     found = sea.of_footprints.emplace(of_width, Footprint{std::move(waves), whole, unknown}).first;
   }
   Footprint& footprint = found->second;
-  const int x = StepOf(apart.x()), y = StepOf(apart.y()), t = static_cast<int>(std::lround(later / kTimeStep));
-  Eigen::Matrix2f& known =
-      footprint.known[static_cast<std::size_t>(((t + kLatest) * kPlaces + y + kFarthest) * kPlaces + x + kFarthest)];
-  if (std::isnan(known(0, 0))) {
-    const Vector2d rounded = sea.to_map.transpose() * Vector2d(LengthOf(x), LengthOf(y));
-    const Matrix2d slopes = footprint.waves.Between(rounded, t * kTimeStep).slopes;
-    known = (sea.to_map * slopes * sea.to_map.transpose()).cast<float>();
+  const int distance = StepOf(apart.norm()), time = static_cast<int>(std::lround(later / kTimeStep));
+  const auto direction =
+      std::lround(std::atan2(apart.y(), apart.x()) / kTurn * kDirections + kDirections) % kDirections;
+  Eigen::Matrix2f* const ring = &footprint.known[std::size_t{kDirections} * ((time + kLatest) * kDistances + distance)];
+  if (std::isnan(ring[0](0, 0))) {
+    const WavesAtDistance waves = footprint.waves.AtDistance(LengthOf(distance), time * kTimeStep);
+    const Vector2d east = sea.to_map.transpose().col(0);  // On the axes of the sea.
+    const double turned = std::atan2(east.y(), east.x());
+    for (int each = 0; each < kDirections; ++each) {
+      const Matrix2d slopes = waves.Towards(turned + each * kTurn / kDirections).slopes;
+      ring[each] = (sea.to_map * slopes * sea.to_map.transpose()).cast<float>();
+    }
   }
   const Vector2d of_a(a.along_x, a.along_y), of_b(b.along_x, b.along_y);
   const Matrix2d& whole = footprint.whole;
-  const double shared = of_a.dot(known.cast<double>() * of_b);
+  const double shared = of_a.dot(ring[direction].cast<double>() * of_b);
   const double slopes = shared / std::sqrt(of_a.dot(whole * of_a) * of_b.dot(whole * of_b));
   // The height errs by tan(r) g m along the beam and by g^2 |m|^2 / 2, with the gain g and the slopes m.
   const double first = double{a.tangent} * b.tangent;

@@ -39,9 +39,8 @@ struct PulseOnWater {
 // The height of a point errs in proportion to the slope of the water along its beam, of which u C(dx, dt) u' is the
 // covariance (sea/correlation), u and u' the directions of the two beams. At nadir, where the height errs by squares of
 // slopes alone, their correlation is the square of this one; in between, by the tangent of the incidence, it is that of
-// the sum of both. Distances along each axis are rounded to 5 cm, from 1 m on to
-// 0.25 m, from 4 m on to 1 m and from 16 m on to 4 m, times to 0.1 s, footprints to 10 %. Not for several threads at a
-// time.
+// the sum of both. Distances are rounded to 5 cm, from 1 m on to 0.25 m, from 4 m on to 1 m and from 16 m on to 4 m,
+// directions to 5 degrees, times to 0.1 s, footprints to 10 %. Not for several threads at a time.
 class SharedWaves {
  public:
   // Beyond these they are taken to share nothing.
@@ -53,7 +52,8 @@ class SharedWaves {
   double operator()(const PulseOnWater& a, const PulseOnWater& b) const;
 
  private:
-  // Of one footprint: the covariance of slopes, on the map, of one pulse and, by steps of place and time, of two.
+  // Of one footprint: the covariance of slopes, on the map, of one pulse and, by steps of time, distance and
+  // direction, of two.
   struct Footprint {
     FootprintWaves waves;
     Eigen::Matrix2d whole;

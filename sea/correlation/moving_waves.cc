@@ -150,42 +150,24 @@ FootprintWaves MovingWaves::Under(const BeamOptions& beam) const {
   return {Weighted(weights.array().square().matrix()), motion_};
 }
 
-WaveCovariance FootprintWaves::Whole() const {
-  const double turn = 2 * std::numbers::pi;
-  const Eigen::ArrayXd sum = turn * harmonics_.sum(0).real();
-  return {SlopesOf(sum.sum(), turn * harmonics_.cosine(0).real().sum(), turn * harmonics_.sine(0).real().sum()),
-          (sum / HankelLattice::Shared().wavenumbers().square()).sum()};
+WaveCovariance FootprintWaves::Whole() const { return AtDistance(0, 0).Towards(0); }
+
+WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double later) const {
+  return AtDistance(apart.norm(), later).Towards(apart.isZero(0) ? 0 : std::atan2(apart.y(), apart.x()));
 }
 
 // With z = k |apart| and the direction beta of `apart`, the integral over psi of F cos(z cos(psi - beta) - omega later)
 // is 2 pi times the sum over n of J_n(z) Re(i^n f_n exp(i n beta) exp(-i omega later)), where n and -n add alike.
-WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double later) const {
-  if (apart.isZero(0) && later == 0) return Whole();
+WavesAtDistance FootprintWaves::AtDistance(double distance, double later) const {
   const HankelLattice& lattice = HankelLattice::Shared();
-  const double distance = apart.norm(), beta = distance == 0 ? 0 : std::atan2(apart.y(), apart.x());
-  const double time = std::abs(later);
   const int size = lattice.size();
   constexpr int kCount = kLast + 1;
-  Eigen::MatrixXd rows(3 * kCount, size);  // of Re(f_n exp(i n beta)), by function
-  for (int n = 0; n < kCount; ++n) {
-    const double sign = n % 4 < 2 ? 1 : -1, factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign;
-    // A negative `later` turns the sine, which odd orders have.
-    const std::complex<double> turn = std::polar(n % 2 == 1 && later < 0 ? -factor : factor, n * beta);
-    rows.row(n) = (harmonics_.sum(n) * turn).real().matrix().transpose();
-    rows.row(kCount + n) = (harmonics_.cosine(n) * turn).real().matrix().transpose();
-    rows.row(2 * kCount + n) = (harmonics_.sine(n) * turn).real().matrix().transpose();
-  }
-  Eigen::Array3d slopes = Eigen::Array3d::Zero();
-  double heights = 0;
+  // J_n(z) cos(omega later), or sine where n is odd, integrated over each step of the lattice: by n and wavenumber.
+  Eigen::ArrayXXd kernels = Eigen::ArrayXXd::Zero(kCount, size);
+  if (distance == 0 && later == 0) kernels.row(0).setOnes();
+  const double time = std::abs(later);
   Orders orders;
-  const Eigen::Map<const Eigen::Matrix<double, kCount, 1>> kernel(orders.data());
-  const auto at = [&](int i, double share) {
-    const Eigen::Map<const Eigen::Matrix<double, kCount, 3>> columns(rows.col(i).data());
-    const Eigen::Array3d values = share * (columns.transpose() * kernel).array();
-    slopes += values;
-    heights += values[0] / (lattice.wavenumbers()[i] * lattice.wavenumbers()[i]);
-  };
-  for (int i = 0; i + 1 < size; ++i) {
+  for (int i = 0; i + 1 < size && (distance != 0 || later != 0); ++i) {
     const double k = lattice.wavenumbers()[i];
     // Twice the frequency changes 3 times as fast as k at most.
     const double phase = lattice.step() * (k * distance + 1.5 * AngularFrequency(k, motion_.water_depth) * time);
@@ -195,13 +177,40 @@ WaveCovariance FootprintWaves::Between(const Eigen::Vector2d& apart, double late
       const double u = (step + 0.5) / steps, here = k * std::exp(lattice.step() * u);
       BesselOrders(here * distance, orders);
       const double angle = AngularFrequency(here, motion_.water_depth) * time;
-      const double cosine = std::cos(angle), sine = std::sin(angle);
-      for (int n = 0; n < kCount; ++n) orders[n] *= n % 2 == 0 ? cosine : sine;
-      at(i, (1 - u) / steps);
-      at(i + 1, u / steps);
+      const double cosine = std::cos(angle) / steps, sine = std::sin(angle) / steps;
+      for (int n = 0; n < kCount; ++n) {
+        const double value = orders[n] * (n % 2 == 0 ? cosine : sine);
+        kernels(n, i) += (1 - u) * value;
+        kernels(n, i + 1) += u * value;
+      }
     }
   }
-  return {SlopesOf(slopes[0], slopes[1], slopes[2]), heights};
+  WavesAtDistance waves;
+  for (int n = 0; n < kCount; ++n) {
+    const double sign = n % 4 < 2 ? 1 : -1, factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign;
+    // A negative `later` turns the sine, which odd orders have.
+    const Eigen::ArrayXd kernel = (n % 2 == 1 && later < 0 ? -factor : factor) * kernels.row(n).transpose();
+    const std::complex<double> totals[] = {(harmonics_.sum(n) * kernel).sum(), (harmonics_.cosine(n) * kernel).sum(),
+                                           (harmonics_.sine(n) * kernel).sum(),
+                                           (harmonics_.sum(n) * kernel / lattice.wavenumbers().square()).sum()};
+    for (int each = 0; each < 4; ++each) {
+      waves.factors_(n, 2 * each) = totals[each].real();
+      waves.factors_(n, 2 * each + 1) = totals[each].imag();
+    }
+  }
+  return waves;
+}
+
+WaveCovariance WavesAtDistance::Towards(double direction) const {
+  Eigen::Array<double, 4, 1> totals = Eigen::Array<double, 4, 1>::Zero();
+  const std::complex<double> step = std::polar(1.0, direction);
+  std::complex<double> turn = 1;
+  for (int n = 0; n <= kLast; ++n) {
+    for (int each = 0; each < 4; ++each)
+      totals[each] += factors_(n, 2 * each) * turn.real() - factors_(n, 2 * each + 1) * turn.imag();
+    turn *= step;
+  }
+  return {SlopesOf(totals[0], totals[1], totals[2]), totals[3]};
 }
 
 WaveCovariance FootprintWaves::InCell(const SurfaceCell& cell) const {

@@ -35,6 +35,19 @@ class WaveHarmonics {
   Eigen::MatrixXcd factors_;
 };
 
+// What FootprintWaves::Between() is at one distance and time, in all directions.
+class WavesAtDistance {
+ public:
+  // `direction` of the way from one place to the other, anticlockwise from x [rad].
+  WaveCovariance Towards(double direction) const;
+
+ private:
+  friend class FootprintWaves;
+  // By n, the factors of exp(i n direction), whose real part counts: real and imaginary of F, of F cos(2 psi) and of
+  // F sin(2 psi), and of the heights.
+  Eigen::Array<double, WaveHarmonics::kLast + 1, 8> factors_;
+};
+
 // The waves of one sea under the footprint of one beam. Immutable.
 class FootprintWaves {
  public:
@@ -43,8 +56,9 @@ class FootprintWaves {
 
   // Between a footprint and one whose centre lies `apart` [m] from it on the water, `later` [s]:
   //     integral of Psi k k^T W^2 cos(k . apart - omega later) dk, and with Psi W^2 for the heights.
-  // A tenth of a millisecond.
+  // A tenth of a millisecond, in which AtDistance() finds it in all directions.
   WaveCovariance Between(const Eigen::Vector2d& apart, double later) const;
+  WavesAtDistance AtDistance(double distance, double later) const;
 
   // Of one footprint with itself.
   WaveCovariance Whole() const;
