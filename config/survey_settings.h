@@ -121,7 +121,8 @@ inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "loca
 inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
 inline constexpr std::array<std::string_view, 2> kConfidences = {"1sigma", "95%"};
 inline constexpr std::array<std::string_view, 2> kPointChoices = {"all", "bathymetric"};
-inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", "1sigma"};
+inline constexpr std::array<std::string_view, 3> kCoverages = {"p95", "2sigma", "1sigma"};
+inline constexpr std::string_view kUsualCoverage = "p95";  // As S-44 and NOAA ask.
 
 // The class of a point in LAS 1.4 is one byte.
 inline constexpr WholeNumbers kClasses = {0, 255};
@@ -282,8 +283,8 @@ inline constexpr std::array<Key<OutputSettings>, 7> kOutputKeys = {{
       "the height at a fixed place: with the horizontal error on the slope of the points around, and the spread of the "
       "footprint on it. In LAS files, with a sensor and the direction of each beam"},
      &OutputSettings::terrain_slope},
-    {{"coverage", "--coverage", Word{kCoverages}, "2sigma",
-      "2sigma for twice the standard deviation, p95 for 95 %, 1sigma for one standard deviation"},
+    {{"coverage", "--coverage", Word{kCoverages}, kUsualCoverage,
+      "p95 for 95 %, 2sigma for twice the standard deviation, 1sigma for one standard deviation"},
      &OutputSettings::coverage},
     {{"s44_order", "--s44-order", Word{kS44OrderNames}, "", "Compare with this order of IHO S-44"},
      &OutputSettings::s44_order},

@@ -146,7 +146,7 @@ absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& set
 }
 
 void TakeStyle(const config::OutputSettings& output, annotate::AnswerStyle& style) {
-  if (output.coverage.has_value()) style.coverage = *annotate::FindCoverage(*output.coverage);
+  style.coverage = *annotate::FindCoverage(output.coverage.value_or(std::string(config::kUsualCoverage)));
   if (output.s44_order.has_value()) style.s44_order = FindS44Order(*output.s44_order);
 }
 

@@ -106,7 +106,8 @@ class Files(FolderTest):
                                                                 refractive_index=1.33)
             self.assertEqual(list(differences.of_json(recorded["thu"], answer.thu.tolist())), [])
             pulse = run(QUERY, "pulse", "--table", folder / "sea.h5", "--wind-speed", 5, "--incidence", 10,
-                        "--footprint", 0.5, "--depth", 5, "--azimuth", -45, "--water-index", 1.33, "--json")
+                        "--footprint", 0.5, "--depth", 5, "--azimuth", -45, "--water-index", 1.33, "--coverage",
+                        "2sigma", "--json")
             # The package has the azimuth of the table's frame, which is counterclockwise.
             second = {name: recorded[name][1] for name in ("thu", "tvu")}
             self.assertEqual(list(differences.of_json(second, json.loads(self.assert_succeeds(pulse)))), [])

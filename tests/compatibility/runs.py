@@ -18,20 +18,23 @@ PULSE = ("--incidence", "10", "--footprint", "0.6", "--depth", "8")
 WIND = ("--wind-speed", "5", "--azimuth", "30", "--table-name", "winds")
 WAVES = ("--hs", "0.6", "--tp", "3.2", "--waves-from", "230", "--swell", "1.1,9.5,295", "--sea-depth", "12",
          "--wind-speed", "6")
+THEN = ("--coverage", "2sigma")  # What 0.1.0 takes where nothing is said.
 LINE = ("--trajectory", "sbet.out", "--lever-arm", "0.3,-0.2,0.5", "--water-classes", "41", "--water-level", "-25",
         "--wind-speed", "5", "--divergence", "1", "--details", "--table-name", "winds")
 
 # Arguments of albtpu-query. What a run prints is kept under the name before it, if it has one.
 ANNOTATE = (
     ("", "las", "lines", "--output-dir", "annotated", "--survey", "survey.toml", "--table-name", "winds"),
-    ("", "las", "lines/flight_1.las", "sea.laz", *LINE, "--standard-errors"),
-    ("", "csv", "pulses.csv", "answers.csv", "--standard-errors", "--s44-order", "1b", "--table-name", "winds"),
-    ("", "csv", "totals.csv", "total_answers.csv", "--survey", "totals.toml", "--details", "--table-name", "winds"))
+    ("", "las", "lines/flight_1.las", "sea.laz", *LINE, *THEN, "--standard-errors"),
+    ("", "csv", "pulses.csv", "answers.csv", "--standard-errors", "--s44-order", "1b", "--table-name", "winds",
+     *THEN),
+    ("", "csv", "totals.csv", "total_answers.csv", "--survey", "totals.toml", "--details", "--table-name", "winds",
+     *THEN))
 PRINT = (
-    ("pulse.json", "pulse", *PULSE, *WIND, "--standard-errors", "--s44-order", "1b", "--json"),
-    ("waves.json", "pulse", *PULSE, *WAVES, "--json"),
+    ("pulse.json", "pulse", *PULSE, *WIND, *THEN, "--standard-errors", "--s44-order", "1b", "--json"),
+    ("waves.json", "pulse", *PULSE, *WAVES, *THEN, "--json"),
     ("total.json", "pulse", "--survey", "totals.toml", "--table-name", "winds", *PULSE, "--beam-azimuth", "90",
-     "--altitude", "400", "--json"),
+     "--altitude", "400", *THEN, "--json"),
     ("sea.json", "sea", *WAVES, "--json"),
     ("trajectory.json", "trajectory", "sbet.out", "--json"),
     ("sensor.json", "sensors", "sensor.toml", "--json"),

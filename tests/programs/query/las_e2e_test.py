@@ -71,7 +71,7 @@ class LasTest(programs.Test):
         by_csv = self.values_by_csv(old, point_class, water_level)
         for name, expected in zip(("sea_thu", "sea_tvu"), by_csv):
             offset, kind, no_data, description = dimensions[name]
-            self.assertEqual((kind, no_data, description), (9, -1.0, "sea surface only, 2 sigma, m"))
+            self.assertEqual((kind, no_data, description), (9, -1.0, "sea surface only, 95 %, m"))
             values = new.field(offset, "<f4")
             chosen = new.classes == point_class
             np.testing.assert_array_equal(values[~chosen], np.float32(-1))

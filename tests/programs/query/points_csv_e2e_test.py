@@ -100,7 +100,7 @@ class PointsCsvTest(programs.Test):
         out = self.folder / "line_out.las"
         query("las", las, out, "--table", self.table, *programs.FLAGS, "--csv", self.folder / "line.csv", "--units",
               "us-ft", check=0)
-        head = ["gps_time [s]", "x [us-ft]", "y [us-ft]", "z [us-ft]", "sea_thu [m; 2 sigma]", "sea_tvu [m; 2 sigma]",
+        head = ["gps_time [s]", "x [us-ft]", "y [us-ft]", "z [us-ft]", "sea_thu [m; 95 %]", "sea_tvu [m; 95 %]",
                 "class"]
         found, rows = rows_of(self.folder / "line.csv")
         self.assertEqual(found[4:], head[4:])

@@ -52,7 +52,7 @@ class TotalsTest(programs.Test):
         rates = ",".join(str(math.degrees(rate)) for rate in (0.01, 0.02, 0.03))
         return query("pulse", "--survey", self.toml(text), "--table", self.table, "--incidence", 20,
                      "--beam-azimuth", 90, "--altitude", 400, "--depth", 10, "--attitude", "3,4,30", "--velocity",
-                     velocity, "--rates", rates, "--json", *flags)
+                     velocity, "--rates", rates, "--coverage", "2sigma", "--json", *flags)
 
     def test_pulse_has_the_known_covariance_of_the_air_side(self):
         for located, known in KNOWN.items():
@@ -148,7 +148,7 @@ source = 'its data sheet'
     def test_las_and_csv_name_what_the_surveyor_adds(self):
         flight = SimulatedSurvey(self.folder / "flight").folder
         text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + WIND + DECIDED +
-                "[output]\nclasses = [40]\ndetails = true\n")
+                "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\n")
         extra = "[extra]\nhorizontal = 0.3\nvertical = 0.05\n"
 
         def annotate(name, text):

@@ -21,7 +21,7 @@ class WaterTest(programs.Test):
     def pulse(self, water, *flags, depth=10, **options):
         return query("pulse", "--survey", self.toml(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + water),
                      "--table", self.table, "--incidence", 15, "--beam-azimuth", 90, "--altitude", 400,
-                     "--depth", depth, "--footprint", 0.5, "--json", *flags, **options)
+                     "--depth", depth, "--footprint", 0.5, "--coverage", "2sigma", "--json", *flags, **options)
 
     def total(self, water, *flags, **options):
         result = self.pulse(water, *flags, **options)
@@ -95,7 +95,8 @@ class WaterTest(programs.Test):
         csv = self.folder / "pulses.csv"
         csv.write_text("incidence,beam_azimuth,depth,altitude,footprint\n15,90,10,400,0.5\n15,90,19,400,0.5\n")
         survey = self.toml(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + WATER)
-        result = query("csv", csv, self.folder / "out.csv", "--survey", survey, "--table", self.table, "--details")
+        result = query("csv", csv, self.folder / "out.csv", "--survey", survey, "--table", self.table, "--details",
+                       "--coverage", "2sigma")
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = [line.split(",") for line in (self.folder / "out.csv").read_text().splitlines()]
         first = dict(zip(lines[0], lines[1]))
