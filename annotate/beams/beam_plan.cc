@@ -31,8 +31,6 @@ constexpr std::size_t kBeginning = 4096;  // Bytes, by which a file is recognize
 // Files that a summary names one by one. It is written for each file of points, so that their number squared counts.
 constexpr std::size_t kNamedFiles = 100;
 
-bool IsVisible(const fs::path& path) { return !path.filename().string().starts_with('.'); }
-
 bool IsNamedAsErrors(const fs::path& path) {
   const std::string name = absl::AsciiStrToLower(path.filename().string());
   return absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
@@ -46,7 +44,7 @@ bool IsSmrmsg(const fs::path& path) {
 }
 
 absl::Status AddFolder(const std::string& path, TrajectoryErrors::Files& errors, std::vector<std::string>& skipped) {
-  ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path, IsVisible));
+  ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path));
   std::vector<std::string> others;
   const std::size_t before = errors.size();
   for (const fs::path& file : files) {

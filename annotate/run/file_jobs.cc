@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
+#include "formats/files/file_access.h"
 #include "status/status_macros.h"
 #include "tables/version.h"
 
@@ -43,7 +44,9 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const Exte
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;  // An entry that disappeared is not annotated.
-    if (entry->is_directory(ignored)) {
+    if (!formats::IsVisible(entry->path())) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_directory(ignored)) {
       if (!options.recursive || IsSame(entry->path(), options.output_folder)) entry.disable_recursion_pending();
     } else if (entry->is_regular_file(ignored) && HasOneOf(entry->path(), extensions)) {
       files.push_back(entry->path());

@@ -69,13 +69,14 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
                    "), so nothing was written; run again when no program writes to it"));
 }
 
-absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(
-    const std::filesystem::path& path, const std::function<bool(const std::filesystem::path&)>& wanted) {
+bool IsVisible(const std::filesystem::path& path) { return !path.filename().string().starts_with('.'); }
+
+absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem::path& path) {
   std::error_code error, ignored;
   if (!std::filesystem::is_directory(path, error)) return std::vector{path};
   std::vector<std::filesystem::path> files;
   for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_regular_file(ignored) && wanted(entry->path())) files.push_back(entry->path());
+    if (entry->is_regular_file(ignored) && IsVisible(entry->path())) files.push_back(entry->path());
   if (error) {
     return absl::FailedPreconditionError(
         absl::StrCat(path.string(), ": ", error.message(), "; give a folder that can be read"));

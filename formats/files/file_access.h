@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -68,10 +67,13 @@ class FileStamp {
   std::timespec modified_ = {};
 };
 
-// `path` itself; or, if it is a folder, the regular files in it that are `wanted`, by name, which may be none.
+// Whether a file or folder that lies in a given one belongs to the user: programs keep their own under names that begin
+// with a dot, such as the half of a file that a copy has not finished. Nothing is said of the others.
+bool IsVisible(const std::filesystem::path& path);
+
+// `path` itself; or, if it is a folder, the regular files in it that are visible, by name, which may be none.
 // FailedPrecondition when the folder cannot be read.
-absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(
-    const std::filesystem::path& path, const std::function<bool(const std::filesystem::path&)>& wanted);
+absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem::path& path);
 
 // FailedPrecondition when `output` and `input` are the same file, under whatever names: the input would be replaced
 // while it is read.

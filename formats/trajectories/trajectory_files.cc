@@ -37,8 +37,6 @@ bool HasExtensionOf(const fs::path& path, const Words& words) {
   return std::find(words.begin(), words.end(), extension) != words.end();
 }
 
-bool IsVisible(const fs::path& path) { return !path.filename().string().starts_with('.'); }
-
 // The first bytes of a file, empty where it cannot be read.
 std::string BeginningOf(const fs::path& path) {
   const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "a trajectory");
@@ -75,7 +73,7 @@ std::vector<std::string> Lines(const std::string& folder,
 
 absl::Status AddFolder(const std::string& path, VelocityAxes axes, TrajectoryFiles::Files& trajectories,
                        std::vector<std::string>& skipped) {
-  ASSIGN_OR_RETURN(const std::vector<fs::path> files, FilesAt(path, IsVisible));
+  ASSIGN_OR_RETURN(const std::vector<fs::path> files, FilesAt(path));
   std::map<std::string, std::vector<std::string>> reasons;
   std::size_t found = 0;
   for (const fs::path& file : files) {

@@ -286,8 +286,6 @@ struct TrajectoryOptions {
   bool json = false;
 };
 
-bool IsVisible(const std::filesystem::path& path) { return !path.filename().string().starts_with('.'); }
-
 absl::Status RunTrajectory(const TrajectoryOptions& options) {
   Json json = {{"files", Json::array()}};
   std::vector<absl::Status> failures;
@@ -300,7 +298,7 @@ absl::Status RunTrajectory(const TrajectoryOptions& options) {
       std::cout << (texts++ > 0 ? "\n" : "") << TrajectoryText(path, *summary);
   };
   for (const std::string& path : options.files) {
-    const absl::StatusOr<std::vector<std::filesystem::path>> files = formats::FilesAt(path, IsVisible);
+    const absl::StatusOr<std::vector<std::filesystem::path>> files = formats::FilesAt(path);
     if (!files.ok())
       show(path, files.status());
     else if (files->empty())

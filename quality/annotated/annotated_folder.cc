@@ -10,6 +10,7 @@
 #include "annotate/answers/batch.h"
 #include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
+#include "formats/files/file_access.h"
 #include "formats/las/las_points.h"
 #include "status/status_macros.h"
 
@@ -27,7 +28,8 @@ absl::Status AddFiles(const fs::path& folder_or_file, std::vector<fs::path>& pat
   }
   const std::size_t before = paths.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
-    if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
+    if (formats::IsVisible(entry.path()) &&
+        (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz")))
       paths.push_back(entry.path());
   if (error)
     return absl::InvalidArgumentError(absl::StrCat(folder_or_file.string(), ": cannot be read: ", error.message()));

@@ -51,6 +51,17 @@ TEST_F(FileJobs, RecreatesSubfoldersWhenRecursive) {
   EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las", "line/a.las", "line/deep/c.las"));
 }
 
+TEST_F(FileJobs, LeavesOutFilesAndFoldersWhoseNamesBeginWithADot) {
+  folder_.Write("in/.b.las", "");
+  folder_.Write("in/.trash/d.las", "");
+  options_.files = {folder_ / "in"};
+  EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las"));
+  options_.recursive = true;
+  EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las", "line/a.las", "line/deep/c.las"));
+  options_.files = {folder_ / "in/.b.las", folder_ / "in/.trash"};  // Named by the user.
+  EXPECT_THAT(Outputs(), ElementsAre(".b.las", "d.las"));
+}
+
 TEST_F(FileJobs, MixesFilesAndFolders) {
   options_.files = {folder_ / "in/line/deep/c.las", folder_ / "in"};
   EXPECT_THAT(Outputs(), ElementsAre("c.las", "a.LAS", "b.las"));

@@ -108,6 +108,14 @@ TEST(OutputFile, IsNotTheInputUnderAnotherName) {
   EXPECT_TRUE(CheckNotTheSameFile(input, folder / "other").ok());
 }
 
+TEST(FilesAt, AreTheVisibleOnesOfAFolderByName) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"b", ".c", "a"}) folder.Write(name, "x");
+  std::filesystem::create_directory(folder / "d");
+  EXPECT_THAT(*FilesAt(folder.path()), ::testing::ElementsAre(folder / "a", folder / "b"));
+  EXPECT_THAT(*FilesAt(folder / ".c"), ::testing::ElementsAre(folder / ".c"));  // Named by the user.
+}
+
 TEST(FileAccess, KnowsUtf16) {
   const auto wide = [](std::string_view text, bool big) {
     std::string bytes;

@@ -161,6 +161,16 @@ class Grid(Report):
         self.assertLess(info["geoTransform"][0], self.points["x"].min())
         self.assertGreater(info["geoTransform"][3], self.points["y"].max())
 
+    def test_leaves_out_files_whose_names_begin_with_a_dot(self):
+        folder = self.folder / "annotated"
+        shutil.copytree(self.annotated, folder)
+        (folder / ".half.las").write_bytes(sorted(folder.glob("*.las"))[0].read_bytes()[:1000])
+        report = self.folder / "visible"
+        result = query("report", folder, "--output", report, "--no-page", check=0)
+        self.assertNotIn(".half", result.stderr)
+        with netCDF4.Dataset(report / "grid.nc") as grid:
+            self.assertEqual(grid["points"][:].sum(), len(self.points["x"]))
+
     def test_takes_the_cell_that_is_asked_for(self):
         report = self.folder / "coarse"
         query("report", self.annotated, "--output", report, "--cell", 25, "--no-page", check=0)
