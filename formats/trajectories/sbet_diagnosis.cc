@@ -76,6 +76,10 @@ constexpr std::array kSbetMistakes = {
                   return WithVelocities(WithWander(record, 0), record.velocity_y, -record.velocity_x,
                                         record.velocity_z);
                 }},
+    SbetMistake{"its vertical velocities are positive downwards",
+                [](SbetRecord record) {
+                  return WithVelocities(record, record.velocity_x, record.velocity_y, -record.velocity_z);
+                }},
     SbetMistake{"its velocities are in feet per second",
                 [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},
     SbetMistake{"its velocities are in knots", [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
@@ -121,23 +125,28 @@ Turn BestTurn(std::vector<VelocityPair> velocities) {
   return {angle, VelocityDifference(velocities)};
 }
 
-// In an aircraft that flies level, heights in feet hardly show in the difference of velocities, but they do in the
-// slope of dh/dt over v_U, which is then 3.28 and not 1.
-bool HeightsAreInFeet(std::span<const VelocityPair> velocities) {
+// The slope of dh/dt over v_U, and its standard error; nullopt where nothing climbs. In an aircraft that flies level,
+// heights in feet and vertical velocities of the wrong sign hardly show in the difference of velocities, but they do in
+// this slope, which is then 3.28 or -1 and not 1.
+struct ClimbSlope {
+  double slope = 0, standard_error = 0;
+
+  bool is(double value) const { return standard_error < 0.1 && std::abs(slope - value) < 4 * standard_error + 0.01; }
+};
+std::optional<ClimbSlope> SlopeOfClimb(std::span<const VelocityPair> velocities) {
   double sum_squares = 0, sum_products = 0;
   for (const VelocityPair& pair : velocities) {
     sum_squares += pair.stated_up * pair.stated_up;
     sum_products += pair.up * pair.stated_up;
   }
-  if (velocities.size() < 3 || sum_squares == 0) return false;
+  if (velocities.size() < 3 || sum_squares == 0) return std::nullopt;
   const double slope = sum_products / sum_squares;
   double residual = 0;
   for (const VelocityPair& pair : velocities) {
     const double difference = pair.up - slope * pair.stated_up;
     residual += difference * difference;
   }
-  const double standard_error = std::sqrt(residual / static_cast<double>(velocities.size() - 1) / sum_squares);
-  return standard_error < 0.1 && std::abs(slope - 1 / kFoot) < 4 * standard_error + 0.01;
+  return ClimbSlope{slope, std::sqrt(residual / static_cast<double>(velocities.size() - 1) / sum_squares)};
 }
 
 // The angle from the courses to the headings. Wind turns headings to one side on the way out and to the other on the
@@ -232,7 +241,8 @@ absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> 
   const std::optional<std::vector<VelocityPair>> velocities = Velocities(pairs, AsItIs, frame);
   if (!velocities.has_value() || velocities->empty()) return absl::OkStatus();
   if (frame == VelocityFrame::kNone) return CheckHeadings(name, pairs, *velocities);
-  if (HeightsAreInFeet(*velocities)) {
+  const std::optional<ClimbSlope> climb = SlopeOfClimb(*velocities);
+  if (climb.has_value() && climb->is(1 / kFoot)) {
     return absl::InvalidArgumentError(
         absl::StrFormat("%s: its heights change 3.28 times as fast as its vertical velocities state (its "
                         "heights are in feet); "
@@ -240,6 +250,13 @@ absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> 
                         name));
   }
   const double difference = VelocityDifference(*velocities);
+  // Larger differences have the same cause, which VelocityCause finds, or others beside it.
+  if (climb.has_value() && climb->is(-1) && difference <= kLargestVelocityDifference) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(name,
+                     ": its vertical velocities are positive downwards: they have the opposite sign of the changes of "
+                     "its heights; give an SBET whose vertical velocities are positive upwards"));
+  }
   if (difference > kLargestVelocityDifference) {
     const std::optional<std::string> cause =
         frame == VelocityFrame::kWander ? VelocityCause(pairs)

@@ -15,8 +15,8 @@ namespace albtpu::formats {
 std::optional<std::string> VelocityCause(std::span<const SbetPair> pairs);
 
 // InvalidArgument if velocities, whose axes are `frame`, differ from differences of position by more than
-// kLargestVelocityDifference, if heights are in feet, or if headings are turned against the courses by an angle that
-// wind does not explain. Velocities of the frame kNone are not looked at.
+// kLargestVelocityDifference, if heights are in feet, if they fall where velocities are upwards, or if headings are
+// turned against the courses by an angle that wind does not explain. Velocities of the frame kNone are not looked at.
 absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> pairs,
                              VelocityFrame frame = VelocityFrame::kWander);
 

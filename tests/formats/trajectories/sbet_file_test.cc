@@ -188,6 +188,15 @@ TEST_F(SbetFileTest, NamesFeet) {
               HasSubstr("feet per second"));
 }
 
+TEST_F(SbetFileTest, NamesVerticalVelocitiesOfTheWrongSign) {
+  const auto turn = [](SbetRow& row) { row[kVelocityZ] = -row[kVelocityZ]; };
+  EXPECT_THAT(RefusalOf(turn), HasSubstr("m/s (its vertical velocities are positive downwards); give"));
+  // Climbs of 0.3 m in 20 s, at 0.07 m/s rms, are far below the limit of differences.
+  EXPECT_THAT(Refusal(Changed(Fly({.climb = 0.3}), turn)),
+              HasSubstr("its vertical velocities are positive downwards:"));
+  EXPECT_TRUE(Open(Changed(Fly({.climb = 0}), turn)).ok());
+}
+
 TEST_F(SbetFileTest, NamesTheOrderOfVelocities) {
   const Flight straight = {.wander = 0};
   EXPECT_THAT(Refusal(Changed(Fly(straight),
