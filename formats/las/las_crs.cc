@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
+#include "formats/las/wkt_records.h"
 #include "formats/text/text.h"
 #include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
@@ -19,10 +20,7 @@ namespace {
 
 using laz::Load;
 
-constexpr std::string_view kProjectionUser = "LASF_Projection";
-constexpr std::uint16_t kWktRecord = 2112;
 constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735, kGeoDoubleParamsRecord = 34736;
-constexpr std::size_t kLongestWkt = 1 << 20;  // Bytes; real ones have a few thousand.
 
 // Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these limits, in
 // metres; no other unit of length or angle does.
@@ -245,18 +243,6 @@ absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader, Crs
 
 namespace {
 
-constexpr double kSamePlace = 2;  // m; two datums of one map differ by less, two units or zones by far more.
-
-// How far apart two coordinate systems put a point, m; infinite where one of them is not defined there.
-double Apart(const MapFrame& one, const MapFrame& other, const MapPosition& at) {
-  const std::optional<GeographicPosition> position = one.GeographicAt(at);
-  if (!position.has_value() || one.is_geographic() != other.is_geographic()) return HUGE_VAL;
-  const MapPosition again = other.Project(*position);
-  const MapMetric metric = one.MetricAt(*position);
-  const double apart = std::hypot((again.x - at.x) * metric.metres_per_x, (again.y - at.y) * metric.metres_per_y);
-  return std::isfinite(apart) ? apart : HUGE_VAL;
-}
-
 std::string NameOf(const CrsRecords& records) { return records.wkt ? "well-known text" : "GeoTIFF keys"; }
 
 }  // namespace
@@ -279,6 +265,10 @@ absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, c
   if (!map.ok()) return map.status();
   crs.map = *std::move(map);
   crs.remark = crs.map->remark();
+  if (user.empty() && named.wkt && !both.wkt.empty()) {
+    ASSIGN_OR_RETURN(const std::string several, CompareWkts(reader, *crs.map, middle));
+    absl::StrAppend(&crs.remark, crs.remark.empty() || several.empty() ? "" : "; ", several);
+  }
   crs.metres_per_height_unit = crs.map->metres_per_height_unit();
   if (choose && !(named.wkt && named.keys)) {
     ASSIGN_OR_RETURN(const CrsDescription second, DescribeCrs(reader, other));

@@ -44,7 +44,7 @@ struct LasCrs {
 // Of a text and keys the record counts that the header names (LASF 1.4 R15, bit 4 of the global encoding), or the other
 // one if that is faulty. The other record only adds a unit of heights that the first lacks, and only if it puts
 // `middle`, a point of the file, at the same place; a contradiction is remarked. `user` is the text of --crs, which
-// comes before both; may be empty. Fails as MapFrame::Create.
+// comes before both; may be empty. Fails as MapFrame::Create, and where several texts contradict each other.
 absl::StatusOr<LasCrs> CrsOf(const LasReader& reader, const std::string& user, const MapPosition& middle);
 
 // The same at the first point. Fails when it cannot be read, too.

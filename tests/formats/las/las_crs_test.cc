@@ -124,5 +124,55 @@ TEST(LasCrs, TakesTheRecordThatTheHeaderNamesAndRemarksContradictions) {
   }
 }
 
+std::string WithReplaced(std::string text, const std::string& what, const std::string& by) {
+  text.replace(text.find(what), what.size(), by);
+  return text;
+}
+
+TEST(LasCrs, RefusesTextsThatContradictEachOther) {
+  const std::string metric = albtpu::testing::kMetricWkt;
+  const std::string vertical =
+      ",VERT_CS[\"NAVD88 height\",VERT_DATUM[\"North American Vertical Datum 1988\",2005],UNIT["
+      "\"metre\",1]]]";
+  const std::string compound = "COMPD_CS[\"both\"," + metric + vertical;
+  const struct {
+    std::string first, second, said;  // Refused if it begins with "(".
+  } kCases[] = {
+      {metric, metric, ""},
+      {metric, WithReplaced(metric, "UNIT[\"metre\",1]", "UNIT[\"foot\",0.3048]"),
+       "(unit of x and y, 1 m and 0.3048 m"},
+      {metric,
+       WithReplaced(WithReplaced(metric, "DATUM[\"WGS_1984\"", "DATUM[\"North_American_Datum_1983\""),
+                    "84\",6378137,298.257223563", "84\",6378137,298.257222101"),
+       "(datum, WGS_1984 and North_American_Datum_1983"},
+      {metric, WithReplaced(metric, "-81", "-75"), "(projection, WGS 84 / UTM zone 17N and"},
+      {compound, WithReplaced(compound, "UNIT[\"metre\",1]]]", "UNIT[\"foot\",0.3048]]]"),
+       "(unit of heights, 1 m and 0.3048 m"},
+      {metric, compound, "has 2 records of well-known text, which agree; the first is used"},
+      {metric, "nonsense", "has 2 records of well-known text, of which the first is used"},
+  };
+  const albtpu::testing::TemporaryFolder folder;
+  for (const auto& [first, second, said] : kCases) {
+    for (const bool evlr : {false, true}) {
+      albtpu::testing::LasSpec spec;
+      spec.points.resize(1);
+      spec.point_format = 6;
+      spec.vlrs = {{"LASF_Projection", 2112, first}};
+      (evlr ? spec.evlrs : spec.vlrs).push_back({"LASF_Projection", 2112, second});
+      const absl::StatusOr<LasReader> reader = LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+      ASSERT_TRUE(reader.ok()) << reader.status();
+      const absl::StatusOr<LasCrs> crs = CrsOf(*reader, "", {450000, 3000000});
+      if (said.starts_with('(')) {
+        EXPECT_THAT(std::string(crs.status().message()), ::testing::HasSubstr(said));
+        EXPECT_TRUE(CrsOf(*reader, "EPSG:32617", {450000, 3000000}).ok());
+      } else {
+        ASSERT_TRUE(crs.ok()) << crs.status();
+        EXPECT_EQ(crs->remark.empty(), said.empty()) << crs->remark;
+        EXPECT_THAT(crs->remark, ::testing::HasSubstr(said));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace albtpu::formats
