@@ -113,8 +113,8 @@ struct SurveySettings {
 };
 
 inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
-inline constexpr std::array<std::string_view, 7> kTimeFormats = {"auto", "week",         "adjusted", "gps",
-                                                                 "unix", "milliseconds", "day"};
+inline constexpr std::array<std::string_view, 8> kTimeFormats = {"auto", "week",         "adjusted", "gps",
+                                                                 "unix", "milliseconds", "day",      "utc-day"};
 inline constexpr std::array<std::string_view, 4> kVelocityAxes = {"auto", "wander", "body", "north"};
 // This pulse's own return; a surface of many returns; a height that is given.
 inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
@@ -154,7 +154,8 @@ inline constexpr std::array<Key<TrajectorySettings>, 6> kTrajectoryKeys = {{
      &TrajectorySettings::time},
     {{"time_format", "--time-format", Word{kTimeFormats}, "auto",
       "GPS times of the points: auto takes what the file states, or else the only one by which trajectory, water "
-      "levels or sea lie at the points; adjusted is GPS seconds less 1e9, gps is GPS seconds since 1980"},
+      "levels or sea lie at the points; adjusted is GPS seconds less 1e9, gps is GPS seconds since 1980, day and "
+      "utc-day are seconds of the day, of GPS time and of UTC"},
      &TrajectorySettings::time_format},
     {{"velocity_axes", "--velocity-axes", Word{kVelocityAxes}, "auto",
       "Axes of an SBET's velocities: auto takes those of the body where these alone agree with its positions"},

@@ -197,6 +197,13 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   return found;
 }
 
+constexpr double kHalfDay = 43200;  // s
+
+// "2016-05-11", of a GPS time since 1980.
+std::string DateOf(double gps) {
+  return gps >= 0 && gps < 1e11 ? formats::UtcText(gps).substr(0, 10) : "a date before 1980";
+}
+
 // What to do where several clocks fit.
 std::string OneFlagOf(std::span<const formats::PointClock> clocks) {
   std::set<std::string> flags;
@@ -206,12 +213,58 @@ std::string OneFlagOf(std::span<const formats::PointClock> clocks) {
   return absl::StrCat("give ", absl::StrJoin(flags, " or "));
 }
 
+// The date of a day of the week that was found by what fits, as far as trajectory or header tell it.
+std::string DayText(const formats::PointClock& clock, const formats::PointTimes& times, std::optional<double> date) {
+  if (!clock.is_of_day()) return "";
+  if (date.has_value()) return absl::StrCat("; by the trajectory, the day is ", DateOf(*date));
+  if (!times.created.has_value()) return "";
+  const double noon = *times.created + kHalfDay;
+  return absl::StrCat("; by its header, the file was created on ", formats::DayOfWeek(noon), ", ", DateOf(noon));
+}
+
+// Where no clock fits: what times of a day would be, which are nothing else by themselves.
+absl::Status OrOfDay(const TrackedFile& file, const BeamPlan& plan, const absl::Status& failure) {
+  if (!formats::MayBeOfDay(file.times.span)) return failure;
+  const formats::Trajectory& first = *plan.trajectories->front();
+  const formats::TimeSpan span = {first.TimeAt(0), first.TimeAt(first.size() - 1)};
+  const std::optional<double> date = formats::GpsTimeOfTrajectory(span.first);
+  const double gps = date.value_or(span.first);
+  return absl::Status(
+      failure.code(),
+      absl::StrCat(std::string(failure.message()), "; or, if its times are seconds of the day, ",
+                   formats::HoursText(file.times.span),
+                   file.times.created.has_value()
+                       ? absl::StrCat(" (its header states ", DateOf(*file.times.created + kHalfDay), ")")
+                       : "",
+                   ", the trajectory of that hour (", first.name(), " has ",
+                   formats::HoursText({gps, gps + span.last - span.first}), " of ",
+                   date.has_value() ? DateOf(gps) : absl::StrCat("a ", formats::DayOfWeek(gps)),
+                   "), with --time-format day, or utc-day for UTC"));
+}
+
+// Where the clock that the user names does not fit: the one that does.
+absl::Status OtherFormat(const TrackedFile& file, const BeamPlan& plan, const absl::Status& failure) {
+  BeamPlan any = plan;
+  any.time_format = formats::TimeFormat::kAuto;
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file, any);
+  if (!found.ok()) return failure;
+  const ordered_json& json = *found->json;
+  return absl::FailedPreconditionError(absl::StrCat(
+      file.name, ": the trajectory does not lie at its points if --time-format ", formats::NameOf(plan.time_format),
+      " is right, ",
+      json.contains("time_format")
+          ? absl::StrCat("but as their GPS times are by --time-format ", json["time_format"].get<std::string>())
+          : "but as its header states their GPS times",
+      "; give that, or leave the flag out"));
+}
+
 }  // namespace
 
 absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan) {
   const formats::TimeFormat format = plan.time_format;
   const bool is_chosen = format != formats::TimeFormat::kAuto;
-  const std::vector<formats::PointClock> clocks = formats::ClocksOf(file.times, format);
+  const std::optional<double> date = formats::GpsTimeOfTrajectory(plan.trajectories->front()->TimeAt(0));
+  const std::vector<formats::PointClock> clocks = formats::ClocksOf(file.times, format, date);
   if (clocks.empty()) {
     return absl::FailedPreconditionError(
         absl::StrFormat("%s: the GPS times of its points, %.15g to %.15g, cannot be what --time-format %s says; leave "
@@ -219,7 +272,7 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
                         file.name, file.times.span.first, file.times.span.last, formats::NameOf(format)));
   }
   absl::StatusOr<FileTrack> first = TrackByClock(file, plan, clocks.front());
-  if (first.ok() ? !is_chosen : clocks.size() == 1) return first;
+  if (first.ok() && !is_chosen) return first;
   std::vector<formats::PointClock> fitting;
   std::optional<FileTrack> found;
   if (first.ok()) {
@@ -228,17 +281,25 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
   }
   for (std::size_t i = 1; i < clocks.size(); ++i) {
     absl::StatusOr<FileTrack> track = TrackByClock(file, plan, clocks[i], kLeastCovered);
-    if (!track.ok()) continue;
+    if (!track.ok()) {
+      // The day that is meant fails for another reason than that it has no records.
+      if (is_chosen && absl::IsInvalidArgument(first.status()) && absl::IsFailedPrecondition(track.status()))
+        first = track.status();
+      continue;
+    }
     fitting.push_back(clocks[i]);
     found = *std::move(track);
   }
-  if (fitting.empty()) return first.status();
+  if (fitting.empty()) return is_chosen ? OtherFormat(file, plan, first.status()) : OrOfDay(file, plan, first.status());
   if (fitting.size() > 1) {
     return absl::FailedPreconditionError(absl::StrCat(
         file.name, ": its GPS times may be of several kinds, because the trajectories lie at the points as ",
         formats::ClocksText(fitting), "; ", OneFlagOf(fitting)));
   }
-  if (!is_chosen) found->notes.push_back(formats::ClockNote(fitting.front(), file.times, "the trajectory"));
+  if (!is_chosen) {
+    found->notes.push_back(absl::StrCat(formats::ClockNote(fitting.front(), file.times, "the trajectory"),
+                                        DayText(fitting.front(), file.times, date)));
+  }
   (*found->json)["time_format"] = formats::NameOf(fitting.front().format);
   return *std::move(found);
 }

@@ -38,6 +38,8 @@ std::vector<DatedClock> FittingClocks(const PointTimes& points, TimeFormat forma
     if (Overlap(span, known) >= (span.last - span.first) / 2) fitting.push_back(dated);
   };
   for (const PointClock& clock : ClocksOf(points, format)) {
+    // Nothing that has dates changes within the seconds between UTC and GPS.
+    if (format == TimeFormat::kAuto && clock.format == TimeFormat::kUtcDay) continue;
     if (clock.form == PointTimeForm::kAdjustedStandard) {
       add(clock, clock.shift);
       continue;

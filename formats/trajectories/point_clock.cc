@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 
 namespace albtpu::formats {
@@ -34,7 +35,7 @@ PointClock Adjusted(TimeFormat format, double scale, double shift, std::string d
 }
 
 // Those of times of which one is `scale` seconds; `span` is in seconds. Clocks whose dates no survey has are left out.
-void AddClocks(const TimeSpan& span, double scale, std::vector<PointClock>& clocks) {
+void AddClocks(const TimeSpan& span, double scale, double leap_seconds, std::vector<PointClock>& clocks) {
   const bool seconds = scale == 1;
   const std::string unit = seconds ? "seconds" : "milliseconds";
   const auto format = [&](TimeFormat in_seconds) { return seconds ? in_seconds : TimeFormat::kMilliseconds; };
@@ -60,6 +61,11 @@ void AddClocks(const TimeSpan& span, double scale, std::vector<PointClock>& cloc
     clocks.push_back({format(TimeFormat::kDay), scale, kSecondsPerDay * static_cast<double>(day),
                       PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the day, a ", std::string(kDays[day]))});
   }
+  for (std::size_t day = 0; day < kDays.size() && seconds; ++day) {
+    clocks.push_back({TimeFormat::kUtcDay, 1, kSecondsPerDay * static_cast<double>(day) + leap_seconds,
+                      PointTimeForm::kWeekSeconds,
+                      absl::StrCat("UTC seconds of the day, a ", std::string(kDays[day]))});
+  }
 }
 
 bool ReadsAlike(const PointClock& a, const PointClock& b) {
@@ -68,11 +74,30 @@ bool ReadsAlike(const PointClock& a, const PointClock& b) {
 
 }  // namespace
 
-std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format) {
+bool MayBeOfDay(const TimeSpan& stated) {
+  return IsWithin(stated, 0, kLastOfDay) && stated.last - stated.first <= kSecondsPerDay;
+}
+
+std::string HoursText(const TimeSpan& seconds) {
+  const auto hour = [](double time) {
+    const int second = static_cast<int>(std::floor(time - kSecondsPerDay * std::floor(time / kSecondsPerDay)));
+    return absl::StrFormat("%02d:%02d:%02d", second / 3600, second / 60 % 60, second % 60);
+  };
+  return absl::StrCat(hour(seconds.first), " to ", hour(seconds.last));
+}
+
+std::string DayOfWeek(double time) {
+  const double day = std::floor(time / kSecondsPerDay);
+  return std::string(kDays[static_cast<std::size_t>(day - 7 * std::floor(day / 7))]);  // GPS time began on a Sunday.
+}
+
+std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format, std::optional<double> date) {
   std::vector<PointClock> possible;
-  AddClocks(stated.span, 1, possible);
+  if (!date.has_value()) date = stated.created;
+  const double leap_seconds = date.has_value() ? *date + kUnixEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
+  AddClocks(stated.span, 1, leap_seconds, possible);
   const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
-  AddClocks(milliseconds, kMillisecond, possible);
+  AddClocks(milliseconds, kMillisecond, leap_seconds, possible);
   std::vector<PointClock> clocks;
   if (format == TimeFormat::kAuto) clocks.push_back({TimeFormat::kAuto, 1, 0, stated.form, Describe(stated.form)});
   for (PointClock& clock : possible) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,9 +14,9 @@
 namespace albtpu::formats {
 
 // What the user says of the times of the points: --time-format.
-enum class TimeFormat { kAuto, kWeek, kAdjusted, kGps, kUnix, kMilliseconds, kDay };
-inline constexpr std::array<std::string_view, 7> kTimeFormatNames = {"auto", "week",         "adjusted", "gps",
-                                                                     "unix", "milliseconds", "day"};
+enum class TimeFormat { kAuto, kWeek, kAdjusted, kGps, kUnix, kMilliseconds, kDay, kUtcDay };
+inline constexpr std::array<std::string_view, 8> kTimeFormatNames = {"auto", "week",         "adjusted", "gps",
+                                                                     "unix", "milliseconds", "day",      "utc-day"};
 
 // A way to read the times of points: time = scale * (time as the file states it) + shift, in seconds.
 struct PointClock {
@@ -27,12 +28,25 @@ struct PointClock {
   double operator()(double stated) const { return scale * stated + shift; }
   PointTimes operator()(const TimeSpan& stated) const { return {{(*this)(stated.first), (*this)(stated.last)}, form}; }
   bool changes_times() const { return scale != 1 || shift != 0; }
+  bool is_of_day() const { return format == TimeFormat::kDay || format == TimeFormat::kUtcDay; }
 };
 
 // The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
 // other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
-// formats: that one alone, which is several for seconds of a day and for milliseconds.
-std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format);
+// formats: that one alone, which is several for seconds of a day and for milliseconds. `date`: a GPS time since 1980 near
+// those of the points, where it is known, whose leap seconds are theirs; else those at the creation of the file, or of
+// today.
+std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format,
+                                 std::optional<double> date = std::nullopt);
+
+// Whether times may be seconds of a day, as long as a flight is.
+bool MayBeOfDay(const TimeSpan& stated);
+
+// "16:53:02 to 16:53:22", of seconds of a day, or of the week.
+std::string HoursText(const TimeSpan& seconds);
+
+// "Wednesday", of seconds of the week or GPS times since 1980.
+std::string DayOfWeek(double time);
 
 // "unix"
 std::string NameOf(TimeFormat format);

@@ -156,9 +156,6 @@ std::optional<double> GpsTimeOfDay(int year_number, int day_of_year) {
 
 namespace {
 
-// GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.
-constexpr double kGpsMinusUtcNow = 18;
-
 // GPS - UTC [s] at a GPS time. Within 18 s of a leap second the result may be off by one: no survey is flown at
 // midnight of New Year's Eve.
 double GpsMinusUtc(double gps) { return LeapSecondsAtUtc(gps - kGpsMinusUtcNow); }
@@ -192,8 +189,7 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
     double leap = kGpsMinusUtcNow;
     double week = 0;
     if (!week_seconds) {
-      const double gps =
-          trajectory.first < kAdjustedGpsOffset ? trajectory.first + kAdjustedGpsOffset : trajectory.first;
+      const double gps = *GpsTimeOfTrajectory(trajectory.first);
       leap = GpsMinusUtc(gps);
       week = gps - trajectory.first - kSecondsPerWeek * std::floor(gps / kSecondsPerWeek);
     }
@@ -306,6 +302,11 @@ Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const 
 }
 
 }  // namespace
+
+std::optional<double> GpsTimeOfTrajectory(double stated) {
+  if (AreWeekSeconds({stated, stated})) return std::nullopt;
+  return stated < kAdjustedGpsOffset ? stated + kAdjustedGpsOffset : stated;
+}
 
 bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
 

@@ -60,6 +60,12 @@ struct PointTimes {
   std::optional<double> created = std::nullopt;
 };
 
+// GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.
+inline constexpr double kGpsMinusUtcNow = 18;  // s
+
+// GPS time since 1980 of a time that a trajectory states; nullopt for seconds of a week, which it does not name.
+std::optional<double> GpsTimeOfTrajectory(double stated);
+
 // The time scale of a trajectory: --trajectory-time.
 enum class TrajectoryClock { kGps, kUtc };
 

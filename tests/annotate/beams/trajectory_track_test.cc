@@ -134,6 +134,8 @@ constexpr WrittenClock kWrittenClocks[] = {
     {"milliseconds", kStandardHeader, kBeginOfWeek + 315964800 - 17, 1000},
     {"day", kWeekHeader, kOfDay, 1},
     {"day", kStandardHeader, kOfDay, 1},
+    {"utc-day", kWeekHeader, kOfDay - 18, 1},
+    {"utc-day", kStandardHeader, kOfDay - 18, 1},
 };
 
 TEST_F(TrackFromFilesTest, ReadsTheTimesOfEveryClockByWhatFits) {
@@ -180,6 +182,40 @@ TEST_F(TrackFromFilesTest, NamesTheClocksWhereSeveralFit) {
   for (AirRay& ray : file_.rays) ray.time += kOfDay;
   EXPECT_THAT(Refusal(), HasSubstr("seconds of the day, a Tuesday or as seconds of the day, a Wednesday"));
   EXPECT_THAT(Refusal(), HasSubstr("give the trajectory of this flight alone"));
+}
+
+// 40820 s of the day are 11:20:20.
+TEST_F(TrackFromFilesTest, TakesNoSecondsOfTheDayForUtcOrGpsWithoutEvidence) {
+  for (double* time : {&file_.times.span.first, &file_.times.span.last}) *time += kOfDay;
+  for (AirRay& ray : file_.rays) ray.time += kOfDay;
+  file_.times.created = formats::GpsTimeOfDay(2016, 132);
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  ASSERT_TRUE(found.ok()) << found.status();
+  EXPECT_THAT(found->notes.back(), HasSubstr("seconds of the day, a Wednesday, not seconds of the GPS week"));
+  EXPECT_THAT(found->notes.back(), HasSubstr("by its header, the file was created on Wednesday, 2016-05-11"));
+  file_.rays.clear();
+  EXPECT_THAT(Refusal(), HasSubstr("as seconds of the day, a Wednesday or as UTC seconds of the day, a Wednesday; give "
+                                   "--time-format day or --time-format utc-day"));
+  // An hour off, such as times of a zone.
+  for (double* time : {&file_.times.span.first, &file_.times.span.last}) *time += 3600;
+  EXPECT_THAT(Refusal(), HasSubstr("or, if its times are seconds of the day, 12:20:20 to 12:21:20 (its header states "
+                                   "2016-05-11), the trajectory of that hour ("));
+  EXPECT_THAT(Refusal(), HasSubstr("flight.sbet has 11:20:00 to 11:22:00 of a Wednesday), with --time-format day"));
+}
+
+TEST_F(TrackFromFilesTest, NamesTheClockThatFitsWhereTheUserNamesAnother) {
+  plan_.time_format = formats::TimeFormat::kDay;
+  EXPECT_THAT(Refusal(), HasSubstr("--time-format day says"));  // 300020 s are no day's.
+  for (double* time : {&file_.times.span.first, &file_.times.span.last}) *time += kOfDay;
+  for (AirRay& ray : file_.rays) ray.time += kOfDay;
+  plan_.time_format = formats::TimeFormat::kUtcDay;
+  EXPECT_THAT(Refusal(),
+              HasSubstr("if --time-format utc-day is right, but as their GPS times are by --time-format day"));
+  // UTC in the trajectory, GPS time in the points.
+  plan_.time_format = formats::TimeFormat::kDay;
+  for (double* time : {&file_.times.span.first, &file_.times.span.last}) *time += 18;
+  for (AirRay& ray : file_.rays) ray.time += 18;
+  EXPECT_THAT(Refusal(), HasSubstr("its times are UTC, 18 s behind GPS); give --trajectory-time utc"));
 }
 
 TEST_F(TrackFromFilesTest, RaysWithoutATimeDisturbNothing) {

@@ -84,6 +84,7 @@ const Written kWritten[] = {
     {TimeFormat::kUnix, PointTimeForm::kAdjustedStandard, kUnix, 1, "Unix seconds"},
     {TimeFormat::kUnix, PointTimeForm::kWeekSeconds, kUnix, 1, "Unix seconds"},
     {TimeFormat::kDay, PointTimeForm::kWeekSeconds, kOfDay, 1, "seconds of the day, a Wednesday"},
+    {TimeFormat::kUtcDay, PointTimeForm::kWeekSeconds, kOfDay - 17, 1, "UTC seconds of the day, a Wednesday"},
     {TimeFormat::kMilliseconds, PointTimeForm::kWeekSeconds, 1e3 * kOfWeek, 1e3, "milliseconds of the GPS week"},
     {TimeFormat::kMilliseconds, PointTimeForm::kAdjustedStandard, 1e3 * kOfDay, 1e3,
      "milliseconds of the day, a Wednesday"},
@@ -91,7 +92,7 @@ const Written kWritten[] = {
 };
 
 PointTimes TimesOf(const Written& written) {
-  return {{written.first, written.first + 1800 * written.unit}, written.header};
+  return {{written.first, written.first + 1800 * written.unit}, written.header, GpsTimeOfDay(2016, 132)};
 }
 
 // Whether a clock reads the half hour.
