@@ -129,11 +129,12 @@ struct BeamPlan {
   TrajectoryErrors trajectory_errors;
 
   // The source of the water surface: at least one of the three.
-  std::optional<double> water_level;            // In the vertical unit and datum of the points.
-  std::optional<std::string> water_level_file;  // Levels by time.
-  formats::LevelReference level_reference;      // Of this file.
-  std::set<int> water_classes;                  // Of returns from the surface.
-  std::optional<double> metres_per_unit;        // Of heights; absent: as the coordinate system states.
+  std::optional<double> water_level;                              // In the vertical unit and datum of the points.
+  std::optional<std::string> water_level_file;                    // Levels by time.
+  formats::LevelReference level_reference;                        // Of this file.
+  std::shared_ptr<const formats::WaterLevelSeries> water_levels;  // The file, read.
+  std::set<int> water_classes;                                    // Of returns from the surface.
+  std::optional<double> metres_per_unit;  // Of heights; absent: as the coordinate system states.
 
   bool has_track() const {
     return std::holds_alternative<TrajectoryFromFiles>(source) || std::holds_alternative<TrajectoryFromReturns>(source);

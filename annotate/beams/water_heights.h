@@ -14,7 +14,7 @@
 #include "annotate/beams/file_track.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/water_surface.h"
-#include "formats/trajectories/water_level_file.h"
+#include "formats/trajectories/water_levels.h"
 
 namespace albtpu::annotate {
 

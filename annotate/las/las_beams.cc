@@ -9,6 +9,7 @@
 #include "annotate/beams/trajectory_track.h"
 #include "annotate/beams/water_heights.h"
 #include "formats/las/las_points.h"
+#include "formats/trajectories/mixed_clocks.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "status/status_macros.h"
 
@@ -16,6 +17,10 @@ namespace albtpu::annotate {
 namespace {
 
 bool GoesByTime(const LasAnnotation& annotation) { return annotation.seas != nullptr && annotation.seas->by_time(); }
+
+bool UsesTimes(const LasAnnotation& annotation) {
+  return annotation.plan.has_track() || annotation.plan.water_levels != nullptr || GoesByTime(annotation);
+}
 
 formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
   return {.span = {prescan.first_time, prescan.last_time},
@@ -192,17 +197,14 @@ void LasBeams::AddNote(const std::string& note) {
 }
 
 absl::Status LasBeams::FindLevels(const formats::LasReader& reader, const BeamPlan& plan) {
-  if (!plan.water_level_file.has_value()) return absl::OkStatus();
+  if (plan.water_levels == nullptr) return absl::OkStatus();
   const formats::PointTimes times = TimesOf(reader, prescan_);
   if (!(times.span.first <= times.span.last)) {  // No point needs a level, or none has a time.
-    ASSIGN_OR_RETURN(levels_,
-                     formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard,
-                                              plan.level_reference));
+    levels_ = *plan.water_levels;
     return absl::OkStatus();
   }
   std::string note;
-  ASSIGN_OR_RETURN(
-      levels_, formats::FindWaterLevels(*plan.water_level_file, times, plan.time_format, plan.level_reference, note));
+  ASSIGN_OR_RETURN(levels_, plan.water_levels->For(times, plan.time_format, note));
   levels_->TakeUnit(place_.frame.metres_per_z);
   AddNote(levels_->description());
   AddNote(note);
@@ -310,6 +312,8 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   std::unique_ptr<LasBeams> beams(new LasBeams());
   if (plan.time_format == formats::TimeFormat::kMilliseconds) beams->seconds_ = kMillisecond;
   RETURN_IF_ERROR(beams->FindPlace(reader, annotation));
+  if (plan.time_format == formats::TimeFormat::kAuto && UsesTimes(annotation))
+    RETURN_IF_ERROR(formats::CheckOneClock(reader.name(), beams->prescan_.tally));
   beams->NoteLevel();
   RETURN_IF_ERROR(beams->FindLevels(reader, plan));
   if (beams->levels_.has_value() && beams->levels_->seconds() != 1)

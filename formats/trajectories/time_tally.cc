@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace albtpu::formats {
@@ -65,22 +66,28 @@ void TimeTally::Merge(const TimeTally& other) {
   sum_of_steps_ += other.sum_of_steps_;
 }
 
-TimeTally::Cluster TimeTally::Largest() const {
-  Cluster largest, current;
-  std::int64_t before = std::numeric_limits<std::int64_t>::min() / 2;
+std::vector<TimeTally::Group> TimeTally::Groups() const {
+  std::vector<Group> groups;
+  if (has_too_many_days_) return groups;
+  std::int64_t before = 0;
   for (const auto& [number, day] : days_) {
-    if (number - before > kDaysApart) current = {0, day.span};
+    if (groups.empty() || number - before > kDaysApart) groups.push_back({0, day.span});
     before = number;
-    current.points += day.points;
-    current.span.last = day.span.last;
-    if (current.points > largest.points) largest = current;
+    groups.back().points += day.points;
+    groups.back().span.last = day.span.last;
   }
-  return largest;
+  std::ranges::stable_sort(groups, std::ranges::greater(), &Group::points);
+  return groups;
+}
+
+TimeTally::Group TimeTally::Largest() const {
+  const std::vector<Group> groups = Groups();
+  return groups.empty() ? Group() : groups.front();
 }
 
 std::optional<TimeSpan> TimeTally::Bulk() const {
   if (has_too_many_days_) return std::nullopt;
-  const Cluster largest = Largest();
+  const Group largest = Largest();
   const double share = static_cast<double>(largest.points) / static_cast<double>(std::max<std::uint64_t>(points_, 1));
   if (largest.points == points_ || share < kNearlyAll) return std::nullopt;
   return largest.span;

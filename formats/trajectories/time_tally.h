@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "formats/trajectories/trajectory_time.h"
 
@@ -16,6 +17,14 @@ class TimeTally {
   // The times of two first returns that follow each other in the file.
   void AddPulses(double before, double time);
   void Merge(const TimeTally& other);
+
+  // Times that lie less than a month from the next one of them.
+  struct Group {
+    std::uint64_t points = 0;
+    TimeSpan span;
+  };
+  // The largest first. Empty where times are disorder.
+  std::vector<Group> Groups() const;
 
   // The span of nearly all times, without a few that lie a month or more from them, as where software wrote a time of
   // its own for points that it made. nullopt where there are no such few ones.
@@ -31,11 +40,7 @@ class TimeTally {
     std::uint64_t points = 0;
     TimeSpan span;
   };
-  struct Cluster {
-    std::uint64_t points = 0;
-    TimeSpan span;
-  };
-  Cluster Largest() const;
+  Group Largest() const;
 
   std::map<std::int64_t, Day> days_;
   std::uint64_t points_ = 0;

@@ -1,8 +1,6 @@
 #include "formats/trajectories/water_level_file.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -14,7 +12,6 @@
 #include "formats/files/file_access.h"
 #include "formats/text/text.h"
 #include "formats/trajectories/coops_levels.h"
-#include "formats/trajectories/dated_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -35,8 +32,8 @@ std::string CellText(const CsvRecord& record, std::size_t cell) {
 
 class WaterLevelReader {
  public:
-  WaterLevelReader(std::string name, std::string text, PointTimeForm form, const LevelReference& reference)
-      : name_(std::move(name)), block_{.text = std::move(text)}, form_(form), reference_(reference) {}
+  WaterLevelReader(std::string name, std::string text, const LevelReference& reference)
+      : name_(std::move(name)), block_{.text = std::move(text)}, reference_(reference) {}
 
   absl::StatusOr<WaterLevelSeries> Read() {
     RETURN_IF_ERROR(AreCoopsLevels(block_.text) ? TakeCoopsLevels() : ReadRecords());
@@ -45,7 +42,7 @@ class WaterLevelReader {
           "has fewer than two water levels (levels are interpolated between two); add levels, or give one "
           "number in place of the file");
     RETURN_IF_ERROR(CheckJumps());
-    if (utc_ && form_ == PointTimeForm::kWeekSeconds) RETURN_IF_ERROR(TakeSecondsOfWeek());
+    series_.name_ = name_;
     series_.has_dates_ = utc_;
     series_.offset_ = reference_.offset;
     for (double& level : series_.levels_) level += reference_.offset;
@@ -220,25 +217,8 @@ class WaterLevelReader {
     return absl::OkStatus();
   }
 
-  // From adjusted GPS times to seconds of the week in which the series begins. Times of points do not name their week,
-  // so a longer series would be ambiguous.
-  absl::Status TakeSecondsOfWeek() {
-    std::vector<double>& times = series_.times_;
-    if (times.back() - times.front() >= kSecondsPerWeek) {
-      return Error(
-          "covers more than a week, but the times of the points are seconds of a week that they do not name; "
-          "give the levels of the week of the survey alone");
-    }
-    const double week =
-        std::floor((times.front() + kAdjustedGpsOffset) / kSecondsPerWeek) * kSecondsPerWeek - kAdjustedGpsOffset;
-    for (double& time : times) time -= week;
-    series_.crosses_week_ = times.back() > kSecondsPerWeek;
-    return absl::OkStatus();
-  }
-
   std::string name_;
   CsvBlock block_;
-  PointTimeForm form_;
   LevelReference reference_;
   std::string about_;  // Of a file of CO-OPS.
   WaterLevelSeries series_;
@@ -246,92 +226,17 @@ class WaterLevelReader {
   std::size_t time_column_ = 0, level_column_ = 0, column_count_ = 0;
 };
 
-absl::StatusOr<WaterLevelSeries> WaterLevelSeries::Parse(std::string name, std::string text, PointTimeForm form,
-                                                         const LevelReference& reference) {
-  return WaterLevelReader(std::move(name), std::move(text), form, reference).Read();
+absl::StatusOr<WaterLevelSeries> ParseWaterLevels(std::string name, std::string text, const LevelReference& reference) {
+  return WaterLevelReader(std::move(name), std::move(text), reference).Read();
 }
 
-void WaterLevelSeries::TakeUnit(double metres_per_unit) {
-  if (!metres_.has_value() || *metres_ == metres_per_unit) return;
-  for (double& level : levels_) level = (level - offset_) * *metres_ / metres_per_unit + offset_;
-  metres_ = metres_per_unit;
-}
-
-double WaterLevelSeries::Continued(double stated) const {
-  const double time = scale_ * stated + shift_;
-  return crosses_week_ && time < start() ? time + kSecondsPerWeek : time;
-}
-
-std::optional<std::size_t> WaterLevelSeries::After(double time) const {
-  if (!(time >= start() && time <= end())) return std::nullopt;
-  const auto after = std::upper_bound(times_.begin(), times_.end(), time) - times_.begin();
-  return std::min(static_cast<std::size_t>(after), times_.size() - 1);
-}
-
-std::optional<double> WaterLevelSeries::Between(double time, std::size_t after) const {
-  const double first = times_[after - 1], second = times_[after];
-  if (time == first) return levels_[after - 1];
-  if (time == second) return levels_[after];
-  if (second - first > kLongestGap) return std::nullopt;
-  const double weight = (time - first) / (second - first);
-  return levels_[after - 1] + weight * (levels_[after] - levels_[after - 1]);
-}
-
-std::optional<double> WaterLevelSeries::At(double time) const {
-  const double continued = Continued(time);
-  const std::optional<std::size_t> after = After(continued);
-  return after.has_value() ? Between(continued, *after) : std::nullopt;
-}
-
-void WaterLevelSeries::LevelsAt(std::span<const double> times, std::span<double> levels) const {
-  std::size_t after = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double time = Continued(times[i]);
-    std::optional<double> level;
-    if (!IsBetween(time, after)) after = After(time).value_or(0);
-    if (after > 0) level = Between(time, after);
-    levels[i] = level.value_or(std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
-absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path, PointTimeForm form,
-                                                 const LevelReference& reference) {
+absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path, const LevelReference& reference) {
   ASSIGN_OR_RETURN(const MappedFile file, MappedFile::Open(path, "a CSV file of water levels"));
   if (file.bytes().size() > kLargestFile) {
     return absl::InvalidArgumentError(absl::StrFormat("%s: is larger than %d MB; give a CSV file of water levels",
                                                       path.string(), kLargestFile >> 20));
   }
-  return WaterLevelSeries::Parse(path.string(), std::string(file.bytes()), form, reference);
-}
-
-absl::StatusOr<WaterLevelSeries> FindWaterLevels(const std::filesystem::path& path, const PointTimes& points,
-                                                 TimeFormat format, const LevelReference& reference,
-                                                 std::string& note) {
-  note.clear();
-  absl::StatusOr<WaterLevelSeries> stated = ReadWaterLevels(path, points.form, reference);
-  if (stated.ok()) {
-    const bool covers = Overlap({stated->start(), stated->end()}, points.span) >= 0;
-    if (!stated->has_dates() || (format == TimeFormat::kAuto && (stated->crosses_week_ || covers))) return stated;
-  }
-  // Dates of more than a week are an error of seconds of a week alone.
-  absl::StatusOr<WaterLevelSeries> dated = ReadWaterLevels(path, PointTimeForm::kAdjustedStandard, reference);
-  if (!dated.ok() || !dated->has_dates()) return stated;
-  const absl::StatusOr<std::optional<DatedClock>> clock =
-      FindDatedClock(points, format, {dated->start(), dated->end()}, path.string(), note);
-  if (!clock.ok()) {
-    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": covers the GPS times of the points as ",
-                                                      clock.status().message(),
-                                                      "; give the levels of the day of the survey alone"));
-  }
-  if (!clock->has_value()) {
-    if (format == TimeFormat::kAuto) return stated;
-    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": has no level at the times of the points if ",
-                                                      "--time-format ", NameOf(format),
-                                                      " is right; give the levels of that time, or another format"));
-  }
-  dated->scale_ = (*clock)->scale;
-  dated->shift_ = (*clock)->shift;
-  return dated;
+  return ParseWaterLevels(path.string(), std::string(file.bytes()), reference);
 }
 
 }  // namespace albtpu::formats

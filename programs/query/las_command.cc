@@ -159,7 +159,7 @@ class LasFiles {
   std::uint64_t points_ = 0, numbered_ = 0;
 };
 
-// Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
+// Opens the trajectories of the plan and reads its water levels, once for all files.
 absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
   if (const auto* files = std::get_if<annotate::TrajectoryFromFiles>(&plan.source)) {
     ASSIGN_OR_RETURN(formats::TrajectoryFiles trajectories,
@@ -170,9 +170,10 @@ absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
     for (const std::string& line : plan.trajectory_errors.skipped()) annotate::Note(line);
   }
   if (!plan.water_level_file.has_value()) return absl::OkStatus();
-  return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard,
-                                  plan.level_reference)
-      .status();
+  ASSIGN_OR_RETURN(formats::WaterLevelSeries levels,
+                   formats::ReadWaterLevels(*plan.water_level_file, plan.level_reference));
+  plan.water_levels = std::make_shared<const formats::WaterLevelSeries>(std::move(levels));
+  return absl::OkStatus();
 }
 
 // The inputs in which a mistake in the coordinates is sought.
@@ -202,6 +203,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   for (annotate::LasChannel& channel : annotation.channels) {
     channel.plan.trajectories = annotation.plan.trajectories;
     channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
+    channel.plan.water_levels = annotation.plan.water_levels;
   }
   ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source, annotate::IndexOrUsual(settings.water)));
   annotation.seas = answerer.timeline();

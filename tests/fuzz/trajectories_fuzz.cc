@@ -113,7 +113,9 @@ void SmrmsgTarget(std::string_view bytes) {
 void WaterLevelTarget(std::string_view text) {
   const PointTimeForm form = text.size() % 2 == 0 ? PointTimeForm::kAdjustedStandard : PointTimeForm::kWeekSeconds;
   const LevelReference reference = {.datum = "MLLW", .offset = -20};
-  const absl::StatusOr<WaterLevelSeries> series = WaterLevelSeries::Parse(kName, std::string(text), form, reference);
+  const absl::StatusOr<WaterLevelSeries> read = ParseWaterLevels(kName, std::string(text), reference);
+  if (!read.ok()) return MustExplain(read.status(), kName);
+  const absl::StatusOr<WaterLevelSeries> series = read->In(form);
   if (!series.ok()) return MustExplain(series.status(), kName);
   ALBTPU_MUST(series->size() >= 2);
   const double start = series->start(), end = series->end();

@@ -9,6 +9,8 @@
 #include <optional>
 #include <random>
 
+#include "formats/trajectories/water_level_file.h"
+
 namespace albtpu::annotate {
 namespace {
 
@@ -33,8 +35,7 @@ LocalWaterSurface SurfaceAtTheOrigin(double height) {
 }
 
 formats::WaterLevelSeries Levels(const std::string& text) {
-  absl::StatusOr<formats::WaterLevelSeries> series = formats::WaterLevelSeries::Parse(
-      "tide.csv", "time,water_level\n" + text, formats::PointTimeForm::kAdjustedStandard);
+  absl::StatusOr<formats::WaterLevelSeries> series = formats::ParseWaterLevels("tide.csv", "time,water_level\n" + text);
   EXPECT_TRUE(series.ok()) << series.status();
   return *std::move(series);
 }

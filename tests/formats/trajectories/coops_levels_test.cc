@@ -46,7 +46,7 @@ CoopsLevels Read(const std::string& text) {
 }
 
 absl::StatusOr<WaterLevelSeries> Series(const std::string& text, const LevelReference& reference) {
-  return WaterLevelSeries::Parse("co.csv", text, PointTimeForm::kAdjustedStandard, reference);
+  return ParseWaterLevels("co.csv", text, reference);
 }
 std::string ErrorOf(const std::string& text, const LevelReference& reference = {.datum = "MLLW"}) {
   return std::string(Series(text, reference).status().message());

@@ -16,7 +16,8 @@ using ::testing::HasSubstr;
 using enum PointTimeForm;
 
 absl::StatusOr<WaterLevelSeries> Parse(const std::string& text, PointTimeForm form = kAdjustedStandard) {
-  return WaterLevelSeries::Parse("tide.csv", text, form);
+  const absl::StatusOr<WaterLevelSeries> series = ParseWaterLevels("tide.csv", text);
+  return series.ok() ? series->In(form) : series;
 }
 
 std::string ErrorOf(const std::string& text, PointTimeForm form = kAdjustedStandard) {
@@ -153,74 +154,15 @@ TEST(WaterLevels, AreReadFromAFile) {
   EXPECT_THAT(std::string(ReadWaterLevels(folder.path()).status().message()), HasSubstr("is a folder"));
 }
 
-// 2016-05-11T14:10:00Z, 600 s after the first level, by every clock; GPS is 17 s ahead of UTC. The levels are 1 to 2 m
-// in 20 minutes.
-TEST(FindWaterLevels, ReadsTheTimesOfThePointsByWhatFits) {
-  constexpr double kUnix = 1462975800, kGps = kUnix - 315964800 + 17, kOfWeek = kGps - 1896 * kSecondsPerWeek;
-  const albtpu::testing::TemporaryFolder folder;
-  const std::filesystem::path path =
-      folder.Write("tide.csv", "time,water_level\n2016-05-11T14:00:00Z,1\n2016-05-11T14:20:00Z,2\n");
-  const struct {
-    double time, unit;
-    PointTimeForm header;
-    const char* format;  // Empty: as the header states.
-  } kPoints[] = {{kGps - 1e9, 1, kAdjustedStandard, ""},
-                 {kOfWeek, 1, kWeekSeconds, ""},
-                 {kGps - 1e9, 1, kWeekSeconds, "adjusted"},
-                 {kOfWeek, 1, kAdjustedStandard, "week"},
-                 {kGps, 1, kAdjustedStandard, "gps"},
-                 {kUnix, 1, kWeekSeconds, "unix"},
-                 {kOfWeek * 1e3, 1e3, kWeekSeconds, "milliseconds"},
-                 {kOfWeek - 3 * 86400, 1, kWeekSeconds, "day"}};
-  for (const auto& points : kPoints) {
-    std::string note = "none";
-    const auto levels = FindWaterLevels(path, {{points.time, points.time + 60 * points.unit}, points.header},
-                                        TimeFormat::kAuto, {}, note);
-    ASSERT_TRUE(levels.ok()) << points.format << levels.status();
-    EXPECT_NEAR(levels->At(points.time).value_or(-1), 1.5, 1e-9) << points.format;
-    EXPECT_NEAR(levels->At(points.time + 60 * points.unit).value_or(-1), 1.55, 1e-9) << points.format;
-    if (*points.format == '\0')
-      EXPECT_EQ(note, "");
-    else
-      EXPECT_THAT(note, ::testing::HasSubstr(std::string("--time-format ") + points.format + " says so"));
-  }
-  // Of another day: there is no level, and nothing is claimed.
-  std::string note;
-  const auto none = FindWaterLevels(path, {{kUnix + 2e5, kUnix + 2e5 + 60}, kWeekSeconds}, TimeFormat::kAuto, {}, note);
-  EXPECT_FALSE(none->At(kUnix + 2e5).has_value());
-  EXPECT_EQ(note, "");
-  const auto other = FindWaterLevels(path, {{kOfWeek, kOfWeek + 60}, kWeekSeconds}, TimeFormat::kUnix, {}, note);
-  EXPECT_THAT(std::string(other.status().message()), ::testing::HasSubstr("if --time-format unix is right"));
-}
-
-TEST(FindWaterLevels, RefusesNumbersThatStandForMissingLevels) {
-  const albtpu::testing::TemporaryFolder folder;
+TEST(WaterLevels, AreNotNumbersThatStandForMissingLevels) {
+  const TemporaryFolder folder;
   for (const double missing : {-9999.0, 9999.0, 99.99, -99.99, 999.9}) {
     const std::filesystem::path path =
         folder.Write(absl::StrFormat("tide%g.csv", missing),
                      absl::StrFormat("time,water_level\n100,-23.5\n460,-23.5\n820,%g\n1180,-23.4\n", missing));
-    const auto levels = ReadWaterLevels(path, kWeekSeconds, {});
-    EXPECT_THAT(std::string(levels.status().message()), ::testing::HasSubstr("goes from -23.5 to")) << missing;
+    const auto levels = ReadWaterLevels(path);
+    EXPECT_THAT(std::string(levels.status().message()), HasSubstr("goes from -23.5 to")) << missing;
   }
-}
-
-TEST(FindWaterLevels, TakesTheWeekOfTheCreationOfThePoints) {
-  constexpr double kOfWeek = 4 * 86400 + 600 + 17;
-  const albtpu::testing::TemporaryFolder folder;
-  std::string text = "time,water_level\n";
-  for (int day = 1; day <= 28; ++day)
-    for (int hour = 0; hour < 24; ++hour) absl::StrAppendFormat(&text, "2016-05-%02dT%02d:00:00Z,%d\n", day, hour, day);
-  const std::filesystem::path path = folder.Write("tide.csv", text);
-  std::string note;
-  // 2016-05-12 is a Thursday, and the day 133.
-  const PointTimes points = {{kOfWeek, kOfWeek + 60}, kWeekSeconds, GpsTimeOfDay(2016, 133)};
-  const auto levels = FindWaterLevels(path, points, TimeFormat::kAuto, {}, note);
-  ASSERT_TRUE(levels.ok()) << levels.status();
-  EXPECT_EQ(levels->At(kOfWeek), 12);
-  EXPECT_THAT(note, ::testing::HasSubstr("2016-05-12 is taken because of the creation of the file on 2016-05-12"));
-  const auto open = FindWaterLevels(path, {points.span, kWeekSeconds}, TimeFormat::kAuto, {}, note);
-  EXPECT_THAT(std::string(open.status().message()),
-              ::testing::HasSubstr("seconds of the GPS week (2016-05-05) or as seconds of the GPS week (2016-05-12)"));
 }
 
 }  // namespace

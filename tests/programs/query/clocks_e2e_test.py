@@ -200,6 +200,44 @@ class ClocksTest(programs.Test):
             if name in ("adjusted", "unix", "milliseconds", "gps"):
                 self.assertIn(f"--time-format {name}", times)
 
+    def test_utc_of_the_day_is_told_from_gps_time_by_the_returns(self):
+        for bit in (0, 1):
+            las = self.with_times("other.las", lambda _, t: (self.gps(t) - 18) % 86400, bit)
+            # The times of the week lie 18 s and 4 days before: they are rounded 16 times as coarsely.
+            self.assert_same(self.annotated(las), tolerance=2e-4)
+            self.assertIn("are UTC seconds of the day, a Wednesday, not ", self.stderr)
+            self.assertIn("--time-format utc-day says so; by its header, the file was created on ", self.stderr)
+            self.assert_same(self.annotated(las, None, "--time-format", "utc-day"), tolerance=2e-4)
+        self.assert_fails(self.las(las, None, "--time-format", "day"), 1, "by --time-format utc-day; give that")
+
+    def test_two_clocks_in_one_file_are_refused(self):
+        """Whatever the header says, and whatever the times are needed for."""
+        tide = self.write_tide(-1, 1)
+        levels = ("--water-level", tide, "--wind-speed", 6, "--table", self.table)
+        for bit in (0, 1):
+            las = self.with_times("two.las", lambda i, t: self.gps(t) % WEEK if i % 5 else self.gps(t) - 1e9, bit)
+            said = ("two.las: its GPS times are of two clocks: ", "seconds of the GPS week (", "adjusted standard GPS times")
+            self.assert_fails(self.las(las), 1, *said)
+            self.assert_fails(self.without_trajectory(las, *levels), 1, *said)
+        self.assertEqual(self.without_trajectory(las, "--water-level", self.survey.water_level, *levels[2:]).returncode, 0)
+
+    def test_levels_at_numbers_of_another_clock_are_read_or_named(self):
+        begin = round(self.unix_times().min())
+        flags = ("--wind-speed", 6, "--table", self.table)
+        self.without_trajectory(self.survey.las, "--water-level", self.write_tide(-1, 1), *flags)
+        right = LasFile(self.folder / "level.las").columns()["water_depth"]
+        for name, first in (("Unix seconds", begin), ("GPS seconds since 1980", begin - UNIX_EPOCH + 18)):
+            tide = self.write("numbers.csv", "time,water_level\n" + "".join(
+                f"{first + 3600 * hour},{self.survey.water_level + hour}\n" for hour in (-1, 1)))
+            result = self.without_trajectory(self.survey.las, "--water-level", tide, *flags)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"numbers.csv are {name} (", result.stderr)
+            np.testing.assert_allclose(LasFile(self.folder / "level.las").columns()["water_depth"], right, atol=1e-5)
+        late = self.write("late.csv", f"time,water_level\n{begin + 9e5},1\n{begin + 9e5 + 3600},1\n")
+        result = self.without_trajectory(self.survey.las, "--water-level", late, *flags)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"late.csv: has no level at the times of the points: .*, as Unix seconds 20")
+
     def test_a_trajectory_of_another_day_is_still_refused(self):
         later = self.survey.write_sbet("later.out", time=lambda t: t + 2 * 86400 + 7200)
         self.assert_fails(self.las(self.survey.las, later), 1, "no record at the times of the points")
