@@ -33,9 +33,9 @@ struct PointClock {
 
 // The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
 // other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
-// formats: that one alone, which is several for seconds of a day and for milliseconds. `date`: a GPS time since 1980 near
-// those of the points, where it is known, whose leap seconds are theirs; else those at the creation of the file, or of
-// today.
+// formats: that one alone, which is several for seconds of a day and for milliseconds. `date`: a GPS time since 1980
+// near those of the points, where it is known, whose leap seconds are theirs; else those at the creation of the file,
+// or of today.
 std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format,
                                  std::optional<double> date = std::nullopt);
 
