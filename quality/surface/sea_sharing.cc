@@ -12,6 +12,13 @@ namespace {
 constexpr double kFootprintStep = 0.04;                        // Of its logarithm.
 constexpr double kLeastFootprint = 0.01, kMostFootprint = 10;  // m, of BeamCorrelation.
 
+// Of the values at -1, 0, 1 and 2 for the one between 0 and 1, by the cubic of Catmull and Rom: exact for a parabola.
+// The vertical variance of a beam grows with the square of its incidence, and at nadir nothing but squares of slopes is
+// left of it, so that a straight line between two steps would be wrong by more than all of it.
+std::array<double, 4> CubicWeights(double t) {
+  return {t * (t * (2 - t) - 1) / 2, (t * t * (3 * t - 5) + 2) / 2, t * (t * (4 - 3 * t) + 1) / 2, t * t * (t - 1) / 2};
+}
+
 // From the axes of a sea, x towards `x_azimuth`, to east, north, up.
 Eigen::Matrix3d ToMap(double x_azimuth) {
   const double sine = std::sin(x_azimuth), cosine = std::cos(x_azimuth);
@@ -30,19 +37,30 @@ std::uint16_t SeaSharing::Add(const SeaOfSource& sea) {
 SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const {
   const double steep = std::clamp(incidence, 0.0, double{kMostIncidence}) / kIncidenceStep;
   const double turned = azimuth / 360 * kAzimuths;
+  constexpr int kLast = kIncidences - 1;
   const int width =
       static_cast<int>(std::lround(std::log(std::clamp(footprint, kLeastFootprint, kMostFootprint)) / kFootprintStep));
   const int i = std::min(static_cast<int>(steep), kIncidences - 2);
   const int j = static_cast<int>(std::floor(turned));
   const Key key = {source, width};
   Beams& beams = BeamsOf(key);
+  std::array<double, 4> of_incidence = CubicWeights(steep - i);
+  if (i + 2 > kLast) {
+    // Beyond the last step as the parabola through the last three.
+    const double beyond = std::exchange(of_incidence[3], 0);
+    of_incidence[2] += 3 * beyond, of_incidence[1] -= 3 * beyond, of_incidence[0] += beyond;
+  }
+  const std::array<double, 4> of_azimuth = CubicWeights(turned - j);
   SeaInCell sum;
-  for (const int di : {0, 1})
-    for (const int dj : {0, 1}) {
-      const double weight = std::abs(1 - di - (steep - i)) * std::abs(1 - dj - (turned - j));
+  for (int di = -1; di <= 2; ++di)
+    for (int dj = -1; dj <= 2; ++dj) {
+      const double weight =
+          of_incidence[static_cast<std::size_t>(di + 1)] * of_azimuth[static_cast<std::size_t>(dj + 1)];
       if (weight == 0) continue;
-      const int around = ((j + dj) % kAzimuths + kAzimuths) % kAzimuths;
-      const SeaInCell& each = At(beams, key, i + di, i + di == 0 ? 0 : around);
+      // On the other side of the vertical, a beam goes the other way.
+      const int steps = std::abs(i + di), half_turn = i + di < 0 ? kAzimuths / 2 : 0;
+      const int around = ((j + dj + half_turn) % kAzimuths + kAzimuths) % kAzimuths;
+      const SeaInCell& each = At(beams, key, steps, steps == 0 ? 0 : around);
       sum.pulse += weight * each.pulse;
       sum.cell += weight * each.cell;
       sum.height_pulse += weight * each.height_pulse;

@@ -27,8 +27,8 @@ class SeaSharing {
   std::uint16_t Add(const SeaOfSource& sea);
   std::size_t size() const { return seas_.size(); }
 
-  // Angles in degree, `footprint` in m. Between beams at steps of incidence and azimuth it is interpolated, and the
-  // footprint is rounded to 4 %, which changes the correlation by less than 0.01.
+  // Angles in degree, `footprint` in m. Between beams at steps of incidence and azimuth it is interpolated, right to
+  // 2 % of the variances, and the footprint is rounded to 4 %, which changes the correlation by less than 0.01.
   SeaInCell operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const;
 
  private:
