@@ -30,6 +30,7 @@ void AddInitCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 void AddReportCommand(CLI::App& program, Run& run);
 void AddCrossCheckCommand(CLI::App& program, Run& run);
+void AddCheckPointsCommand(CLI::App& program, Run& run);
 void AddSurfaceCommand(CLI::App& program, Run& run);
 
 }  // namespace albtpu::programs

@@ -38,6 +38,7 @@ int Main(int argc, char** argv) {
   AddReportCommand(program, run);
   AddSurfaceCommand(program, run);
   AddCrossCheckCommand(program, run);
+  AddCheckPointsCommand(program, run);
   AddTrajectoryCommand(program, run);
   AddSeaCommand(program, run);
   AddSensorsCommand(program, run);

@@ -69,6 +69,7 @@ struct DryPoint {
   bool of_water_surface = false;  // By its class: 9, or one that surface returns usually have.
   float variance_horizontal = 0;  // m^2 at 1 sigma, of both axes together.
   float variance_vertical = 0;    // Of the total: with --terrain-slope that of the height at a fixed place.
+  AnnotatedPoint point = {};      // All of it; without a depth.
 };
 
 class AnnotatedLasFile {

@@ -119,17 +119,28 @@ class AnnotatedLasFile::PointMaker {
       return;
     }
     AnnotatedPoint& point = made.points.emplace_back();
-    point.x = fields_.X(record);
-    point.y = fields_.Y(record);
-    point.z = fields_.Z(record) * file_.metres_per_height_unit_;
-    if (fields_.has_gps_time()) point.time = fields_.GpsTime(record);
-    point.line = fields_.PointSourceId(record);
-    ReadFloats(record, point);
+    Read(record, point);
     point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                        IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
     const auto is_its = [&](const formats::ScannerPoints& scanner) { return scanner.Has(fields_, record); };
     const bool scanned = file_.channels_.empty() || point.has_number || std::ranges::any_of(file_.channels_, is_its);
     point.gap = scanned ? GapOf(point, file_.may_lack_surface_) : Gap::kNoChannel;
+    TakeKnown(point);
+  }
+
+ private:
+  void Read(std::string_view record, AnnotatedPoint& point) const {
+    point.x = fields_.X(record);
+    point.y = fields_.Y(record);
+    point.z = fields_.Z(record) * file_.metres_per_height_unit_;
+    if (fields_.has_gps_time()) point.time = fields_.GpsTime(record);
+    point.line = fields_.PointSourceId(record);
+    for (std::size_t k = 0; k < kFloats.size(); ++k)
+      if (file_.offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, file_.offsets_[k]);
+  }
+
+  // A contribution or a bias that is not known is 0.
+  static void TakeKnown(AnnotatedPoint& point) {
     for (float AnnotatedPoint::*const length :
          {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
           &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
@@ -140,21 +151,19 @@ class AnnotatedLasFile::PointMaker {
       point.*bias = KnownOrZero(point.*bias, true);
   }
 
- private:
-  void ReadFloats(std::string_view record, AnnotatedPoint& point) const {
-    for (std::size_t k = 0; k < kFloats.size(); ++k)
-      if (file_.offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, file_.offsets_[k]);
-  }
-
   void AddDry(std::string_view record, int point_class, MadePoints& made) const {
     AnnotatedPoint dry;
-    ReadFloats(record, dry);
+    Read(record, dry);
     const auto sigma = static_cast<float>(dry.tvu / VerticalFactor(file_.coverage_));
-    if (IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))
-      made.dry.push_back({.point_class = point_class,
-                          .of_water_surface = water_surface_.contains(point_class),
-                          .variance_horizontal = dry.variance_x + dry.variance_y,
-                          .variance_vertical = sigma * sigma});
+    if (!(IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))) return;
+    TakeKnown(dry);
+    dry.depth = 0;
+    dry.has_number = IsKnown(dry.variance_z);
+    made.dry.push_back({.point_class = point_class,
+                        .of_water_surface = water_surface_.contains(point_class),
+                        .variance_horizontal = dry.variance_x + dry.variance_y,
+                        .variance_vertical = sigma * sigma,
+                        .point = dry});
   }
 
   const AnnotatedLasFile& file_;

@@ -17,45 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
 
-// Of the horizontal variance but for the sea's.
-HorizontalGroups GroupsOf(const Json& summary) {
-  const Json& all = summary["answers"]["total"]["all"];
-  const auto fraction = [&](const char* shares, const char* name) {
-    const Json number = all.value(shares, Json::object()).value(name, Json());
-    return number.is_number() ? number.get<double>() : 0.0;
-  };
-  const double sea = fraction("shares_horizontal", "sea"), rest = 1 - sea;
-  if (!(rest > 0)) return {};
-  // To a hundredth, so that files of one survey have the same ones.
-  const auto part = [&](double whole) { return std::round(100 * std::clamp(whole / rest, 0.0, 1.0)) / 100; };
-  HorizontalGroups groups;
-  groups.line = part(fraction("groups_horizontal", "line"));
-  groups.survey = std::min(part(fraction("groups_horizontal", "survey")), 1 - groups.line);
-  groups.pulse = 1 - groups.line - groups.survey;
-  return groups;
-}
-
-SurfacePoint PointOf(const AnnotatedPoint& point, double factor, std::uint16_t source) {
-  const auto variance = [factor](float length) {
-    const double sigma = length / factor;
-    return static_cast<float>(sigma * sigma);
-  };
-  SurfacePoint of{.x = point.x, .y = point.y, .z = point.z, .time = point.time};
-  of.sea = variance(point.tvu_sea);
-  of.pulse = std::max(variance(point.tvu_pulse) - of.sea, 0.F);
-  of.line = variance(point.tvu_line);
-  of.survey = std::max(point.variance_z - of.sea - of.pulse - of.line, 0.F);
-  of.xx = point.variance_x, of.yy = point.variance_y, of.xy = point.covariance_xy;
-  of.xz = point.covariance_xz, of.yz = point.covariance_yz;
-  of.incidence = point.incidence, of.azimuth = point.beam_azimuth, of.footprint = point.footprint;
-  of.depth = point.depth, of.bias = point.bias_vertical;
-  of.thu =
-      static_cast<float>(HorizontalRadius(point.variance_x, point.variance_y, point.covariance_xy).At(Coverage::kP95));
-  of.flight_line = static_cast<std::uint16_t>(point.line);
-  of.source = source;
-  return of;
-}
-
 PartFile NameOf(const AnnotatedLasFile& file) {
   const auto& header = file.reader().header();
   return {.name = file.path().filename().string(),
@@ -77,6 +38,45 @@ absl::Status CheckWater(const AnnotatedLasFile& first, const AnnotatedLasFile& f
 
 }  // namespace
 
+HorizontalGroups GroupsOf(const AnnotatedLasFile& file) {
+  const Json& all = file.summary()["answers"]["total"]["all"];
+  const auto fraction = [&](const char* shares, const char* name) {
+    const Json number = all.value(shares, Json::object()).value(name, Json());
+    return number.is_number() ? number.get<double>() : 0.0;
+  };
+  const double sea = fraction("shares_horizontal", "sea"), rest = 1 - sea;
+  if (!(rest > 0)) return {};
+  // To a hundredth, so that files of one survey have the same ones.
+  const auto part = [&](double whole) { return std::round(100 * std::clamp(whole / rest, 0.0, 1.0)) / 100; };
+  HorizontalGroups groups;
+  groups.line = part(fraction("groups_horizontal", "line"));
+  groups.survey = std::min(part(fraction("groups_horizontal", "survey")), 1 - groups.line);
+  groups.pulse = 1 - groups.line - groups.survey;
+  return groups;
+}
+
+SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std::uint16_t source) {
+  const double factor = VerticalFactor(coverage);
+  const auto variance = [factor](float length) {
+    const double sigma = length / factor;
+    return static_cast<float>(sigma * sigma);
+  };
+  SurfacePoint of{.x = point.x, .y = point.y, .z = point.z, .time = point.time};
+  of.sea = variance(point.tvu_sea);
+  of.pulse = std::max(variance(point.tvu_pulse) - of.sea, 0.F);
+  of.line = variance(point.tvu_line);
+  of.survey = std::max(point.variance_z - of.sea - of.pulse - of.line, 0.F);
+  of.xx = point.variance_x, of.yy = point.variance_y, of.xy = point.covariance_xy;
+  of.xz = point.covariance_xz, of.yz = point.covariance_yz;
+  of.incidence = point.incidence, of.azimuth = point.beam_azimuth, of.footprint = point.footprint;
+  of.depth = point.depth, of.bias = point.bias_vertical;
+  of.thu =
+      static_cast<float>(HorizontalRadius(point.variance_x, point.variance_y, point.covariance_xy).At(Coverage::kP95));
+  of.flight_line = static_cast<std::uint16_t>(point.line);
+  of.source = source;
+  return of;
+}
+
 SurfaceMap MapOf(const AnnotatedLasFile& file) {
   return {.crs_name = file.crs_name(),
           .crs_wkt = file.crs_wkt(),
@@ -96,20 +96,19 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     facts.coverage = first.coverage();
     facts.table_digest = first.table_digest();
   }
-  const double factor = VerticalFactor(facts.coverage);
   ASSIGN_OR_RETURN(PointTilesWriter writer, PointTilesWriter::Create(path, options.cell / facts.map.metres_per_unit));
   annotate::FileProgress progress = ProgressOver(files);
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
     ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, options.seas));
-    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file.summary())));
+    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file)));
     RETURN_IF_ERROR(CheckWater(files.front(), file, facts));
     const bool has_dates = file.has_dates();
     ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) {
       for (const AnnotatedPoint& point : points) {
         ++(point.has_number ? facts.with_number : facts.without_number);
         if (!point.has_number) continue;
-        writer.Add(PointOf(point, factor, source));
+        writer.Add(SurfacePointOf(point, facts.coverage, source));
         if (!has_dates) continue;
         const double time = point.time + kAdjustment;
         if (!facts.times.has_value()) facts.times = {time, time};

@@ -60,13 +60,16 @@ double NodeVariance::within_cell(std::size_t points) const {
   return points > 1 ? n / (n - 1) * std::max(of_point - (apart_from_survey() - of_plane), 0.0) : 0;
 }
 
-NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope,
-                        const NodeSources& sources) {
+NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope, const NodeSources& sources,
+                        std::vector<LineOfNode>* lines) {
   const Eigen::Vector3d g(-slope.x(), -slope.y(), 1);
   const auto n = static_cast<double>(points.size());
   NodeVariance variance;
-  double of_line = 0, of_survey = 0;  // Sums of standard deviations.
-  const auto end_line = [&] {
+  double of_line = 0, of_survey = 0;       // Sums of standard deviations.
+  const SurfacePoint* of = points.data();  // The first point of the line.
+  const auto end_line = [&](const SurfacePoint* next) {
+    if (lines != nullptr) lines->push_back({.flight_line = of->flight_line, .time = of->time, .sigma = of_line / n});
+    of = next;
     variance.line += of_line * of_line / (n * n);
     of_line = 0;
   };
@@ -74,7 +77,7 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
     const SurfacePoint& first = points[begin];
     if (begin > 0 && (first.flight_line != points[begin - 1].flight_line ||
                       first.time - points[begin - 1].time > FlightLines::kPause))
-      end_line();
+      end_line(&first);
     for (end = begin + 1; end < points.size(); ++end) {
       const SurfacePoint& next = points[end];
       if (next.flight_line != first.flight_line || next.time - points[end - 1].time > kPassPause) break;
@@ -103,7 +106,7 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
       variance.of_point += (pulse + line) / n;
     }
   }
-  end_line();
+  end_line(nullptr);
   variance.survey = of_survey * of_survey / (n * n);
   return variance;
 }

@@ -10,8 +10,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "quality/surface/surface_point.h"
 
@@ -53,8 +56,34 @@ struct NodeVariance {
   double within_cell(std::size_t points) const;
 };
 
+// What one line shares of the error of a node.
+struct LineOfNode {
+  std::uint16_t flight_line = 0;
+  double time = 0;   // s, of its first point here.
+  double sigma = 0;  // m
+};
+
 // Of the mean of `points`, one at least, which are in the order of SurfacePoint::Order. `slope` is that of the bottom,
-// m per m. The points count as spread evenly over the cell.
-NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope, const NodeSources& sources);
+// m per m. The points count as spread evenly over the cell. What lines share, whose squares add up to `line`, is put
+// into `lines`, if given.
+NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope, const NodeSources& sources,
+                        std::vector<LineOfNode>* lines = nullptr);
+
+// One node, in the middle of its cell. Variances at 1 sigma, m^2.
+struct SurfaceNode {
+  std::uint32_t points = 0;                                     // That its height is made of; 0: no node.
+  std::uint32_t left_out = 0;                                   // Beyond kFarthest standard deviations.
+  double elevation = std::numeric_limits<double>::quiet_NaN();  // m, upwards, in the datum of the points
+  NodeVariance variance;
+  double bias = 0;                                                   // m, of the elevation: the mean of its points
+  double deviation = std::numeric_limits<double>::quiet_NaN();       // m, of the points from the plane; of one: NaN
+  double shoalest = std::numeric_limits<double>::quiet_NaN();        // m: the highest of the points, upwards
+  double shoalest_sigma = std::numeric_limits<double>::quiet_NaN();  // m, of its height
+  float depth = 0;                                                   // m, of the water: the mean of the points
+  float thu = 0;                                                     // m, 95 %: the mean of the points
+  float slope_x = 0, slope_y = 0;                                    // m per m
+};
+
+inline constexpr double kFarthest = 6;
 
 }  // namespace albtpu::quality

@@ -13,6 +13,8 @@
 #include "quality/grids/netcdf_grid.h"
 #include "quality/surface/sea_sharing.h"
 #include "quality/surface/surface_part.h"
+#include "quality/surface/surface_point.h"
+#include "tables/coverage.h"
 
 namespace albtpu::quality {
 
@@ -22,6 +24,12 @@ struct SurfaceOptions {
 };
 
 SurfaceMap MapOf(const AnnotatedLasFile& file);
+
+// Of the horizontal variance but for the sea's, in the mean of a file.
+HorizontalGroups GroupsOf(const AnnotatedLasFile& file);
+
+// Of a point with a number, in a file of that coverage.
+SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std::uint16_t source);
 
 // Puts the points of files into a part at `path`, which must be new, and is not sealed. Memory does not depend on their
 // number. Of no files the part is empty.

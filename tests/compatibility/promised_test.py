@@ -70,6 +70,15 @@ def members(value, where, levels=LEVELS):
             yield from members(each, f"{where}.{key}", levels - 1)
 
 
+def write_check_points(folder):
+    """Some annotated points of the bottom, each with an elevation 1 cm off."""
+    las = LasFile(folder / "annotated/flight_1.las")
+    xyz = [las.field(4 * axis, "<i4") * las.scale[axis] + las.offset[axis] for axis in range(3)]
+    bottom = [i for i, each in enumerate(las.classes) if each == 40]
+    rows = [f"{xyz[0][i]:.3f},{xyz[1][i]:.3f},{xyz[2][i] + 0.01:.3f},NVA" for i in bottom[::len(bottom) // 20]]
+    (folder / "points.csv").write_text("\n".join(["x,y,elevation,class", *rows]) + "\n")
+
+
 def names_in_files():
     """Columns of CSV files, dimensions of LAS files and members of JSON files that albtpu-query writes."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -82,6 +91,9 @@ def names_in_files():
         for path, source in (("answers.csv", "pulses.csv"), ("wet.csv", "totals.csv")):
             columns = [next(csv.reader((folder / name).read_text().splitlines())) for name in (path, source)]
             yield from (f"column of csv: {name}" for name in columns[0] if name not in columns[1])
+        write_check_points(folder)
+        make(QUERY, folder, [("checkpoints.json", "checkpoints", "annotated", "points.csv", "--radius", "20",
+                              "--json")])
         run(PATHS["laz_copy"], folder / "sea.laz", folder / "sea.las").check_returncode()
         for path in ("annotated/flight_1.las", "sea.las"):
             for name, (_, kind, no_data, _) in LasFile(folder / path).extra_dimensions().items():
@@ -90,6 +102,7 @@ def names_in_files():
                            ("sea.laz.json", "summary of las"), ("answers.csv.json", "summary of csv"),
                            ("wet.csv.json", "summary of csv with a total"),
                            ("report/report.json", "report.json"), ("crosscheck.json", "crosscheck --json"),
+                           ("checkpoints.json", "checkpoints --json"),
                            *((name, f"{arguments[0]} --json") for name, *arguments in PRINT)):
             yield from members(json.loads((folder / path).read_text()), f"member of {what}: ")
 

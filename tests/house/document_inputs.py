@@ -1,6 +1,8 @@
 """The files that the commands of the documents read: simulated surveys, pulses and a buoy's spectrum."""
 
+import random
 import shutil
+import struct
 import subprocess
 
 # Simulated surveys, and the names that their files have in the documents: a line without errors, and overlapping lines
@@ -32,6 +34,21 @@ def write_buoy(folder):
         (folder / f"buoy{suffix}").write_text(f"{head}\n{record}{pairs}\n")
 
 
+def write_check_points(path, flights):
+    """40 points of the bottom of a flight without errors, each with an error of 2 cm."""
+    rows = ["id,x,y,elevation"]
+    draw = random.Random(1)
+    for flight in flights:
+        las = flight.read_bytes()
+        begin, length = struct.unpack_from("<I", las, 96)[0], struct.unpack_from("<H", las, 105)[0]
+        scale, offset = struct.unpack_from("<3d", las, 131), struct.unpack_from("<3d", las, 155)
+        bottom = [at for at in range(begin, len(las) - length + 1, length) if las[at + 16] == 40]
+        for at in draw.sample(bottom, 8):
+            x, y, z = (n * s + o for n, s, o in zip(struct.unpack_from("<3i", las, at), scale, offset))
+            rows.append(f"P{len(rows)},{x:.3f},{y:.3f},{z + draw.gauss(0, 0.02):.3f}")
+    path.write_text("\n".join(rows) + "\n")
+
+
 def make_inputs(folder, simulated_survey):
     """Writes them to folder/inputs."""
     for number, (flags, names) in enumerate(SURVEYS):
@@ -41,5 +58,10 @@ def make_inputs(folder, simulated_survey):
         for name, given in {**names, **trajectory}.items():
             (folder / "inputs" / given).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(made / name, folder / "inputs" / given)
+    right = folder / "right"
+    flags = SURVEYS[1][0]
+    flags = flags[:flags.index("--trajectory-errors")]
+    subprocess.run([simulated_survey, right, *flags], check=True)
+    write_check_points(folder / "inputs/points.csv", [right / f"flight_{i}.las" for i in range(1, 6)])
     write_buoy(folder / "inputs")
     (folder / "inputs/pulses.csv").write_text(PULSES)

@@ -44,7 +44,7 @@ class Help(unittest.TestCase):
                           for command in ("table", "merge", "plan", "keys", "point", "water-point", "validate")} |
                          {("albtpu-query", command)
                           for command in ("init", "pulse", "csv", "las", "plan", "report", "surface", "crosscheck",
-                                         "sea", "trajectory", "sensors", "keys", "tables", "health")})
+                                         "checkpoints", "sea", "trajectory", "sensors", "keys", "tables", "health")})
 
     def test_ends_with_two_examples_of_flags_that_exist(self):
         for program, command, text in commands():

@@ -103,7 +103,7 @@ class CommandLineTest(programs.Test):
 
     def test_misspelt_words_get_a_suggestion(self):
         for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, plan, report, surface, "
-                                      "crosscheck, trajectory, sea, sensors, keys, tables, health"),
+                                      "crosscheck, checkpoints, trajectory, sea, sensors, keys, tables, health"),
                                      (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),
                                      (["pulse", *PULSE, "--coverage", "2sigm"], 'did you mean "2sigma"?'),
                                      ([], "no command is given")):

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "quality/surface/cell_plane.h"
 #include "quality/surface/surface_tile.h"
 
 namespace albtpu::quality {
@@ -185,6 +186,37 @@ TEST_F(Tile, KeepsThePointsOfARoughBottom) {
   std::uint32_t left_out = 0;
   for (const SurfaceNode& node : NodesOf({}, points, 1, 1, Sharing(0.5))) left_out += node.left_out;
   EXPECT_EQ(left_out, 0U);
+}
+
+// Circles, as check points have them.
+
+TEST_F(Tile, HasTheHeightsOfAPlaneInCirclesToo) {
+  std::vector<SurfacePoint> around;
+  constexpr double kX = 12.34, kY = 20.1, kRadius = 2;
+  for (const SurfacePoint& point : OnAPlane(0.4, -0.1))
+    if (std::hypot(point.x - kX, point.y - kY) <= kRadius) around.push_back(point);
+  around[20].z += 3;  // A fish.
+  std::vector<LineOfNode> lines;
+  const SurfaceNode node = NodeOfCircle(around, kX, kY, kRadius, 1, Sharing(0.5), lines);
+  EXPECT_EQ(node.left_out, 1U);
+  EXPECT_EQ(node.points, around.size() - 1);
+  EXPECT_NEAR(node.elevation, -5 + 0.4 * kX - 0.1 * kY, 1e-9);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NEAR(lines[0].sigma * lines[0].sigma, node.variance.line, 1e-12);
+  const auto n = static_cast<double>(node.points);
+  // But for the plane, the mean is that of VarianceOf.
+  EXPECT_NEAR(node.variance.pulse - node.variance.of_plane, kPulse / n, 1e-8);
+  EXPECT_NEAR(node.variance.sea, kSea * (0.5 + 0.5 / n), 1e-8);
+}
+
+TEST_F(Tile, HasNoCircleWherePointsLieOnALine) {
+  std::vector<SurfacePoint> around;
+  for (int i = 0; i < 9; ++i) {
+    around.push_back(PointAt(0.001 * i));
+    around.back().x = 0.1 * i;
+  }
+  std::vector<LineOfNode> lines;
+  EXPECT_EQ(NodeOfCircle(around, 0.4, 0.5, 1, 1, Sharing(0.5), lines).points, 0U);
 }
 
 }  // namespace

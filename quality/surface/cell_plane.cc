@@ -1,0 +1,161 @@
+#include "quality/surface/cell_plane.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace albtpu::quality {
+namespace {
+
+constexpr double kOfMedianDeviation = 1.4826;  // From a median deviation to a standard one, of normal errors.
+constexpr int kPartsOfCircle = 3;              // Squares along its diameter, as the cells around a node.
+
+}  // namespace
+
+void PlaneSums::Add(double dx, double dy, double dz, double weight) {
+  n += weight, x += weight * dx, y += weight * dy, z += weight * dz;
+  xx += weight * dx * dx, xy += weight * dx * dy, yy += weight * dy * dy;
+  xz += weight * dx * dz, yz += weight * dy * dz;
+}
+
+PlaneSums PlaneSums::About(double dx, double dy) const {
+  PlaneSums m = *this;
+  m.x = x - n * dx, m.y = y - n * dy;
+  m.xx = xx - 2 * dx * x + n * dx * dx, m.yy = yy - 2 * dy * y + n * dy * dy;
+  m.xy = xy - dx * y - dy * x + n * dx * dy;
+  m.xz = xz - dx * z, m.yz = yz - dy * z;
+  return m;
+}
+
+PlaneSums& PlaneSums::operator+=(const PlaneSums& o) {
+  n += o.n, x += o.x, y += o.y, z += o.z, xx += o.xx, xy += o.xy, yy += o.yy, xz += o.xz, yz += o.yz;
+  return *this;
+}
+
+Plane PlaneOf(const PlaneSums& m, double side) {
+  Plane plane;
+  if (m.n < 4) return plane;
+  Eigen::Matrix2d spread;
+  spread << m.xx - m.x * m.x / m.n, m.xy - m.x * m.y / m.n, m.xy - m.x * m.y / m.n, m.yy - m.y * m.y / m.n;
+  const double least_spread = spread.trace() / 2 - std::hypot((spread(0, 0) - spread(1, 1)) / 2, spread(0, 1));
+  constexpr double kLeast = 0.3;  // Of a cell: evenly spread over 3 cells, points have 0.87.
+  if (!(least_spread / m.n > kLeast * kLeast * side * side)) return plane;
+  plane.of_unit_noise = spread.inverse();
+  plane.middle = Eigen::Vector2d(m.x, m.y) / m.n;
+  plane.slope = plane.of_unit_noise * Eigen::Vector2d(m.xz - m.x * m.z / m.n, m.yz - m.y * m.z / m.n);
+  plane.has_slope = true;
+  return plane;
+}
+
+double MedianOf(std::vector<double>& values) {
+  const std::size_t middle = values.size() / 2;
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(middle));
+  if (values.size() % 2 == 1) return values[middle];
+  return (values[middle] + *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(middle))) / 2;
+}
+
+void LeaveOutFar(const CellPoints& cell, const Plane& plane, std::span<char> kept) {
+  if (cell.points.size() < 3) return;
+  std::vector<double> residuals;
+  residuals.reserve(cell.points.size());
+  for (std::size_t i = 0; i < cell.points.size(); ++i)
+    residuals.push_back(cell.points[i].z - plane.slope.dot(cell.places[i]));
+  std::vector<double> sorted = residuals;
+  const double median = MedianOf(sorted);
+  for (double& each : sorted) each = std::abs(each - median);
+  const double rough = kOfMedianDeviation * MedianOf(sorted);
+  for (std::size_t i = 0; i < cell.points.size(); ++i) {
+    const SurfacePoint& p = cell.points[i];
+    const double stated = std::sqrt(double{p.pulse} + p.sea + p.line);
+    if (std::abs(residuals[i] - median) > kFarthest * std::max(stated, rough)) kept[i] = false;
+  }
+}
+
+SurfaceNode NodeOf(const CellPoints& cell, std::span<const char> kept, const Plane& plane, const NodeSources& sources,
+                   std::vector<LineOfNode>* lines) {
+  SurfaceNode node;
+  std::vector<SurfacePoint> others;  // Where some are left out.
+  std::span<const SurfacePoint> points = cell.points;
+  if (std::ranges::find(kept, false) != kept.end()) {
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i]) others.push_back(cell.points[i]);
+    points = others;
+  }
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double mean = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) {
+      ++node.left_out;
+      continue;
+    }
+    const SurfacePoint& point = cell.points[i];
+    middle += cell.places[i];
+    mean += point.z;
+    node.bias += point.bias;
+    node.depth += point.depth;
+    node.thu += point.thu;
+    if (!(point.z <= node.shoalest)) {
+      node.shoalest = point.z;
+      node.shoalest_sigma = std::sqrt(double{point.pulse} + point.sea + point.line + point.survey);
+    }
+  }
+  if (points.empty()) return node;
+  const auto n = static_cast<double>(points.size());
+  node.points = static_cast<std::uint32_t>(points.size());
+  middle /= n, mean /= n, node.bias /= n;
+  node.depth /= static_cast<float>(n), node.thu /= static_cast<float>(n);
+  node.slope_x = static_cast<float>(plane.slope.x()), node.slope_y = static_cast<float>(plane.slope.y());
+  node.elevation = mean - plane.slope.dot(middle);
+  node.variance = VarianceOf(points, plane.slope, sources, lines);
+  // The slope is no better known than the scatter of the points that it is made of.
+  const double scatter = points.size() > 1 ? node.variance.within_cell(points.size()) : node.variance.pulse;
+  // The mean of the cell is of points that the slope is made of, too: their covariance is U (middle - plane.middle).
+  const Eigen::Vector2d lever = middle - 2 * (middle - plane.middle);
+  node.variance.of_plane = std::max(-node.variance.pulse, scatter * middle.dot(plane.of_unit_noise * lever));
+  node.variance.pulse += node.variance.of_plane;
+  if (points.size() > 1) {
+    double squares = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i]) squares += std::pow(cell.points[i].z - mean - plane.slope.dot(cell.places[i] - middle), 2);
+    node.deviation = std::sqrt(squares / (n - 1));
+  }
+  return node;
+}
+
+double SideOfCircle(double radius) { return radius * std::sqrt(std::numbers::pi); }
+
+SurfaceNode NodeOfCircle(std::span<const SurfacePoint> points, double x, double y, double radius,
+                         double metres_per_unit, const NodeSources& sources, std::vector<LineOfNode>& lines) {
+  std::vector<Eigen::Vector2d> places;
+  std::vector<char> kept(points.size(), true);
+  const double side = 2 * radius / kPartsOfCircle;
+  struct Part {
+    PlaneSums sums;
+    std::vector<double> heights;
+  };
+  std::array<Part, std::size_t{kPartsOfCircle} * kPartsOfCircle> parts;
+  const auto step = [&](double at) {
+    return std::clamp(static_cast<int>((at + radius) / side), 0, kPartsOfCircle - 1);
+  };
+  for (const SurfacePoint& point : points) {
+    const Eigen::Vector2d& at = places.emplace_back((point.x - x) * metres_per_unit, (point.y - y) * metres_per_unit);
+    Part& part = parts[static_cast<std::size_t>(step(at.y()) * kPartsOfCircle + step(at.x()))];
+    part.sums.Add(at.x(), at.y(), 0);
+    part.heights.push_back(point.z);
+  }
+  PlaneSums medians;
+  for (Part& part : parts)
+    if (part.sums.n > 0)
+      medians.Add(part.sums.x / part.sums.n, part.sums.y / part.sums.n, MedianOf(part.heights), part.sums.n);
+  const CellPoints cell = {points, places};
+  LeaveOutFar(cell, PlaneOf(medians, side), kept);
+  PlaneSums sums;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (kept[i]) sums.Add(places[i].x(), places[i].y(), points[i].z);
+  const Plane plane = PlaneOf(sums, side);
+  return plane.has_slope ? NodeOf(cell, kept, plane, sources, &lines) : SurfaceNode();
+}
+
+}  // namespace albtpu::quality
