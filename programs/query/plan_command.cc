@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -34,7 +35,7 @@ struct PlanOptions {
   std::vector<double> winds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   std::vector<double> heights = {0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3};  // Of waves, m.
   std::string order = "1a", output;
-  bool json = false, no_page = false, kds_given = false;
+  bool json = false, no_page = false, kds_given = false, seas_given = false;
   Existing existing = Existing::kKeep;
 };
 
@@ -66,14 +67,23 @@ class Planner {
       : options_(options), settings_(settings), sea_(settings.sea) {}
 
   absl::StatusOr<quality::SurveyPlan> Make() {
+    if (sea_.file.has_value()) RETURN_IF_ERROR(OpenSeries());
     const bool waves = sea_.has_waves();
-    annotate::FileProgress progress("conditions", 1,
-                                    options_.kds.size() + (waves ? options_.heights : options_.winds).size());
+    const std::size_t seas = sea_.file.has_value() ? std::max<std::size_t>(times_.size(), 1)
+                             : waves               ? options_.heights.size()
+                                                   : options_.winds.size();
+    annotate::FileProgress progress("conditions", 1, options_.kds.size() + seas);
     progress.NextFile();
     annotate::FileProgress::File shown(progress, "plan");
     RETURN_IF_ERROR(Prepare(shown));
+    for (const double time : times_) {
+      time_ = time;
+      RETURN_IF_ERROR(AddSea(0));
+      ++done_;
+      shown.Reach(done_, done_);
+    }
     for (std::size_t i = 0; i < plan_.seas.size(); ++i) {
-      absl::Status status = waves ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
+      absl::Status status = waves && !sea_.file.has_value() ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
       if (!status.ok() && i > 0) {  // Waves that are too steep for their period.
         annotate::Note(absl::StrCat("--wave-heights: ", plan_.seas[i], " m and more left out: ", status.message()));
         plan_.seas.resize(i);
@@ -93,14 +103,45 @@ class Planner {
   }
 
  private:
-  absl::Status Prepare(annotate::FileProgress::File& shown) {
-    if (sea_.file.has_value())
+  static constexpr std::size_t kMostHours = 100'000;  // Eleven years.
+
+  // Opens the file of the sea: whole hours where it goes by time, otherwise its only state.
+  absl::Status OpenSeries() {
+    if (options_.seas_given)
       return formats::UsageError(
-          "plan: a file of the sea is of one survey; give the waves by --hs and --tp, or the wind alone");
+          "plan: --winds and --wave-heights have no effect with a file of the sea; leave them out");
+    RETURN_IF_ERROR(Open(sea_));
+    const annotate::SeaTimeline& seas = *answerer_->timeline();
+    if (!seas.by_time()) {
+      const annotate::BetweenRecords& of = seas.fixed();
+      const auto height = [&](std::size_t record) { return seas.record(record).significant_wave_height(); };
+      plan_.seas = {
+          std::sqrt((1 - of.weight) * std::pow(height(of.first), 2) + of.weight * std::pow(height(of.second), 2))};
+      return absl::OkStatus();
+    }
+    constexpr double kHour = 3600;  // s
+    const double first = std::ceil(seas.start() / kHour) * kHour, last = std::floor(seas.end() / kHour) * kHour;
+    if ((last - first) / kHour > kMostHours)
+      return absl::InvalidArgumentError(
+          absl::StrCat(*sea_.file, ": has more than ", kMostHours, " hours; give a file of fewer years"));
+    plan_.hours = {.first = first, .last = last};
+    for (double time = first; time <= last; time += kHour) {
+      if (seas.At(time).has_value())
+        times_.push_back(time);
+      else
+        ++plan_.hours->without_sea;
+    }
+    if (times_.empty())
+      return absl::InvalidArgumentError(
+          absl::StrCat(*sea_.file, ": has no sea at a whole hour; give one instant of it by --sea-time"));
+    return absl::OkStatus();
+  }
+
+  absl::Status Prepare(annotate::FileProgress::File& shown) {
     const config::SeaSettings& flags = options_.flags.settings.sea;
     if (!sea_.has_waves() && (flags.wind_speed || flags.wind_from))
       return formats::UsageError("plan: one wind has no effect without waves (all winds are planned); give --winds");
-    if (sea_.has_waves() &&
+    if (!sea_.waves.empty() &&
         std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
       return formats::UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
     if (options_.kds_given && !wants_column())
@@ -121,7 +162,7 @@ class Planner {
     const bool waves = sea_.has_waves();
     plan_.sea_name = waves ? "significant_wave_height" : "wind_speed";
     plan_.sea_unit = waves ? "m" : "m/s";
-    plan_.seas = Rising(waves ? options_.heights : options_.winds);
+    if (!sea_.file.has_value()) plan_.seas = Rising(waves ? options_.heights : options_.winds);
     plan_.altitude = options_.altitude;
     plan_.incidence = options_.incidence;
     plan_.numbers = planned_.numbers;
@@ -199,6 +240,7 @@ class Planner {
                               .footprint = annotate::FootprintAtIncidence(altitude, divergence_, incidence),
                               .wind_speed = {},
                               .fetch = {}};
+    beam.time = time_;
     if (!sea_.has_waves()) {
       annotate::FixedInputs wind;
       TakeWind(sea_, wind);
@@ -218,8 +260,10 @@ class Planner {
   const PlanOptions& options_;
   const config::SurveySettings& settings_;
   config::SeaSettings sea_;
-  std::uint64_t done_ = 0;  // Waters and seas.
-  double divergence_ = 0;   // mrad
+  std::uint64_t done_ = 0;     // Waters and seas.
+  std::vector<double> times_;  // s since 1970: whole hours with a sea, of a file that goes by time.
+  std::optional<double> time_;
+  double divergence_ = 0;  // mrad
   annotate::TotalPlan planned_;
   std::vector<annotate::TotalPlan> of_waters_;
   std::unique_ptr<Answerer> answerer_;
@@ -279,11 +323,16 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   Group(*command, "What is planned", {"--order", "--altitude", "--incidence", "--divergence"});
   Group(*command, "What is compared", {"--winds", "--wave-heights", "--altitudes", "--incidences", "--kds"});
   Group(*command, group::kOutput, {"--output", "--no-page", "--json", "--overwrite"});
-  EndHelp(*command, "Whether the laser sees the bottom at these depths is another question.",
-          "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",
-          "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
+  EndHelp(
+      *command,
+      "With a file of the sea that goes by time, the share of its whole hours in which each order is met, by depth;\n"
+      "tides are not considered.\n"
+      "Whether the laser sees the bottom at these depths is another question.",
+      "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",
+      "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
   command->callback([options, command, &run] {
     options->kds_given = command->count("--kds") > 0;
+    options->seas_given = command->count("--winds") + command->count("--wave-heights") > 0;
     run = [options] { return RunPlan(*options); };
   });
 }

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
-#include "absl/strings/str_replace.h"
 #include "annotate/totals/pulse_totals.h"
 #include "annotate/totals/water_column.h"
+#include "sea/sea_time.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -25,6 +23,7 @@ annotate::PulseBatch PulsesOf(const PlannedBeam& beam, double greatest_depth) {
   for (double depth = kReachStep; depth <= greatest_depth; depth += kReachStep)
     pulses[AxisId::kDepth].push_back(static_cast<float>(depth));
   pulses.size = pulses[AxisId::kDepth].size();
+  if (beam.time.has_value()) pulses.times.assign(pulses.size, *beam.time);
   return pulses;
 }
 
@@ -68,15 +67,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<double, 8> kAskedDepths = {1, 2, 5, 10, 15, 20, 30, 40};  // m
-
-const Reach& Of(const Reaches& reaches, S44Order order) { return reaches[static_cast<std::size_t>(order)]; }
-
 Json DepthJson(const Reach& reach) { return reach.is_known() ? Json(reach.depth) : Json(); }
-
-std::string LimitName(const Reach& reach) {
-  return std::string(kReachLimitNames[static_cast<std::size_t>(reach.limit)]);
-}
 
 Json AxisJson(const PlannedAxis& axis) {
   Json json = {{"name", axis.name}, {"unit", axis.unit}, {"values", axis.values}};
@@ -95,7 +86,47 @@ Json AxisJson(const PlannedAxis& axis) {
   return json;
 }
 
+Json HoursJson(const PlannedHours& hours, const std::vector<Reaches>& planned) {
+  Json json = {{"first", SeaTimeText(hours.first)}, {"last", SeaTimeText(hours.last)}, {"count", planned.size()},
+               {"without_sea", hours.without_sea},  {"tides", "not considered"},       {"by_depth", Json::array()}};
+  for (const double depth : kAskedDepths) {
+    Json of_depth = {{"depth", depth}};
+    for (const S44Order order : kS44Orders) {
+      const HoursMet of = ShareOfHours(planned, order, depth);
+      of_depth["share"][std::string(Name(order))] = of.met;
+      of_depth["no_answer"][std::string(Name(order))] = of.unknown;
+    }
+    json["by_depth"].push_back(std::move(of_depth));
+  }
+  return json;
+}
+
+Json AxisOfHoursJson(const PlannedAxis& axis) {
+  Json json = {{"name", axis.name}, {"unit", axis.unit}, {"values", axis.values}};
+  for (const S44Order order : kS44Orders)
+    for (const std::vector<Reaches>& by_hour : axis.reaches) {
+      Json shares = Json::array();
+      for (const double depth : kAskedDepths) shares.push_back(ShareOfHours(by_hour, order, depth).met);
+      json["share"][std::string(Name(order))].push_back(std::move(shares));
+    }
+  return json;
+}
+
 }  // namespace
+
+HoursMet ShareOfHours(const std::vector<Reaches>& by_hour, S44Order order, double depth) {
+  HoursMet hours;
+  if (by_hour.empty()) return hours;
+  const double share = 1 / static_cast<double>(by_hour.size());
+  for (const Reaches& reaches : by_hour) {
+    const Reach& reach = Of(reaches, order);
+    if (reach.depth >= depth)
+      hours.met += share;
+    else if (reach.limit == ReachLimit::kTable || reach.limit == ReachLimit::kWater)
+      hours.unknown += share;
+  }
+  return hours;
+}
 
 std::optional<double> HighestSea(const SurveyPlan& plan, S44Order order, double depth) {
   std::optional<double> greatest;
@@ -114,7 +145,9 @@ Json PlanJson(const SurveyPlan& plan) {
                {"greatest_sea", Json::array()},
                {"axes", Json::array()},
                {"numbers", Json::array()}};
-  for (const Reaches& reaches : plan.planned) {
+  if (plan.hours.has_value()) json["hours"] = HoursJson(*plan.hours, plan.planned);
+  const std::vector<Reaches> none;
+  for (const Reaches& reaches : plan.hours.has_value() ? none : plan.planned) {
     Json of_sea;
     for (const S44Order order : kS44Orders) {
       of_sea["depth"][std::string(Name(order))] = DepthJson(Of(reaches, order));
@@ -123,6 +156,7 @@ Json PlanJson(const SurveyPlan& plan) {
     json["planned"].push_back(std::move(of_sea));
   }
   for (const double depth : kAskedDepths) {
+    if (plan.hours.has_value()) break;
     Json of_depth = {{"depth", depth}};
     for (const S44Order order : kS44Orders) {
       const std::optional<double> sea = HighestSea(plan, order, depth);
@@ -130,39 +164,13 @@ Json PlanJson(const SurveyPlan& plan) {
     }
     json["greatest_sea"].push_back(std::move(of_depth));
   }
-  for (const PlannedAxis& axis : plan.axes) json["axes"].push_back(AxisJson(axis));
+  for (const PlannedAxis& axis : plan.axes)
+    json["axes"].push_back(plan.hours.has_value() ? AxisOfHoursJson(axis) : AxisJson(axis));
   for (const annotate::StatedNumber& number : plan.numbers) {
     json["numbers"].push_back(
         {{"name", number.name}, {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}});
   }
   return json;
-}
-
-std::string PlanText(const SurveyPlan& plan) {
-  const std::string sea = absl::StrReplaceAll(plan.sea_name, {{"_", " "}});
-  std::string text = absl::StrCat("depth in m down to which each order of S-44 is met, by ", sea, ";");
-  absl::StrAppend(&text, " altitude ", Json(plan.altitude).dump(), " incidence ", Json(plan.incidence).dump());
-  absl::StrAppendFormat(&text, "\n%10s", plan.sea_unit);
-  for (const S44Order order : kS44Orders) absl::StrAppendFormat(&text, "%11s", std::string(Name(order)));
-  absl::StrAppendFormat(&text, "  limit of %s\n", std::string(Name(plan.order)));
-  for (std::size_t i = 0; i < plan.seas.size(); ++i) {
-    absl::StrAppendFormat(&text, "%10g", plan.seas[i]);
-    for (const S44Order order : kS44Orders) {
-      const Reach& reach = Of(plan.planned[i], order);
-      absl::StrAppendFormat(&text, "%11s", reach.is_known() ? absl::StrFormat("%.2f", reach.depth) : "-");
-    }
-    absl::StrAppend(&text, "  ", LimitName(Of(plan.planned[i], plan.order)), "\n");
-  }
-  absl::StrAppend(&text, "greatest ", sea, " for order ", std::string(Name(plan.order)), ":");
-  for (const double depth : kAskedDepths) {
-    const std::optional<double> greatest = HighestSea(plan, plan.order, depth);
-    absl::StrAppend(&text, depth == kAskedDepths.front() ? " " : ", ",
-                    greatest.has_value() ? absl::StrCat(*greatest, " ", plan.sea_unit) : "none", " to ", depth, " m");
-  }
-  absl::StrAppend(&text, "\n");
-  for (const annotate::StatedNumber& number : plan.numbers)
-    if (number.assumed) absl::StrAppend(&text, "  ", number.name, " ", number.value, " (", number.source, ")\n");
-  return text;
 }
 
 }  // namespace albtpu::quality

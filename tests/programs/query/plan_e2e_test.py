@@ -108,6 +108,19 @@ class Plan(programs.Test):
         self.assertEqual(json.loads(result.stdout)["seas"], [3, 5])
         self.assert_fails(query("plan", "--table", self.table, *DRY, "--winds", 99), 2, "--winds", "nothing is left")
 
+    def test_prints_every_condition(self):
+        flags = (*DRY, "--order", "special", "--winds", "2,6,10", "--altitudes", "300,500", "--incidences", "10,20")
+        text = query("plan", "--table", self.table, *flags, check=0).stdout
+        plan = self.plan(*flags)
+        self.assertGreater(len(plan["seas"]), 1)
+        for axis in plan["axes"]:
+            head = f"order special by {axis['name']} [{axis['unit']}, down] and wind speed [m/s, across]:\n"
+            table = text.partition(head)[2].splitlines()
+            self.assertEqual(table[0].split(), [f"{sea:g}" for sea in plan["seas"]])
+            for line, value, depths in zip(table[1:], axis["values"], axis["depth"]["special"]):
+                self.assertEqual(line.split(), [f"{value:g}", *("-" if depth is None else f"{depth:.2f}"
+                                                                for depth in depths)])
+
     @unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
     def test_draws_a_page(self):
         output = self.folder / "plan"
@@ -130,13 +143,95 @@ class Plan(programs.Test):
                                   ((*DRY, "--altitude", 0), "from 10 to 5000 m"),
                                   ((*DRY, "--kds", 0.1), "--kds has no effect"),
                                   ((*DRY, "--incidence", 60), "no table knows the planned beam"),
-                                  ((*DRY, "--output", ""), "--output"),
-                                  ((*DRY, "--sea", "buoy.txt"), "--hs")):
+                                  ((*DRY, "--output", ""), "--output")):
             self.assert_fails(query("plan", "--table", self.table, *arguments), 2, *parts)
         output = self.folder / "full"
         output.mkdir()
         (output / "mine").touch()
         self.assert_fails(query("plan", "--table", self.table, *DRY, "--output", output), 1, "--overwrite")
+
+
+# Significant heights by time, of which some hours are missing.
+STATES = (("00:00", 0.2), ("01:00", 0.4), ("02:30", 0.8), ("08:00", 1.5), ("09:00", 1.2))
+
+
+def series():
+    """Spectra with a peak at 0.2 Hz, as CSV."""
+    bins = [0.05 * i for i in range(1, 13)]
+    shape = [min(f / 0.2, (0.2 / f)**4) for f in bins]
+    energy = 16 * 0.05 * sum(shape)  # Hs^2 of the shape.
+    rows = [f"2020-06-08T{time}Z,{f:.2f},{each * hs**2 / energy:.6g},0.4,250"
+            for time, hs in STATES for f, each in zip(bins, shape)]
+    return "\n".join(["time,f,E,r2,alpha2", *rows]) + "\n"
+
+
+HOURS = ("--order", "special", "--altitudes", "300,400", "--incidences", "10,20", "--sea-gap", 3)
+
+
+class PlanOfHours(programs.Test):
+    """Of a series of seas: the same count by a call of `pulse` for each hour and depth."""
+
+    def setUp(self):
+        super().setUp()
+        self.sea = self.write("sea.csv", series())
+        self.sensor = self.toml(f"[sea]\nfile = \"{self.sea}\"\nwind_speed = 4\nwind_from = 250\n"
+                                "[sensor]\nname = \"riegl-vq-880-g\"\n[datum]\nsigma = 0.08\n"
+                                "[water]\ncolumn = \"none\"\n")
+
+    def order_met(self, hour, depth, altitude, incidence):
+        pulse = json.loads(query("pulse", "--survey", self.sensor, "--sea-time", f"2020-06-08T{hour:02}:00Z",
+                                 "--surface-located", "local", "--depth", depth, "--altitude", altitude, "--incidence",
+                                 incidence, "--coverage", "p95", "--sea-gap", 3, "--json", check=0).stdout)
+        self.assertEqual(pulse["outcome"], "INTERPOLATED")
+        return pulse["s44_order_met"]
+
+    def test_share_of_hours_is_the_count_of_single_pulses(self):
+        plan = json.loads(query("plan", "--survey", self.sensor, *HOURS, "--json", check=0).stdout)
+        hours = plan["hours"]
+        self.assertEqual((hours["first"], hours["last"]), ("2020-06-08T00:00Z", "2020-06-08T09:00Z"))
+        # The gap from 02:30 to 08:00 is longer than three hours.
+        self.assertEqual((hours["count"], hours["without_sea"]), (5, 5))
+        self.assertEqual(plan["seas"], [])
+        depths = [each["depth"] for each in hours["by_depth"]]
+        altitude = next(axis for axis in plan["axes"] if axis["name"] == "altitude")
+        for row, value in enumerate(altitude["values"]):
+            for column, depth in enumerate(depths[:5]):
+                met = [self.order_met(hour, depth, value, plan["conditions"]["incidence"]) in ORDERS[:2]
+                       for hour in (0, 1, 2, 8, 9)]
+                self.assertAlmostEqual(altitude["share"]["special"][row][column], sum(met) / 5, places=9,
+                                       msg=f"{value} m, {depth} m")
+        # The planned altitude is on the axis.
+        self.assertEqual(altitude["share"]["special"][1], [each["share"]["special"] for each in hours["by_depth"]])
+
+    def test_prints_the_shares_and_that_tides_are_aside(self):
+        text = query("plan", "--survey", self.sensor, *HOURS, check=0).stdout
+        self.assertIn("share of 5 hours from 2020-06-08T00:00Z to 2020-06-08T09:00Z in which each order of S-44 is"
+                      " met, tides aside", text)
+        self.assertIn("5 hours more have no sea", text)
+        self.assertIn("share of hours for order special by incidence [degree, down], down to", text)
+
+    def test_of_one_instant_is_that_of_one_sea(self):
+        plan = json.loads(query("plan", "--survey", self.sensor, *HOURS, "--sea-time", "2020-06-08T01:00Z", "--json",
+                                check=0).stdout)
+        self.assertEqual(len(plan["seas"]), 1)
+        self.assertAlmostEqual(plan["seas"][0], 0.4, delta=0.02)  # By the width of the bins.
+        depth = plan["planned"][0]["depth"]["special"]
+        self.assertGreater(depth, 0.25)
+        self.assertIn(self.order_met(1, depth, 400, 20), ORDERS[:2])
+        self.assertNotIn(self.order_met(1, depth + 0.25, 400, 20), ORDERS[:2])
+
+    def test_draws_a_page_of_hours(self):
+        output = self.folder / "plan"
+        query("plan", "--survey", self.sensor, *HOURS, "--output", output, check=0)
+        page = (output / "plan.html").read_text()
+        self.assertIn("5 hours from 2020-06-08T00:00Z", page)
+        self.assertIn("Tides are not considered", page)
+        self.assertEqual(page.count("<img"), 3)
+
+    def test_refuses_what_has_no_effect(self):
+        for flags in (("--winds", 3), ("--wave-heights", 1)):
+            self.assert_fails(query("plan", "--survey", self.sensor, *flags), 2, "no effect with a file of the sea")
+        self.assert_fails(query("plan", *DRY, "--sea", self.folder / "none.txt"), 1, "none.txt")
 
 
 if __name__ == "__main__":

@@ -51,8 +51,6 @@ Reaches ReachesOver(Sea sea) {
       .value();
 }
 
-const Reach& Of(const Reaches& reaches, S44Order order) { return reaches[static_cast<std::size_t>(order)]; }
-
 // TVU = 0.98 0.05 d meets sqrt(0.25^2 + (0.0075 d)^2) down to 0.25 / sqrt(0.049^2 - 0.0075^2) = 5.163 m.
 TEST(DepthReach, IsWhereTheUncertaintyCrossesTheLimit) {
   const Reaches reaches = ReachesOver({0.05, kEnd});
@@ -102,6 +100,19 @@ TEST(SurveyPlan, SaysHowMuchSeaThereMayBe) {
   EXPECT_EQ(HighestSea(plan, S44Order::k1a, 10), 4);
   EXPECT_EQ(HighestSea(plan, S44Order::k1a, 15), 2);
   EXPECT_EQ(HighestSea(plan, S44Order::k1a, 35), std::nullopt);
+}
+
+TEST(ShareOfHours, CountsTheHoursInWhichADepthIsReached) {
+  std::vector<Reaches> hours(4);
+  const std::pair<double, ReachLimit> of_1a[] = {
+      {3, ReachLimit::kTvu}, {10, ReachLimit::kThu}, {8, ReachLimit::kTable}, {0, ReachLimit::kWater}};
+  for (std::size_t i = 0; i < hours.size(); ++i)
+    hours[i][static_cast<std::size_t>(S44Order::k1a)] = {.depth = of_1a[i].first, .limit = of_1a[i].second};
+  EXPECT_EQ(ShareOfHours(hours, S44Order::k1a, 3).met, 0.75);
+  EXPECT_EQ(ShareOfHours(hours, S44Order::k1a, 3).unknown, 0.25);
+  EXPECT_EQ(ShareOfHours(hours, S44Order::k1a, 9).met, 0.25);
+  EXPECT_EQ(ShareOfHours(hours, S44Order::k1a, 9).unknown, 0.5);
+  EXPECT_EQ(ShareOfHours({}, S44Order::k1a, 1).met, 0);
 }
 
 }  // namespace

@@ -21,11 +21,17 @@ ENDS = {"table": "the table of the sea has no greater depths",
 def write_plan(folder: pathlib.Path) -> None:
     """Makes plan.html in a folder that has plan.json."""
     plan: Plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
-    pictures = "".join([_by_sea(plan), *(_over(plan, axis) for axis in plan["axes"])])
+    if "hours" in plan:
+        answer, table_of_all = _answer_of_hours(plan), _table_of_hours(plan)
+        title = "Share of hours in which each order is met, by depth"
+        pictures = "".join([_by_depth(plan), *(_hours_over(plan, axis) for axis in plan["axes"])])
+    else:
+        answer, table_of_all = _answer(plan), _highest(plan)
+        title = f"Highest {text(_words(plan))} for each depth and order"
+        pictures = "".join([_by_sea(plan), *(_over(plan, axis) for axis in plan["axes"])])
     write_document(folder / "plan.html", "Plan of a survey", (
-        f"<h1>Plan: how deep can S-44 order {text(plan['order'])} be met?</h1>{_answer(plan)}"
-        f"<div class='pictures'>{pictures}</div>"
-        f"<h2>Highest {text(_words(plan))} for each depth and order</h2>{_highest(plan)}"
+        f"<h1>Plan: how deep can S-44 order {text(plan['order'])} be met?</h1>{answer}"
+        f"<div class='pictures'>{pictures}</div><h2>{title}</h2>{table_of_all}"
         f"<h2>Numbers and assumptions</h2>{numbers_table(plan['numbers'])}"))
 
 
@@ -100,3 +106,58 @@ def _highest(plan: Plan) -> str:
             for each in plan["greatest_sea"]]
     note = "<p class='soft'>–: not met, or outside a table.</p>"
     return note + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
+
+
+def _span(plan: Plan) -> str:
+    hours = plan["hours"]
+    return f"{hours['count']} hours from {hours['first']} to {hours['last']}"
+
+
+def _answer_of_hours(plan: Plan) -> str:
+    order, hours = plan["order"], plan["hours"]
+    items = [f"down to {each['depth']:g} m: in {100 * each['share'][order]:.1f} % of the hours"
+             f"{' (in some no table answers so deep)' if each['no_answer'][order] > 0 else ''}"
+             for each in hours["by_depth"]]
+    if hours["without_sea"]:
+        items.append(f"{hours['without_sea']} hours more have no sea, in gaps of its file")
+    met = hours["by_depth"][0]["share"][order] > 0
+    return verdict_box("pass" if met else "fail", f"Order {order} at {_conditions(plan)}, {_span(plan)}", items) + (
+        "<p class='soft'>All contributions to the uncertainty count, at 95 %, and the biases. Tides are not considered,"
+        " nor whether the laser reaches the bottom at these depths.</p>")
+
+
+def _by_depth(plan: Plan) -> str:
+    figure, axes = chart(f"at {_conditions(plan)}", "depth [m]", "share of hours in which the order is met [%]")
+    depths = [each["depth"] for each in plan["hours"]["by_depth"]]
+    for order, colour in zip(ORDERS, COLOURS):
+        shares = [100 * each["share"][order] for each in plan["hours"]["by_depth"]]
+        axes.plot(depths, shares, marker=".", color=colour, linewidth=2.5 if order == plan["order"] else 1.2,
+                  linestyle="--" if order == "1b" else "-", label=order)
+    axes.set_ylim(0, 102)
+    axes.legend(fontsize=8, title="order")
+    return image(figure, "chart: share of hours in which each order is met, by depth")
+
+
+def _hours_over(plan: Plan, axis: dict[str, Any]) -> str:
+    """Shares of the planned order, over depth and another condition."""
+    share = 100 * np.array(axis["share"][plan["order"]], float)
+    name = "Kd at 532 nm" if axis["name"] == "kd" else axis["name"]
+    figure, axes = chart(f"order {plan['order']}: share of hours [%] by {name}", "down to a depth of [m]",
+                         f"{name} [{axis['unit']}]")
+    shown = axes.imshow(share, origin="lower", aspect="auto", cmap="cividis", vmin=0, vmax=100)
+    axes.grid(False)
+    depths = [each["depth"] for each in plan["hours"]["by_depth"]]
+    axes.set_xticks(range(len(depths)), [f"{each:g}" for each in depths], fontsize=7)
+    axes.set_yticks(range(len(axis["values"])), [f"{each:g}" for each in axis["values"]], fontsize=8)
+    for row, values in enumerate(share):
+        for column, value in enumerate(values):
+            axes.annotate(f"{value:.0f}", (column, row), ha="center", va="center", fontsize=6,
+                          color="black" if value > 50 else "white")
+    figure.colorbar(shown, ax=axes, label="share of hours [%]")
+    return image(figure, f"chart: share of hours in which order {plan['order']} is met, by {name}")
+
+
+def _table_of_hours(plan: Plan) -> str:
+    rows = [[f"{each['depth']:g}", *(f"{100 * each['share'][order]:.1f}" for order in ORDERS)]
+            for each in plan["hours"]["by_depth"]]
+    return table(["down to a depth of [m] ↓ order, % of hours →", *ORDERS], rows)
