@@ -111,10 +111,11 @@ DifferenceStatistics StatisticsOf(const std::vector<Difference>& all, std::span<
     of.mean.value += d.difference / n, of.bias += d.bias / n, of.predicted_by_survey += d.survey / n;
     squares += d.difference * d.difference, squares_of_points += d.point_sigma * d.point_sigma;
     squared_z += less_bias * less_bias / variance;
-    of.within_predicted += std::abs(less_bias) <= kNormal95 * std::sqrt(variance) ? 1 / n : 0;
-    of.within_tvu += std::abs(d.difference) <= d.tvu ? 1 / n : 0;
+    of.within_predicted += std::abs(less_bias) <= kNormal95 * std::sqrt(variance) ? 1 : 0;
+    of.within_tvu += std::abs(d.difference) <= d.tvu ? 1 : 0;
     sizes.push_back(std::abs(d.difference));
   }
+  of.within_predicted /= n, of.within_tvu /= n;
   of.percentile95 = PercentileOf(std::move(sizes), 0.95);
   of.rmse_points = std::sqrt(squares_of_points / n);
   double about_mean = 0, about_bias = 0;
