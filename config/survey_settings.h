@@ -13,6 +13,7 @@
 #include "absl/status/statusor.h"
 #include "budget/water/water_contribution.h"
 #include "config/key.h"
+#include "config/project_settings.h"
 #include "config/sea_settings.h"
 #include "config/sensor_channels.h"
 #include "config/sensors/sensor.h"
@@ -76,6 +77,7 @@ struct DatumSettings {                            // [datum]
   std::optional<double> mcu;
   std::optional<std::string> confidence;  // kConfidences, of the mcu
   std::optional<std::string> region;      // Of VDatum, as it is recorded.
+  std::optional<std::string> name;        // Of the points' heights, where the files do not state it.
 
   // m, one standard deviation, by whichever is given.
   std::optional<double> standard_deviation() const;
@@ -106,6 +108,7 @@ struct SurveySettings {
   ExtraSettings extra;
   config::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
   OutputSettings output;
+  ProjectSettings project;
 
   bool wants_total() const { return sensor.name.has_value() || !sensor.channels.empty(); }
   // That of one of the channels alone, as if its sensor were the only one.
@@ -243,7 +246,7 @@ inline constexpr std::array<Key<CalibrationSettings>, 3> kCalibrationKeys = {{
 }};
 // What EGM2008 has on Earth is -107 to 86 m. The regions of VDatum have an mcu of 0.08 to 0.23 m; in centimetres, as
 // the table of cBLUE has them, all are 8 or more.
-inline constexpr std::array<Key<DatumSettings>, 5> kDatumKeys = {{
+inline constexpr std::array<Key<DatumSettings>, 6> kDatumKeys = {{
     {{"sigma", "--datum-sigma", Number{0, 10, "m"}, "",
       "Standard deviation of the vertical datum; 0 for ellipsoidal heights"},
      &DatumSettings::sigma},
@@ -260,6 +263,10 @@ inline constexpr std::array<Key<DatumSettings>, 5> kDatumKeys = {{
     {{"region", "", Text{"the name of a region of VDatum", "NAME"}, "",
       "The region of VDatum that mcu or sigma is of; recorded beside it"},
      &DatumSettings::region},
+    {{"name", "", Text{"the name of a vertical datum", "NAME"}, "by the coordinate system of the files",
+      "The vertical datum of the points' heights, such as NAVD88 (GEOID18), where the files do not state it: reports and "
+      "grids name it"},
+     &DatumSettings::name},
 }};
 // An uncertainty of metres from no known source is no survey.
 inline constexpr std::array<Key<ExtraSettings>, 2> kExtraKeys = {{
@@ -310,6 +317,7 @@ void ForEachSection(const Visit& visit) {
   visit("datum", kDatumKeys, std::mem_fn(&SurveySettings::datum));
   visit("extra", kExtraKeys, std::mem_fn(&SurveySettings::extra));
   visit("output", kOutputKeys, std::mem_fn(&SurveySettings::output));
+  visit("project", kProjectKeys, std::mem_fn(&SurveySettings::project));
 }
 
 // A key by its flag, which must be one of a table, and what puts its value into settings.

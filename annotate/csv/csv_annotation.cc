@@ -111,6 +111,7 @@ class BlockWork {
       for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry][i] = NAN;
     }
     chunk.totals.Add(pulses, answers, totals);
+    chunk.totals.Add(SampleSources(total_->plan, pulses, aircraft.columns, totals));
     return absl::OkStatus();
   }
 

@@ -278,6 +278,7 @@ void LasChunkWork::FindTotals(const Scanner& scanner, Chunk& chunk) const {
   TakeAircraft(*scanner.plan, chunk.beams, chunk.rows, chunk.aircraft);
   ComputeTotals(*scanner.total, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
   chunk.sigmas_assumed += chunk.total.sigmas_assumed;
+  if (!chunk.rows.empty()) chunk.totals.Add(SampleSources(*scanner.total, chunk.pulses, chunk.aircraft, chunk.total));
   std::map<int, TotalSummary> by_line;
   for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     const int line = fields_.PointSourceId(Record(chunk, chunk.chosen[chunk.rows[i]]));

@@ -103,6 +103,12 @@ void TotalSummary::Band::Merge(const Band& other) {
 
 void TotalSummary::Merge(const TotalSummary& other) {
   for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i].Merge(other.bands_[i]);
+  sources_.Merge(other.sources_);
+}
+
+std::string TotalSummary::Medians() const {
+  const Band all = All();
+  return absl::StrFormat("THU %.3f m, TVU %.3f m in the median", all.thu.quantile(0.5), all.tvu.quantile(0.5));
 }
 
 TotalSummary::Band TotalSummary::All() const {
@@ -129,13 +135,15 @@ ordered_json TotalSummary::Band::Json() const {
                         {"datum", share(axis == &Sums::vertical ? datum : 0, whole)},
                         {"extra", share(extra.*axis, whole)}};
   };
+  const auto pulses = static_cast<double>(thu.count());
+  json["variance_horizontal"] = total.horizontal / pulses;  // Means, m^2.
+  json["variance_vertical"] = total.vertical / pulses;
   json["shares_horizontal"] = shares(&Sums::horizontal);
   json["shares_vertical"] = shares(&Sums::vertical);
   for (std::size_t g = 0; g < kErrorGroups; ++g)
     json["groups_horizontal"][std::string(kErrorGroupNames[g])] = share(groups[g].horizontal, total.horizontal);
   for (std::size_t g = 0; g < kErrorGroups; ++g)
     json["groups_vertical"][std::string(kErrorGroupNames[g])] = share(groups[g].vertical, total.vertical);
-  const auto pulses = static_cast<double>(thu.count());
   json["mean_bias_along_beam"] = bias_along_beam / pulses;
   json["mean_bias_vertical"] = bias_vertical / pulses;
   for (const S44Order order : kS44Orders) json["s44_met"][std::string(Name(order))] = Meeting(order);
@@ -148,6 +156,7 @@ ordered_json TotalSummary::Json() const {
   json["pulses"] = all.thu.count();
   if (all.thu.count() == 0) return json;
   json["all"] = all.Json();
+  if (sources_.samples > 0) json["sources"] = sources_.Json();
   ordered_json& bands = json["depth_bands"] = ordered_json::array();
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     if (bands_[i].thu.count() == 0) continue;
@@ -161,26 +170,34 @@ ordered_json TotalSummary::Json() const {
 std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
   const std::string at = CoverageText(coverage);
   const Band all = All();
-  const bool extra = all.extra.vertical > 0;  // A column that is shown where there is something in it.
+  const bool extra = all.extra.vertical > 0 || all.extra.horizontal > 0;  // Shown where there is something in it.
+  // Contributions to the variance in %; the sensor with its trajectory. Nothing of the datum is horizontal.
+  const char* const of_horizontal = extra ? "sensor  sea water extra" : "sensor  sea water";
+  const char* const of_vertical = extra ? "sensor  sea water datum extra" : "sensor  sea water datum";
+  const auto width = [](const char* head) { return static_cast<int>(std::string_view(head).size()); };
   std::string text =
-      absl::StrFormat("\n  %11s %9s %26s %26s %27s%s %12s", "depth", "points", absl::StrCat("total THU, ", at),
-                      absl::StrCat("total TVU, ", at), "vertical variance", extra ? "       " : "",
-                      absl::StrCat("S-44 ", std::string(Name(order))));
-  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s%s %12s", "m", "",
-                                         "median m", "95 % m", "max m", "median m", "95 % m", "max m", "air", "sea",
-                                         "water", "datum", extra ? "  extra" : "", "met"));
+      absl::StrFormat("\n  %9s %9s %17s %17s | %*s | %*s | %13s %8s", "depth", "points", absl::StrCat("THU, ", at),
+                      absl::StrCat("TVU, ", at), width(of_horizontal), "horizontal, %", width(of_vertical),
+                      "vertical, %", "mean bias, m", absl::StrCat("S-44 ", std::string(Name(order))));
+  absl::StrAppendFormat(&text, "\n  %9s %9s %8s %8s %8s %8s | %s | %s | %6s %6s %8s", "m", "", "median m", "95 % m",
+                        "median m", "95 % m", of_horizontal, of_vertical, "along", "up", "met");
+  const auto contributions = [&](const Band& band, double Sums::*axis) {
+    const double whole = band.total.*axis > 0 ? band.total.*axis : 1;
+    const double air = band.air.*axis / whole, sea = band.sea.*axis / whole, water = band.water.*axis / whole;
+    const double added = band.extra.*axis / whole;
+    std::string shares = absl::StrFormat("%6.0f %4.0f %5.0f", 100 * air, 100 * sea, 100 * water);
+    if (axis == &Sums::vertical)
+      absl::StrAppendFormat(&shares, " %5.0f", 100 * std::max(0.0, 1 - air - sea - water - added));
+    if (extra) absl::StrAppendFormat(&shares, " %5.0f", 100 * added);
+    return shares;
+  };
   const auto line = [&](const std::string& name, const Band& band) {
-    const double whole = band.total.vertical > 0 ? band.total.vertical : 1;
-    const double air = band.air.vertical / whole, sea = band.sea.vertical / whole, water = band.water.vertical / whole;
-    const double added = band.extra.vertical / whole;
-    absl::StrAppend(
-        &text,
-        absl::StrFormat(
-            "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %%%s %10.1f %%", name,
-            band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
-            band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea, 100 * water,
-            100 * std::max(0.0, 1 - air - sea - water - added), extra ? absl::StrFormat(" %4.0f %%", 100 * added) : "",
-            100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
+    const auto count = static_cast<double>(band.thu.count());
+    absl::StrAppendFormat(&text, "\n  %9s %9d %8.3f %8.3f %8.3f %8.3f | %s | %s | %+6.3f %+6.3f %6.1f %%", name,
+                          band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.tvu.quantile(0.5),
+                          band.tvu.quantile(0.95), contributions(band, &Sums::horizontal),
+                          contributions(band, &Sums::vertical), band.bias_along_beam / count,
+                          band.bias_vertical / count, 100 * static_cast<double>(band.Meeting(order)) / count);
   };
   for (std::size_t i = 0; i < bands_.size(); ++i)
     if (bands_[i].thu.count() > 0) line(BandText(i), bands_[i]);

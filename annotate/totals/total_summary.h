@@ -11,6 +11,7 @@
 
 #include "annotate/answers/uncertainty_summary.h"
 #include "annotate/totals/pulse_totals.h"
+#include "annotate/totals/source_sums.h"
 
 namespace albtpu::annotate {
 
@@ -38,11 +39,16 @@ class TotalSummary {
   void Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals);
   // One pulse of a batch.
   void Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals, std::size_t i);
+  // What the sources of error contribute to pulses that are added.
+  void Add(const SourceSums& sources) { sources_.Merge(sources); }
   void Merge(const TotalSummary& other);
 
   std::uint64_t count() const;
+  // "THU 0.673 m, TVU 0.222 m in the median": of at least one pulse.
+  std::string Medians() const;
+  std::uint64_t meeting(S44Order order) const { return All().Meeting(order); }
 
-  // A table of depth bands with totals, shares of the vertical variance, and how many meet `order`.
+  // A table of depth bands with totals, contributions to both variances, biases, and how many meet `order`.
   std::string Text(Coverage coverage, S44Order order) const;
   // `depth_bands`, and `all` with the same members: points, thu, tvu, shares, orders.
   nlohmann::ordered_json Json() const;
@@ -77,6 +83,7 @@ class TotalSummary {
   Band All() const;
 
   std::array<Band, kDepthBands> bands_;
+  SourceSums sources_;
 };
 
 // The totals of all dry points in a file or a line, which S-44 does not judge.

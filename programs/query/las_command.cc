@@ -14,6 +14,7 @@
 #include "annotate/totals/plan_total.h"
 #include "programs/query/commands.h"
 #include "programs/query/first_contact.h"
+#include "programs/query/las_folder.h"
 #include "programs/query/las_options.h"
 #include "status/status_macros.h"
 
@@ -31,6 +32,13 @@ std::string ClassHint(const annotate::Job& job, const annotate::AnnotatedLas& an
                       "the file has ", annotated.classes.Text(),
                       annotated.withheld > 0 ? absl::StrCat("; ", annotated.withheld, " of them are withheld") : "",
                       "); name its bathymetric classes with --classes");
+}
+
+// What the surveyor calls it, for reports. It decides no number, so that it is none of the parameters of a run.
+void AddNames(const config::SurveySettings& settings, nlohmann::ordered_json& input) {
+  if (settings.datum.name.has_value()) input["vertical_datum"] = *settings.datum.name;
+  if (nlohmann::ordered_json project = ProjectJson(settings.project); !project.empty())
+    input["project"] = std::move(project);
 }
 
 nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
@@ -101,10 +109,16 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
 
 class LasFiles {
  public:
-  // `many`: files of a folder, of which some may be dry land.
-  LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation, std::optional<formats::LasKind> kind,
-           const annotate::AnswerSource& source, bool many)
-      : options_(options), annotation_(annotation), kind_(kind), source_(source), many_(many) {}
+  // `settings` must outlive it.
+  LasFiles(const LasOptions& options, const config::SurveySettings& settings, const annotate::LasAnnotation& annotation,
+           std::optional<formats::LasKind> kind, const annotate::AnswerSource& source, std::size_t files)
+      : options_(options),
+        settings_(settings),
+        annotation_(annotation),
+        kind_(kind),
+        source_(source),
+        many_(!options.files.output_folder.empty() || files > 1),
+        together_(files > 1 && annotation.total.has_value() && annotation.channels.empty()) {}
 
   absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job, annotate::FileProgress& progress) {
     const bool alone = IsCsvAlone(options_);
@@ -125,23 +139,41 @@ class LasFiles {
       NoteResolution(annotated.point_format);
     points_ += points;
     numbered_ += bathymetric + annotated.dry.count();
+    nlohmann::ordered_json input = InputJson(annotated);
+    AddNames(settings_, input);
+    if (together_) folder_.Add(job.output.filename().string(), annotated);
+    const std::string text =
+        together_ ? LasFolder::LineOf(annotated, annotation_.style.s44_order.value_or(S44Order::k1b))
+                  : absl::StrCat("\n  ", points,
+                                 " points; bathymetric: ", AnswersText(annotation_, annotated, source_.table()),
+                                 NotesText(annotated));
     return annotate::AnnotatedFile{
         std::move(annotated.file),
         annotate::Findings{.input_bytes = annotated.input_bytes,
                            .csv_bytes = csv_bytes,
-                           .input = annotate::JsonBox(InputJson(annotated)),
+                           .input = annotate::JsonBox(std::move(input)),
                            .output = annotate::JsonBox(nlohmann::ordered_json{{"format", format}}),
                            .answers = annotate::JsonBox(AnswersJson(annotation_, annotated)),
                            .tally = annotated.summary.Tally()},
-        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, annotated, source_.table()),
-                     absl::StrJoin(annotated.notes, "",
-                                   [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); })),
-        std::move(annotated.csv)};
+        text, std::move(annotated.csv)};
   }
 
   bool found_none() const { return points_ > 0 && numbered_ == 0; }
 
+  // What several files have together, once.
+  void NoteTogether() const {
+    if (folder_.files() == 0) return;
+    const S44Order order = annotation_.style.s44_order.value_or(S44Order::k1b);
+    annotate::Note("all files:", folder_.Text(annotation_.style.coverage, order, AssumedOf(annotation_)));
+  }
+
  private:
+  static std::string NotesText(const annotate::AnnotatedLas& annotated) {
+    std::string text;
+    for (const std::string& note : annotated.notes) absl::StrAppend(&text, "\n  ", note);
+    return text;
+  }
+
   // Once for all files, which mostly have the same point format.
   void NoteResolution(int point_format) {
     if (point_format >= formats::kFirstModernFormat || resolution_noted_) return;
@@ -151,10 +183,13 @@ class LasFiles {
   }
 
   const LasOptions& options_;
+  const config::SurveySettings& settings_;
   const annotate::LasAnnotation& annotation_;
   std::optional<formats::LasKind> kind_;  // Of the outputs.
   annotate::AnswerSource source_;
-  bool many_;
+  bool many_;      // Files of a folder, of which some may be dry land.
+  bool together_;  // One table for all of them.
+  LasFolder folder_;
   bool resolution_noted_ = false;
   std::uint64_t points_ = 0, numbered_ = 0;
 };
@@ -214,7 +249,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
     for (annotate::LasChannel& channel : annotation.channels) channel.total.wave_height = annotation.total->wave_height;
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
-  LasFiles files(options, annotation, kind, source, !options.files.output_folder.empty() || jobs.size() > 1);
+  LasFiles files(options, settings, annotation, kind, source, jobs.size());
   std::vector<std::string> read = annotate::FilesOf(annotation.plan);
   if (sea.file.has_value()) read.push_back(*sea.file);
   if (options.flags.survey.has_value()) read.push_back(*options.flags.survey);
@@ -233,6 +268,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
                        annotate::FileProgress& progress) { return files.Annotate(job, progress); },
        .cause = ContextOf(annotation.plan, source.table())},
       source.table());
+  files.NoteTogether();
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_none())
     return absl::FailedPreconditionError("no file has a point of the bathymetric classes; name them with --classes");

@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -41,12 +44,23 @@ absl::Status RunCrossCheck(const CrossCheckOptions& options) {
 }
 
 struct ReportCommandOptions {
-  std::string annotated, output, s44_order, specification, wanted_class;
+  std::string annotated, output, s44_order, specification, wanted_class, survey, surface;
   double cell = 1, patch = quality::kDefaultPatch, pass_share = quality::kDefaultPassShare;
   quality::CheckPointErrors check_points;
   bool no_page = false, resume = false;
   Existing existing = Existing::kKeep;
 };
+
+// surface.json of a folder.
+absl::StatusOr<annotate::JsonBox> SurfaceOf(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder) / "surface.json";
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (json.is_object()) return annotate::JsonBox(std::move(json));
+  return absl::NotFoundError(
+      absl::StrCat("--surface: ", path.string(), " cannot be read; give the folder that albtpu-query surface wrote"));
+}
 
 // All installed specifications, a specification from a file of the user, and the required class.
 absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags) {
@@ -57,6 +71,15 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                  .pass_share = flags.pass_share,
                                  .patch = flags.patch,
                                  .check_points = flags.check_points};
+  if (!flags.survey.empty()) {
+    ASSIGN_OR_RETURN(const config::SurveySettings survey, config::ReadSurvey(flags.survey));
+    const nlohmann::ordered_json project = ProjectJson(survey.project);
+    for (const auto& [key, text] : project.items()) options.project.emplace_back(key, text.get<std::string>());
+    options.vertical_datum = survey.datum.name.value_or("");
+  }
+  if (!flags.surface.empty()) {
+    ASSIGN_OR_RETURN(options.surface, SurfaceOf(flags.surface));
+  }
   ASSIGN_OR_RETURN(options.specifications, quality::ListSpecifications());
   if (!flags.specification.empty()) {
     ASSIGN_OR_RETURN(quality::Specification wanted, quality::FindSpecification(flags.specification));
@@ -162,6 +185,15 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   command->add_option("--patch", options->patch, "Side of the patches in which overlapping lines are compared [m]")
       ->check(NumberIn(0.5, 100, "m"))
       ->capture_default_str();
+  command
+      ->add_option("--survey", options->survey,
+                   "Survey file whose [project] and [datum] name stand in place of those of the annotation")
+      ->type_name("FILE.toml")
+      ->check(NotEmpty("file"));
+  command
+      ->add_option("--surface", options->surface,
+                   "Folder that albtpu-query surface wrote of the same files: the verdict of its nodes, too")
+      ->check(NotEmpty("folder"));
   command->add_flag("--no-page", options->no_page, "Only report.json and grid.nc, which need no Python");
   command->add_flag("--resume", options->resume, "Do nothing if the folder has the report of these files already");
   command->add_flag_callback(
@@ -169,6 +201,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   Group(*command, "What was asked for",
         {"--s44-order", "--spec", "--class", "--pass", "--check-points-horizontal", "--check-points-vertical"});
   Group(*command, "How points are gathered", {"--cell", "--patch"});
+  Group(*command, "What is reported beside", {"--survey", "--surface"});
   Group(*command, "Output", {"--output", "--no-page", "--resume", "--overwrite"});
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"

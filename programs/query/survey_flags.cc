@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -126,6 +127,16 @@ absl::StatusOr<SurveySettings> SettingsOf(const SurveyFlags& flags) {
   SurveySettings settings = Merge(given, *std::move(file));
   RETURN_IF_ERROR(CheckSea(settings.sea));
   return settings;
+}
+
+nlohmann::ordered_json ProjectJson(const config::ProjectSettings& project) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& key : config::kProjectKeys) {
+    const std::optional<std::string>& text =
+        project.*std::get<std::optional<std::string> config::ProjectSettings::*>(key.member);
+    if (text.has_value()) json[std::string(key.declaration.key)] = *text;
+  }
+  return json;
 }
 
 absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& settings) {

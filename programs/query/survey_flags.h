@@ -3,6 +3,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,9 @@ inline constexpr std::array<std::string_view, 5> kRareSeaFlags = {"--gamma", "--
 
 // What flags and survey file give together. Fails where what they say of the sea contradicts itself or has no effect.
 absl::StatusOr<config::SurveySettings> SettingsOf(const SurveyFlags& flags);
+
+// [project] by its keys, without those that are not given.
+nlohmann::ordered_json ProjectJson(const config::ProjectSettings& project);
 
 // UsageError where a flag or [sigma] needs a sensor, and none is named.
 absl::Status CheckTotalFlags(const SurveyFlags& flags, const config::SurveySettings& settings);

@@ -144,6 +144,9 @@ absl::Status AnnotatedLasFile::FindCrs() {
       crs_name_ = "not understood";
     }
   }
+  if (const Json named = (*summary_)["input"].value("vertical_datum", Json());
+      vertical_name_.empty() && named.is_string())
+    vertical_name_ = named.get<std::string>();
   // --units is that of heights. Without a coordinate system, x and y are in it, too.
   if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number())
     metres_per_height_unit_ = unit.get<double>();

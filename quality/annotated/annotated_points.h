@@ -85,7 +85,7 @@ class AnnotatedLasFile {
   std::string table_digest() const;
   const std::string& crs_name() const { return crs_name_; }  // "not stated" if the file states none.
   const std::string& crs_wkt() const { return crs_wkt_; }
-  // Of the heights in metres; empty if the file does not state their datum.
+  // Of the heights in metres; where the file does not state their datum, the name that the surveyor gave, or empty.
   const std::string& vertical_name() const { return vertical_name_; }
   const std::string& vertical_wkt() const { return vertical_wkt_; }
   bool has_dates() const;  // Whether times are GPS seconds - 1e9, as the header says.

@@ -27,7 +27,10 @@ float ShareOf(const GridCell& cell) {
 }
 
 constexpr std::array kLayers = {
-    Layer{"depth", "mean depth of the bottom below the water surface", "m", [](const GridCell& c) { return c.depth; }},
+    Layer{"elevation", "mean elevation of the bottom in the vertical datum of the files", "m",
+          [](const GridCell& c) { return c.elevation; }},
+    Layer{"depth", "mean depth of the bottom below the water surface at the time of the flight", "m",
+          [](const GridCell& c) { return c.depth; }},
     Layer{"thu", "mean total horizontal uncertainty", "m", [](const GridCell& c) { return c.thu; }},
     Layer{"tvu", "mean total vertical uncertainty", "m", [](const GridCell& c) { return c.tvu; }},
     Layer{"share_air", "share of the air side in the vertical variance", "1", ShareOf<0>},
@@ -52,15 +55,17 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
                    .cell = grid.cell(),
                    .crs_name = facts.crs_name,
                    .crs_wkt = facts.crs_wkt,
-                   .vertical_name = {},
-                   .vertical_wkt = {},
+                   .vertical_name = facts.vertical_name,
+                   .vertical_wkt = facts.vertical_wkt,
                    .metres_per_unit = facts.metres_per_unit},
                   SurveyGrid::kTile, "Depth and total propagated uncertainty of a survey by airborne lidar bathymetry");
   file.Text(NC_GLOBAL, "coverage", annotate::CoverageName(facts.coverage));
   std::array<int, kLayers.size()> layers = {};
   for (std::size_t k = 0; k < kLayers.size(); ++k)
     layers[k] = file.Floats(kLayers[k].name, kLayers[k].long_name, kLayers[k].unit);
-  for (const std::size_t k : {1, 2}) file.Text(layers[k], "coverage", annotate::CoverageText(facts.coverage));
+  for (const std::size_t k : {2, 3}) file.Text(layers[k], "coverage", annotate::CoverageText(facts.coverage));
+  file.Text(layers[0], "vertical_datum", facts.vertical_name.empty() ? "not stated" : facts.vertical_name);
+  file.Text(layers[1], "vertical_datum", "water surface at the time of the flight");
   const int points = file.Counts("points", "points of the bottom");
   const int without = file.Counts("points_without_number", "points of the bottom without an uncertainty");
   const int order = file.Codes("order_met", "order of IHO S-44 that every point with a number meets", 6,

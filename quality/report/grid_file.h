@@ -12,13 +12,14 @@ namespace albtpu::quality {
 
 struct GridFileFacts {
   Coverage coverage = Coverage::kTwoSigma;
-  std::string crs_name, crs_wkt;  // The second is empty if it is not known.
+  std::string crs_name, crs_wkt;            // The second is empty if it is not known.
+  std::string vertical_name, vertical_wkt;  // Of elevations; empty if not stated.
   double metres_per_unit = 1;
 };
 
 // Writes `grid`, which has points, to `path`, which must be new. Rows begin in the north. Variables of (y, x):
 //
-//   depth thu tvu                               float, m, means of the points with a number
+//   elevation depth thu tvu                     float, m, means of the points with a number
 //   share_air share_sea share_water share_datum share_extra float, of the vertical variance, 0 to 1
 //   points points_without_number                int
 //   order_met                                   byte, S-44: the least strict order among the best ones of the points

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -58,10 +59,86 @@ std::string OverlapText(const nlohmann::ordered_json& check) {
   if (const auto& lines = check["lines"]; !lines.empty()) {
     const auto worst = std::ranges::max_element(
         lines, {}, [](const nlohmann::ordered_json& line) { return std::abs(line["z"].get<double>()); });
-    absl::StrAppendFormat(&text, "; worst difference of two lines %.3f m, %.1f sigma",
+    double sum = 0;
+    for (const auto& line : lines) sum += std::abs(line["mean_difference"].get<double>());
+    absl::StrAppendFormat(&text, "; two lines differ by %.3f m in the mean, at worst %s and %s by %.3f m, %.1f sigma",
+                          sum / static_cast<double>(lines.size()), (*worst)["a"].dump(), (*worst)["b"].dump(),
                           std::abs((*worst)["mean_difference"].get<double>()), std::abs((*worst)["z"].get<double>()));
   }
   return text + ")\n";
+}
+
+std::string Percent(double fraction) { return absl::StrFormat("%.1f %%", 100 * fraction); }
+
+// What is equally large beside the verdict: density and voids, what was assumed, datum, what a class also asks.
+std::string BesideText(const Json& report) {
+  std::string text;
+  const Json &wanted = report["wanted"], &bottom = report["bottom"], &assumed = report["assumed"];
+  if (const Json& factor = wanted["with_factor"]; !factor.is_null())
+    absl::StrAppendFormat(&text, "  with the factor of the overlap (%.2f) applied to every sigma: %s\n",
+                          factor["factor"].get<double>(), Percent(factor["fraction"].get<double>()));
+  if (const Json& nodes = wanted["nodes"]; !nodes.is_null())
+    absl::StrAppendFormat(&text, "  of the surface: %s of %d nodes of %g m\n", Percent(nodes["fraction"].get<double>()),
+                          nodes["nodes"].get<std::uint64_t>(), nodes["cell"].get<double>());
+  absl::StrAppendFormat(&text,
+                        "  bottom: %.2f points in a m2 (spacing %.2f m); %s of the surveyed cells of %g m have none",
+                        bottom["points_per_square_metre"].get<double>(), bottom["spacing"].get<double>(),
+                        Percent(bottom["empty_share"].get<double>()), bottom["cell"].get<double>());
+  if (const Json& largest = bottom["largest_void"]; !largest.is_null())
+    absl::StrAppendFormat(&text, "; the largest void has %.0f m2 at %.1f, %.1f; %d have %.1f m2 or more",
+                          largest["area"].get<double>(), largest["x"].get<double>(), largest["y"].get<double>(),
+                          bottom["large_voids"].get<std::uint64_t>(), bottom["large_void_area"].get<double>());
+  absl::StrAppend(&text, "\n  ");
+  if (assumed.is_null())
+    absl::StrAppend(&text,
+                    "how much of the variance rests on assumed numbers is not known: an earlier version annotated");
+  else
+    absl::StrAppendFormat(&text, "assumed numbers: %s of the horizontal and %s of the vertical variance",
+                          Percent(assumed["horizontal"].get<double>()), Percent(assumed["vertical"].get<double>()));
+  const Json& datum = report["vertical_datum"];
+  absl::StrAppend(&text, "\n  elevations: ",
+                  datum.is_null() ? "vertical datum not stated; give [datum] name" : datum.get<std::string>(),
+                  "; depths: below the water surface at the time of the flight\n");
+  return text;
+}
+
+// By depth: both contributions and both biases.
+std::string ContributionsText(const Json& contributions) {
+  if (contributions.is_null()) return "";
+  bool extra = false;
+  for (const Json& band : contributions) {
+    for (const char* const axis : {"sigma_horizontal", "sigma_vertical"})
+      extra = extra || band[axis]["extra"].get<double>() > 0;
+  }
+  std::string text = absl::StrFormat("  %9s %9s | %-*s | %-*s | %s\n", "depth", "points", extra ? 30 : 23,
+                                     "horizontal, m, 1 sigma", extra ? 37 : 30, "vertical, m, 1 sigma", "mean bias, m");
+  absl::StrAppendFormat(&text,
+                        "  %9s %9s | sensor   sea water%s  total | sensor   sea water datum%s  total | along     up\n",
+                        "m", "", extra ? "  extra" : "", extra ? "  extra" : "");
+  for (const Json& band : contributions) {
+    const std::string to = band["to"].is_number() ? absl::StrFormat("%g", band["to"].get<double>()) : "";
+    absl::StrAppendFormat(&text, "  %9s %9.0f", absl::StrFormat("%g - %s", band["from"].get<double>(), to),
+                          band["points"].get<double>());
+    for (const char* const axis : {"sigma_horizontal", "sigma_vertical"}) {
+      const Json& sigma = band[axis];
+      const auto of = [&](const char* name) { return sigma[name].get<double>(); };
+      absl::StrAppendFormat(&text, " |  %5.3f %5.3f %5.3f", of("air"), of("sea"), of("water"));
+      if (std::string_view(axis) == "sigma_vertical") absl::StrAppendFormat(&text, " %5.3f", of("datum"));
+      if (extra) absl::StrAppendFormat(&text, "  %5.3f", of("extra"));
+      absl::StrAppendFormat(&text, "  %5.3f", of("total"));
+    }
+    absl::StrAppendFormat(&text, " | %+6.3f %+6.3f\n", band["bias_along_beam"].get<double>(),
+                          band["bias_vertical"].get<double>());
+  }
+  return text;
+}
+
+// What the wanted class also asks; empty if nothing is known.
+std::string AlsoOf(const Json& report) {
+  for (const Json& specification : report["specifications"])
+    for (const Json& of : specification["classes"])
+      if (of["index"] == report["wanted"]["index"] && of["also"].is_string()) return of["also"].get<std::string>();
+  return "";
 }
 
 }  // namespace
@@ -128,8 +205,10 @@ std::string ReportText(const nlohmann::ordered_json& report) {
     std::vector<std::string> why;
     for (const auto& [outcome, count] : wanted["without_number"].items())
       why.push_back(absl::StrCat(count.get<std::uint64_t>(), " ", outcome));
-    absl::StrAppend(&text, "  ", points - numbers, " points have no number (", absl::StrJoin(why, ", "), ")\n");
+    absl::StrAppend(&text, "  ", points - numbers, " points: uncertainty not computed (", absl::StrJoin(why, ", "),
+                    ")\n");
   }
+  absl::StrAppend(&text, BesideText(report));
   if (report.contains("left_out")) {
     const auto& left_out = report["left_out"];
     absl::StrAppend(&text, "  ",
@@ -147,12 +226,16 @@ std::string ReportText(const nlohmann::ordered_json& report) {
                           land["rmse_vertical"].get<double>(), met);
   }
   const auto& check = report["crosscheck"];
-  if (check.is_null()) {
-    return absl::StrCat(text, "  ", report["nothing_to_compare"].get<std::string>(),
-                        ", so that the files cannot show whether the prediction is true\n");
-  }
-  absl::StrAppend(&text, "  ", OverlapText(check));
-  return absl::StrCat(text, "  not tested by these files: coverage, features, errors that all lines share\n");
+  if (check.is_null())
+    absl::StrAppend(&text, "  ", report["nothing_to_compare"].get<std::string>(),
+                    ", so that the files cannot show whether the prediction is true\n");
+  else
+    absl::StrAppend(&text, "  ", OverlapText(check));
+  const std::string also = AlsoOf(report);
+  absl::StrAppend(&text, "  not tested by these files: ",
+                  also.empty() ? "coverage, features" : absl::StrCat("what the class also asks (", also, ")"),
+                  ", errors that all lines share\n");
+  return text + ContributionsText(report["contributions"]);
 }
 
 }  // namespace albtpu::quality

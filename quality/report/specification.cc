@@ -53,6 +53,7 @@ SpecificationClass ReadClass(TomlKeys& keys) {
   if (coverage == "1sigma") read.coverage = Coverage::kOneSigma;
   read.horizontal = ReadLimit(keys, "horizontal");
   read.vertical = ReadLimit(keys, "vertical");
+  read.also = keys.Text("also", "what the class asks beside its limits").value_or("");
   keys.Finish();
   if (!keys.Has("name")) keys.Fail("name is missing; give the name of the class");
   if (!keys.Has("coverage")) keys.Fail("coverage is missing; give that of the limits, \"p95\" or \"1sigma\"");

@@ -27,6 +27,7 @@ struct SpecificationClass {
   std::string name;
   Coverage coverage = Coverage::kP95;  // Of the limits.
   std::optional<Limit> horizontal = {}, vertical = {};
+  std::string also = {};  // What it asks beside these, in words; may be empty.
 };
 
 struct Specification {
@@ -53,6 +54,7 @@ nlohmann::ordered_json LimitsJson(const Specification& specification);
 //     coverage = "p95"                                                     # or "1sigma", "2sigma"
 //     horizontal = {constant = 2}                                          # m
 //     vertical = {constant = 0.25, of_depth = 0.0075, combined = "rss"}    # or "sum"
+//     also = "bathymetric coverage 100 %"                                  # may be left out
 absl::StatusOr<Specification> ParseSpecification(std::string_view text);
 
 // The value of the environment variable `ALBTPU_SPECIFICATIONS`; if it is empty or not set,

@@ -48,6 +48,21 @@ std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
   return met;
 }
 
+double ClassJudge::Margin(const AnnotatedPoint& point, std::size_t c) const {
+  const SpecificationClass& limits = classes_[c];
+  double margin = std::numeric_limits<double>::infinity();
+  const auto take = [&](const std::optional<Limit>& limit, double uncertainty, float bias) {
+    if (!limit.has_value()) return;
+    const double left = limit->At(point.depth) - std::abs(bias);
+    if (left < 0) margin = 0;
+    if (uncertainty > 0) margin = std::min(margin, std::max(left, 0.0) / uncertainty);
+  };
+  const HorizontalRadius horizontal(point.variance_x, point.variance_y, point.covariance_xy);
+  take(limits.horizontal, horizontal.At(limits.coverage), point.bias_along_beam);
+  take(limits.vertical, VerticalFactor(limits.coverage) * std::sqrt(point.variance_z), point.bias_vertical);
+  return margin;
+}
+
 std::array<double, kVerticalShareNames.size()> VerticalShares(const AnnotatedPoint& point, Coverage coverage) {
   const auto variance = [factor = VerticalFactor(coverage)](float tvu) { return std::pow(tvu / factor, 2); };
   const double air = variance(point.tvu_air), sea = variance(point.tvu_sea), water = variance(point.tvu_water);
@@ -65,7 +80,11 @@ void PointTally::Add(const AnnotatedPoint& point, std::uint64_t met, Coverage co
   const double factor = VerticalFactor(coverage);
   pulse_ += std::pow(point.tvu_pulse / factor, 2);
   line_ += std::pow(point.tvu_line / factor, 2);
+  bias_along_beam_ += point.bias_along_beam;
   bias_vertical_ += point.bias_vertical;
+  elevation_ += point.z;
+  lowest_ = std::min(lowest_, point.z);
+  highest_ = std::max(highest_, point.z);
   for (std::size_t i = 0; met >> i != 0; ++i) {
     met_[i] += met >> i & 1;
     if (i + 1 == ClassJudge::kMaxClasses) break;
@@ -79,7 +98,11 @@ void PointTally::Merge(const PointTally& other) {
   for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] += other.shares_[i];
   pulse_ += other.pulse_;
   line_ += other.line_;
+  bias_along_beam_ += other.bias_along_beam_;
   bias_vertical_ += other.bias_vertical_;
+  elevation_ += other.elevation_;
+  lowest_ = std::min(lowest_, other.lowest_);
+  highest_ = std::max(highest_, other.highest_);
   for (std::size_t i = 0; i < met_.size(); ++i) met_[i] += other.met_[i];
 }
 
@@ -88,7 +111,10 @@ ordered_json PointTally::Json(std::size_t classes) const {
   if (with_number() > 0) {
     json["thu"] = SpreadJson(thu_);
     json["tvu"] = SpreadJson(tvu_);
-    json["bias_vertical"] = bias_vertical_ / static_cast<double>(with_number());
+    const auto count = static_cast<double>(with_number());
+    json["bias_along_beam"] = bias_along_beam_ / count;
+    json["bias_vertical"] = bias_vertical_ / count;
+    json["elevation"] = {{"mean", elevation_ / count}, {"least", lowest_}, {"greatest", highest_}};
     double total = 0;
     for (const double share : shares_) total += share;
     for (std::size_t i = 0; i < shares_.size(); ++i)
@@ -167,6 +193,7 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   const auto take = [count = static_cast<double>(cell.with_number)](double value, float& mean) {
     mean += static_cast<float>((value - mean) / count);
   };
+  take(point.z, cell.elevation);
   take(point.depth, cell.depth);
   take(point.thu, cell.thu);
   take(point.tvu, cell.tvu);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <unordered_map>
@@ -33,6 +34,10 @@ class ClassJudge {
   // 100:2008, F.2.4.5. None without a number.
   std::uint64_t Met(const AnnotatedPoint& point) const;
 
+  // By which factor all standard deviations of a point may be multiplied until it is at the first limit of class c; 0
+  // where its bias alone is beyond one. `point` has a number.
+  double Margin(const AnnotatedPoint& point, std::size_t c) const;
+
  private:
   std::vector<SpecificationClass> classes_;
 };
@@ -54,15 +59,18 @@ class PointTally {
   std::uint64_t with_number() const { return thu_.count(); }
   std::uint64_t meeting(std::size_t of_class) const { return met_[of_class]; }
 
-  // points, with_number; if there are any with a number thu, tvu (mean, median, p95, greatest), bias_vertical (mean),
-  // shares_vertical and groups_vertical (fractions); meeting (of `classes` classes).
+  // points, with_number; if there are any with a number thu, tvu (mean, median, p95, greatest), bias_along_beam and
+  // bias_vertical (means), elevation (mean, least, greatest), shares_vertical and groups_vertical (fractions); meeting
+  // (of `classes` classes).
   nlohmann::ordered_json Json(std::size_t classes) const;
 
  private:
   std::uint64_t points_ = 0;
   annotate::LengthSpread thu_, tvu_;
-  std::array<double, kVerticalShareNames.size()> shares_ = {};  // Sums, m^2.
-  double pulse_ = 0, line_ = 0, bias_vertical_ = 0;             // Sums, m^2 and m.
+  std::array<double, kVerticalShareNames.size()> shares_ = {};                                    // Sums, m^2.
+  double pulse_ = 0, line_ = 0;                                                                   // Sums, m^2.
+  double bias_along_beam_ = 0, bias_vertical_ = 0;                                                // Sums, m.
+  double elevation_ = 0, lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;  // m
   std::array<std::uint64_t, ClassJudge::kMaxClasses> met_ = {};
 };
 
@@ -80,17 +88,17 @@ class DepthTallies {
   std::vector<PointTally> bins_ = std::vector<PointTally>(kBins);
 };
 
-// The points of a cell, and means over those with a number. 40 bytes: a survey has tens of millions of cells.
+// The points of a cell, and means over those with a number. 44 bytes: a survey has tens of millions of cells.
 struct GridCell {
   std::uint32_t gap : 3 = 0;  // The most severe Gap of its points.
   std::uint32_t points : 29 = 0;
   // The least strict best order of a point: 1 to 5 (kS44Orders), 6: a point meets none; 0 without a number.
   std::uint32_t worst_order : 3 = 0;
   std::uint32_t with_number : 29 = 0;
-  float depth = 0, thu = 0, tvu = 0;                          // m
+  float elevation = 0, depth = 0, thu = 0, tvu = 0;           // m
   std::array<float, kVerticalShareNames.size()> shares = {};  // m^2, of the vertical variance.
 };
-static_assert(sizeof(GridCell) == 40);
+static_assert(sizeof(GridCell) == 44);
 
 class SurveyGrid {
  public:

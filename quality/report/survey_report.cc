@@ -7,6 +7,12 @@
 #include <utility>
 
 #include "annotate/answers/batch.h"
+#include "formats/trajectories/trajectory_time.h"
+#include "quality/report/bottom_coverage.h"
+#include "quality/report/limit_margins.h"
+#include "quality/report/line_path.h"
+#include "quality/report/stated_by_files.h"
+#include "quality/report/surface_nodes.h"
 #include "status/status_macros.h"
 #include "tables/s44.h"
 #include "tables/version.h"
@@ -18,6 +24,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTvuStep = 0.002, kThuStep = 0.01;  // m, of the histograms.
 constexpr std::size_t kSteps = 1000;                 // The last has all that is greater.
+
+constexpr double kReportAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
+constexpr double kLastDate = 9e10;         // s, of which a date can be told.
 
 const std::vector<int>& BandEnds() {
   static const std::vector<int> ends = {1, 2, 5, 10, 15, 20, 30, 50};
@@ -81,6 +90,7 @@ class Reporter {
         classes_(ClassCount(options.specifications)),
         first_(files.front()),
         grid_(options.cell / first_.metres_per_unit(), first_.coverage()),
+        land_cells_(options.cell / first_.metres_per_unit()),
         patches_(options.patch, first_.metres_per_unit(), first_.coverage()) {}
 
   absl::StatusOr<SurveyReport> Make() {
@@ -91,19 +101,26 @@ class Reporter {
       ASSIGN_OR_RETURN(const LeftOutPoints left_out,
                        file.ForEach(
                            progress, [&](std::span<const AnnotatedPoint> points) { Add(points, of_file); },
-                           [&](const DryPoint& point) { land_.Add(point); }));
+                           [&](const DryPoint& point) {
+                             land_.Add(point);
+                             land_cells_.Add(point);
+                           }));
       left_out_.Add(left_out);
       RETURN_IF_ERROR(grid_.status());
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
+    RETURN_IF_ERROR(CheckSurface(*options_.surface, all_.with_number()));
+    const BottomCoverage coverage = BottomCoverage::Of(grid_, land_cells_, first_.metres_per_unit());
     ASSIGN_OR_RETURN(const FileSeas seas, SeasOf(files_, nullptr));
     RETURN_IF_ERROR(FillPatches(files_, seas, patches_));
     const std::optional<CrossCheck> check = CheckPatches(patches_, seas.waves);
-    return SurveyReport{.json = annotate::JsonBox(ToJson(check)),
+    return SurveyReport{.json = annotate::JsonBox(ToJson(check, coverage)),
                         .grid = std::move(grid_),
                         .facts = {.coverage = first_.coverage(),
                                   .crs_name = first_.crs_name(),
                                   .crs_wkt = first_.crs_wkt(),
+                                  .vertical_name = VerticalName(),
+                                  .vertical_wkt = first_.vertical_wkt(),
                                   .metres_per_unit = first_.metres_per_unit()}};
   }
 
@@ -117,11 +134,13 @@ class Reporter {
       of_file.first_time = std::min(of_file.first_time, point.time);
       of_file.last_time = std::max(of_file.last_time, point.time);
       lines_[point.line].Add(point, met, coverage);
+      paths_[point.line].Add(point);
       grid_.Add(point, orders_.Best(met));
       if (!point.has_number) continue;
       depths_.Add(point, met, coverage);
       tvu_.Add(point.tvu);
       thu_.Add(point.thu);
+      margins_.Add(judge_.Margin(point, wanted_.index));
       if ((met >> wanted_.index & 1) == 0) AddFailing(point);
     }
     patches_.Find(points);
@@ -134,21 +153,42 @@ class Reporter {
     ++failing_.largest[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
   }
 
-  // Outcomes of the points that have no number, from the summaries.
-  Json WithoutNumber() const {
-    std::map<std::string, std::uint64_t> counts;
-    for (const AnnotatedLasFile& file : files_) {
-      for (const auto& [outcome, count] : file.summary()["answers"]["outcomes"].items())
-        if (outcome != "INTERPOLATED" && count.is_number_unsigned()) counts[outcome] += count.get<std::uint64_t>();
+  // The files state it or the surveyor does.
+  std::string VerticalName() const {
+    for (const AnnotatedLasFile& file : files_)
+      if (!file.vertical_wkt().empty()) return file.vertical_name();
+    return options_.vertical_datum.empty() ? first_.vertical_name() : options_.vertical_datum;
+  }
+
+  // The verdict if the overlap's factor were applied to all standard deviations; null where it is not known.
+  Json WithFactorJson(const std::optional<CrossCheck>& check) const {
+    if (!check.has_value() || !(check->factor.value > 0) || !std::isfinite(check->factor.value)) return nullptr;
+    const std::uint64_t meeting = margins_.Within(check->factor.value);
+    const double fraction = static_cast<double>(meeting) / static_cast<double>(all_.points());
+    return {{"factor", check->factor.value},
+            {"meeting", meeting},
+            {"fraction", fraction},
+            {"passes", 100 * fraction >= options_.pass_share}};
+  }
+
+  // When the points were measured; null where their times have no dates.
+  Json SurveyedJson() const {
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (!files_[i].has_dates()) return nullptr;
+      if (!(of_files_[i].last_time > of_files_[i].first_time)) continue;
+      first = std::min(first, of_files_[i].first_time), last = std::max(last, of_files_[i].last_time);
     }
-    // Points of ours have all their reasons in the summaries; others may not.
-    std::uint64_t named = 0;
-    for (const auto& [outcome, count] : counts) named += count;
-    const std::uint64_t without = all_.points() - all_.with_number();
-    // Summaries may count points that are left out here.
-    if (named > without) counts.clear(), named = 0;
-    if (named < without) counts["UNKNOWN"] = without - named;
-    return counts.empty() ? Json::object() : Json(counts);
+    if (!(last > first && first >= -kReportAdjustment && last < kLastDate)) return nullptr;
+    return {{"first", formats::UtcText(first + kReportAdjustment)},
+            {"last", formats::UtcText(last + kReportAdjustment)}};
+  }
+
+  Json ProjectJson() const {
+    if (options_.project.empty()) return ProjectOf(files_);
+    Json json;
+    for (const auto& [key, text] : options_.project) json[key] = text;
+    return json;
   }
 
   Json WantedJson() const {
@@ -165,7 +205,7 @@ class Reporter {
                  {"fraction", fraction},
                  {"pass_share", options_.pass_share},
                  {"passes", 100 * fraction >= options_.pass_share},
-                 {"without_number", WithoutNumber()},
+                 {"without_number", OutcomesWithoutNumber(files_, all_.points() - all_.with_number())},
                  {"failing", {{"points", failing_.points}, {"largest_share", Json::object()}}}};
     for (std::size_t i = 0; i < failing_.largest.size(); ++i)
       if (failing_.largest[i] > 0) json["failing"]["largest_share"][kVerticalShareNames[i]] = failing_.largest[i];
@@ -189,6 +229,7 @@ class Reporter {
         };
         const std::uint64_t meeting = all_.meeting(index);
         json["classes"].push_back({{"name", of.name},
+                                   {"also", of.also.empty() ? Json() : Json(of.also)},
                                    {"index", index},
                                    {"coverage", annotate::CoverageName(of.coverage)},
                                    {"horizontal", limit(of.horizontal)},
@@ -227,48 +268,16 @@ class Reporter {
     return list;
   }
 
-  // By name; of several scanners in one file with the channel: "scan, scanner channel 1".
-  static Json NumbersOf(const Json& summary) {
-    const auto of_total = [](const Json& in) {
-      const Json total = in.is_object() ? in.value("total", Json()) : Json();
-      const Json numbers = total.is_object() ? total.value("numbers", Json()) : Json();
-      return numbers.is_object() ? numbers : Json::object();
-    };
-    const Json& parameters = summary["parameters"];
-    if (!parameters.contains("channels") || !parameters["channels"].is_array()) return of_total(parameters);
-    const Json names = summary["answers"].value("channels", Json());
-    Json all = Json::object();
-    for (std::size_t i = 0; i < parameters["channels"].size(); ++i) {
-      const Json name = i < names.size() && names[i].is_object() ? names[i].value("name", Json()) : Json();
-      const std::string channel = name.is_string() ? name.get<std::string>() : absl::StrCat("channel ", i + 1);
-      const Json numbers = of_total(parameters["channels"][i]);
-      for (const auto& [key, number] : numbers.items()) all[absl::StrCat(key, ", ", channel)] = number;
-    }
-    return all;
-  }
-
-  // Every number with its source, of all files: where they differ, one each.
-  Json NumbersJson() const {
-    Json list = Json::array();
-    std::set<std::string> seen;
-    for (const AnnotatedLasFile& file : files_) {
-      const Json numbers = NumbersOf(file.summary());
-      for (const auto& [name, number] : numbers.items()) {
-        Json json = {{"name", name}};
-        for (const char* const key : {"value", "source", "assumed"})
-          if (number.is_object() && number.contains(key)) json[key] = number[key];
-        if (seen.insert(json.dump()).second) list.push_back(std::move(json));
-      }
-    }
-    return list;
-  }
-
-  Json ToJson(const std::optional<CrossCheck>& check) const {
+  Json ToJson(const std::optional<CrossCheck>& check, const BottomCoverage& coverage) const {
+    const std::string vertical = VerticalName();
     Json json = {{"program", "albtpu-query"},
                  {"program_version", std::string(Version())},
                  {"made_from", MadeFrom(files_, options_)},
                  {"coverage", annotate::CoverageName(first_.coverage())},
+                 {"project", ProjectJson()},
+                 {"surveyed", SurveyedJson()},
                  {"crs", first_.crs_name()},
+                 {"vertical_datum", vertical.empty() ? Json() : Json(vertical)},
                  {"metres_per_unit", first_.metres_per_unit()},
                  {"metres_per_height_unit", first_.metres_per_height_unit()},
                  {"table", first_.summary().value("table", Json())},
@@ -281,14 +290,24 @@ class Reporter {
                  {"lines", Json::array()},
                  {"files", FilesJson()},
                  {"histograms", {{"thu", thu_.ToJson()}, {"tvu", tvu_.ToJson()}}},
-                 {"numbers", NumbersJson()},
+                 {"numbers", NumbersOf(files_)},
+                 {"assumed", AssumedOf(files_)},
+                 {"contributions", ContributionsOf(files_)},
+                 {"bottom", coverage.Json()},
                  {"land", land_.Json(options_.specifications, options_.check_points)},
                  {"crosscheck", nullptr}};
     for (const auto& [line, tally] : lines_) {
       Json of_line = {{"line", line}};
       of_line.update(tally.Json(classes_));
+      of_line["path"] = paths_.at(line).Json();
       json["lines"].push_back(std::move(of_line));
     }
+    json["wanted"]["with_factor"] = WithFactorJson(check);
+    const Specification& specification = options_.specifications[wanted_.specification];
+    json["wanted"]["nodes"] =
+        specification.name != "s44"
+            ? Json()
+            : NodesOf(*options_.surface, specification.classes[wanted_.of_class].name, options_.pass_share);
     if (!left_out_.empty()) json["left_out"] = LeftOutJson(left_out_);
     if (!check.has_value()) json["nothing_to_compare"] = patches_.lines().NothingToCompare();
     if (check.has_value()) {
@@ -310,11 +329,14 @@ class Reporter {
   LandTable land_;
   DepthTallies depths_;
   std::map<int, PointTally> lines_;
+  std::map<int, LinePath> paths_;
+  LimitMargins margins_;
   std::vector<OfFile> of_files_;
   Histogram thu_{kThuStep}, tvu_{kTvuStep};
   Failing failing_;
   LeftOutPoints left_out_;
   SurveyGrid grid_;
+  LandCells land_cells_;
   OverlapPatches patches_;
 };
 
@@ -325,6 +347,9 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
       {"cell", options.cell},          {"patch", options.patch},           {"specification", options.specification},
       {"class", options.wanted_class}, {"pass_share", options.pass_share}, {"specifications", Json::array()},
       {"files", Json::array()}};
+  if (!options.project.empty()) json["project"] = options.project;
+  if (!options.vertical_datum.empty()) json["vertical_datum"] = options.vertical_datum;
+  if (!options.surface->is_null()) json["surface"] = *options.surface;
   json["check_points"] = Json::array({options.check_points.horizontal, options.check_points.vertical});
   for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
   for (const AnnotatedLasFile& file : files)

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -25,6 +26,11 @@ struct ReportOptions {
   double pass_share = kDefaultPassShare;      // %
   double patch = kDefaultPatch;               // m
   CheckPointErrors check_points = {};         // That land will be held against.
+  // [project] of a survey file, which comes before that of the files, and the name of their vertical datum if it is
+  // given there: keys and their text.
+  std::vector<std::pair<std::string, std::string>> project = {};
+  std::string vertical_datum = {};
+  annotate::JsonBox surface = {};  // surface.json of the same files; null: not given.
 };
 
 // Everything that determines the report: the files by name and size, and the options. It is `made_from` in the JSON.

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from ..s44 import FACTOR_95
 from ..schema import S44_ORDERS
-from .verdict import COVERAGES, Report
+from .verdict import CONTRIBUTIONS, COVERAGES, Report
 
 ORDERS = S44_ORDERS[1:]
 SIGMAS = {"p95": 2 * FACTOR_95, "2sigma": 2.0, "1sigma": 1.0}  # Of one dimension.
@@ -99,21 +99,29 @@ def against_depth(report: Report, quantity: str) -> str:
     return image(figure, f"chart: {name} against depth with its limits")
 
 
-def shares_against_depth(report: Report) -> str:
-    """The shares of the vertical variance, stacked."""
-    bins = [each for each in report["by_depth"] if each.get("shares_vertical")]
-    if not bins:
-        return ""
-    figure, axes = chart("shares of the vertical variance", "depth [m]", "%")
-    depth = [each["from"] + 0.5 for each in bins]
-    below = np.zeros(len(bins))
-    for share, colour in zip(shares_of(report), SHARE_COLOURS):
-        values = 100 * np.array([each["shares_vertical"][share] for each in bins])
-        axes.bar(depth, values, width=1, bottom=below, color=colour, label=share, edgecolor="white", linewidth=0.3)
-        below += values
-    axes.set_ylim(0, 100)
-    axes.legend(fontsize=8, ncols=5, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
-    return image(figure, "chart: shares of the vertical variance against depth")
+def shares_against_depth(report: Report) -> list[str]:
+    """The contributions to the horizontal and to the vertical variance, stacked."""
+    bands = report.get("contributions")
+    if not bands:
+        return []
+    names = [f"{band['from']:g}" + (f"–{band['to']:g}" if band["to"] is not None else " +") for band in bands]
+    pictures = []
+    for direction in ("horizontal", "vertical"):
+        figure, axes = chart(f"contributions to the {direction} variance", "depth [m]", "%")
+        below = np.zeros(len(bands))
+        for share, colour in zip(shares_of(report), SHARE_COLOURS):
+            of = [band[f"sigma_{direction}"] for band in bands]
+            values = 100 * np.array([each[share] ** 2 / max(each["total"] ** 2, 1e-30) for each in of])
+            if not values.any():
+                continue
+            axes.bar(range(len(bands)), values, width=0.9, bottom=below, color=colour, label=CONTRIBUTIONS[share],
+                     edgecolor="white", linewidth=0.3)
+            below += values
+        axes.set_xticks(range(len(bands)), names, fontsize=8)
+        axes.set_ylim(0, 100)
+        axes.legend(fontsize=8, ncols=3, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
+        pictures.append(image(figure, f"chart: contributions to the {direction} variance against depth"))
+    return pictures
 
 
 def histogram(report: Report, quantity: str) -> str:
@@ -124,7 +132,7 @@ def histogram(report: Report, quantity: str) -> str:
         return ""
     name = quantity.upper()
     figure, axes = chart(f"histogram of {name}", f"{name} at {COVERAGES[report['coverage']]} [m]",
-                          "% of the points with a number")
+                          "% of the points")
     first, end = int(np.flatnonzero(counts)[0]), int(np.flatnonzero(counts)[-1]) + 1
     group = -(-(end - first) // MOST_BARS)
     counts = np.pad(counts[first:end], (0, -(end - first) % group)).reshape(-1, group).sum(axis=1)
@@ -156,9 +164,10 @@ def over_time(report: Report) -> str:
     files.sort(key=lambda each: each["first_time"])
     start = files[0]["first_time"]
     hours = [(each["first_time"] - start) / 3600 for each in files]
-    figure, axes = chart("sea, water and wind over time", "hours after the first point", "% of the vertical variance")
+    figure, axes = chart("sea surface, water column and wind over time", "hours after the first point", "% of the vertical variance")
     for share, colour in (("sea", BLUE), ("water", GREEN)):
-        axes.plot(hours, [100 * each["shares_vertical"][share] for each in files], "o-", color=colour, label=share)
+        axes.plot(hours, [100 * each["shares_vertical"][share] for each in files], "o-", color=colour,
+                  label=CONTRIBUTIONS[share])
     if all(isinstance(each["wind_speed"], (int, float)) for each in files):
         wind = axes.twinx()
         wind.plot(hours, [each["wind_speed"] for each in files], "s--", color=ORANGE)
@@ -166,4 +175,4 @@ def over_time(report: Report) -> str:
         wind.set_ylim(0, None)
     axes.set_ylim(0, 100)
     axes.legend(fontsize=8)
-    return image(figure, "chart: shares of sea and water, and wind, over time")
+    return image(figure, "chart: contributions of sea surface and water column, and wind, over time")

@@ -26,14 +26,40 @@ h3 { font-size: 1rem; margin: 20px 0 4px; }
 img { max-width: 100%; height: auto; display: block; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 4px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th, td { padding: 4px 7px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
 th:first-child, td:first-child, .words td, .words th { text-align: left; }
 .words td { white-space: normal; overflow-wrap: anywhere; }
 .sortable th { cursor: pointer; } .sortable th:focus { outline: 2px solid #0072b2; }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 215px), 1fr)); gap: 12px;
+         margin: 12px 0; }
+.tile { border-top: 4px solid var(--line); background: #f6f6f6; padding: 8px 12px; break-inside: avoid; }
+.tile b { display: block; font-size: 1.5rem; }
+.tile p { margin: 4px 0 0; font-size: 0.9rem; }
+.titles { display: grid; grid-template-columns: max-content 1fr; gap: 2px 16px; margin: 8px 0; }
+.titles dt { color: var(--soft); } .titles dd { margin: 0; overflow-wrap: anywhere; }
+.signatures { display: grid; grid-template-columns: 1fr 1fr; gap: 32px; margin: 40px 0 8px; break-inside: avoid; }
+.signatures div { border-top: 1px solid var(--ink); padding-top: 4px; }
 .soft, caption { color: var(--soft); font-size: 0.9rem; text-align: left; }
 .no { color: var(--bad); font-weight: 600; white-space: nowrap; overflow-wrap: normal; }
-@media print { body { max-width: none; } h2 { break-after: avoid; } img, tr { break-inside: avoid; }
-               .wide { overflow: visible; } }
+.matrix { font-size: 0.8rem; } .matrix th, .matrix td { padding: 3px 4px; }
+.matrix td:first-child { white-space: normal; overflow-wrap: anywhere; min-width: 4.5em; }
+@media print {
+  body { max-width: none; padding: 0; font-size: 10pt; } h2, h3 { break-after: avoid; }
+  img, tr { break-inside: avoid; } thead { display: table-header-group; }
+  .wide { overflow: visible; } table { font-size: 7.5pt; max-width: 100%; } th, td { padding: 2px 4px; }
+  .matrix { font-size: 6pt; table-layout: fixed; width: 100%; }
+  .matrix th, .matrix td { padding: 1px 2px; white-space: normal; overflow-wrap: anywhere; }
+  .pictures { grid-template-columns: 1fr 1fr; } .tiles { grid-template-columns: 1fr 1fr 1fr; }
+  .tile b, .verdict b { font-size: 1.2rem; }
+}
+"""
+
+# Of printed pages: what stands at their feet, and a margin for it.
+PAGES = """
+@page {{ margin: 16mm 14mm 18mm; @bottom-left {{ content: {foot}; font: 8pt system-ui, sans-serif; color: #5a5a5a; }}
+         @bottom-right {{ content: "page " counter(page) " of " counter(pages); font: 8pt system-ui, sans-serif;
+                          color: #5a5a5a; }} }}
 """
 
 SCRIPT = """
@@ -59,14 +85,21 @@ document.querySelectorAll('.sortable').forEach(table => {
 """
 
 
-def write_document(path: pathlib.Path, title: str, body: str) -> None:
-    """A page that needs nothing from outside."""
+def write_document(path: pathlib.Path, title: str, body: str, foot: str = "") -> None:
+    """A page that needs nothing from outside. `foot` stands at the foot of printed pages, beside their number."""
+    pages = PAGES.format(foot=_css_string(foot or title))
     script = f"\n<script>{SCRIPT}</script>" if '"sortable"' in body else ""
     path.write_text(
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{text(title)}</title><style>{STYLE}</style></head><body>{body}"
+        f"<title>{text(title)}</title><style>{STYLE}{pages}</style></head><body>{body}"
         f"{script}</body></html>\n", encoding="utf-8")
+
+
+def _css_string(words: str) -> str:
+    """Quoted for a style sheet, in which no tag may end."""
+    return '"' + "".join(each if each.isalnum() or each in " .,:;-–_()/" and each != "/" else f"\\{ord(each):x} "
+                         for each in words) + '"'
 
 
 def text(value: object) -> str:
@@ -89,6 +122,19 @@ def table(head: list[str], rows: list[list[str]], kind: str = "") -> str:
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
     return (f'<div class="wide"><table class="{kind}"><thead><tr>{cells}</tr></thead>'
             f"<tbody>{body}</tbody></table></div>")
+
+
+def tiles(facts: list[tuple[str, str, str]]) -> str:
+    """Titles with a large number each and what it is."""
+    return '<div class="tiles">' + "".join(
+        f'<div class="tile">{text(title)}<b>{text(number)}</b><p>{text(words)}</p></div>'
+        for title, number, words in facts) + "</div>"
+
+
+def definitions(facts: list[tuple[str, str]]) -> str:
+    """Names and what they are."""
+    return '<dl class="titles">' + "".join(f"<dt>{text(name)}</dt><dd>{text(value)}</dd>"
+                                           for name, value in facts) + "</dl>"
 
 
 def verdict_box(standing: str, sentence: str, points: list[str]) -> str:

@@ -6,9 +6,9 @@ import json
 import pathlib
 from typing import Any
 
-from . import charts, maps, verdict
-from .markup import numbers_table, percent, table, text, verdict_box, write_document
-from .verdict import COVERAGES, Report, limit_text
+from . import appendix, charts, maps, project, verdict
+from .markup import numbers_table, percent, table, text, tiles, verdict_box, write_document
+from .verdict import CONTRIBUTIONS, COVERAGES, Report, limit_text
 
 
 def write_page(folder: pathlib.Path) -> None:
@@ -16,51 +16,60 @@ def write_page(folder: pathlib.Path) -> None:
     report: Report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     overview = maps.read_overview(folder / "grid.nc", report["metres_per_unit"])
     sections = [_first_screen(report), _summary(report), _maps(report, overview), _curves(report), _bands(report),
-                _specifications(report), _land(report), _lines(report), _crosscheck(report), _files(report),
-                _numbers(report)]
+                _specifications(report), _bottom(report), _land(report), _lines(report), _crosscheck(report),
+                _files(report), _numbers(report), appendix.appendix(report), project.signatures(report)]
     write_document(folder / "report.html", f"Uncertainty of a survey: {verdict.asked(report)}",
-                   "\n" + "\n".join(sections))
+                   "\n" + "\n".join(sections), project.foot(report))
 
 
 def _first_screen(report: Report) -> str:
-    return ("<h1>Total propagated uncertainty of the survey</h1>"
-            + verdict_box(verdict.standing(report), verdict.headline(report),
-                          [text(each) for each in verdict.sentences(report)]))
+    return (project.head(report) + verdict_box(verdict.standing(report), verdict.headline(report), [])
+            + tiles(verdict.beside(report))
+            + "<ul>" + "".join(f"<li>{text(each)}</li>" for each in verdict.sentences(report)) + "</ul>")
 
 
 def _summary(report: Report) -> str:
     files, lines, of_all = report["files"], report["lines"], report["all"]
-    rows = [["points of the bottom", f"{of_all['points']:,}, {of_all['with_number']:,} of them with a number"],
+    rows = [["points of the bottom", f"{of_all['points']:,}, {of_all['with_number']:,} of them with an uncertainty"],
             ["files; lines", f"{len(files)}; {len(lines)} (point source ID)"],
             ["coordinate system", text(report["crs"])],
+            ["vertical datum of elevations", text(report.get("vertical_datum") or "not stated by the files; give [datum]"
+                                                  " name")],
+            ["depths", "below the water surface at the time of the flight"],
             ["uncertainties at", COVERAGES[report["coverage"]]],
-            ["table of the sea", text(f"{report['table']['id']} {report['table']['version']}")],
+            ["water-surface model used for refraction", text(f"{report['table']['id']} {report['table']['version']}")],
             ["made by", text(f"{report['program']} {report['program_version']}")]]
     for name in ("tvu", "thu"):
         if name in of_all:
             spread = of_all[name]
             rows.append([name.upper(), f"mean {spread['mean']:.3f}, median {spread['median']:.3f}, 95 % of the points"
                          f" below {spread['p95']:.3f}, maximum {spread['greatest']:.3f} m"])
+    if "elevation" in of_all:
+        spread = of_all["elevation"]
+        rows.append(["elevations", f"{spread['least']:.2f} to {spread['greatest']:.2f} m, mean {spread['mean']:.2f} m"])
     if "bias_vertical" in of_all:
-        rows.append(["mean bias left in the points", f"{of_all['bias_vertical']:+.3f} m (positive: too shallow);"
-                     " it is not part of the uncertainty, and counts against limits"])
+        rows.append(["mean bias left in the points", f"{of_all['bias_vertical']:+.3f} m upwards (positive: too shallow),"
+                     f" {of_all['bias_along_beam']:+.3f} m along the beam; it is not part of the uncertainty, and counts"
+                     " against limits"])
     return "<h2>What was surveyed</h2>" + table(["", ""], rows, "words")
 
 
 def _maps(report: Report, overview: maps.Overview) -> str:
-    figures = [maps.map_of_codes(overview, "order_met", "order of S-44 that all points of a cell meet"),
+    figures = [maps.plan_of_lines(report, overview),
+               maps.map_of_codes(overview, "order_met", "order of S-44 that all points of a cell meet"),
                maps.map_of_lengths(overview, "tvu", "TVU, mean of each cell"),
                maps.map_of_lengths(overview, "thu", "THU, mean of each cell"),
-               maps.map_of_lengths(overview, "depth", "depth"),
-               maps.map_of_codes(overview, "dominant_share", "largest share of the vertical variance"),
+               maps.map_of_lengths(overview, "elevation", f"elevation, {report.get('vertical_datum') or 'datum not stated'}"),
+               maps.map_of_lengths(overview, "depth", "depth below the water at the time of the flight"),
+               maps.map_of_codes(overview, "dominant_share", "largest contribution to the vertical variance"),
                *maps.maps_of_gaps(overview)]
-    return (f"<h2>Maps</h2><p class='soft'>Grid north is up. Cells of {report['cell']:g} m are in grid.nc; a picture"
-            f" may combine several.</p><div class='pictures'>{''.join(figures)}</div>")
+    return (f"<h2>Maps</h2><p class='soft'>Grid north is up; coordinates are those of {text(report['crs'])}. Cells of"
+            f" {report['cell']:g} m are in grid.nc; a picture may combine several.</p><div class='pictures'>{''.join(figures)}</div>")
 
 
 def _curves(report: Report) -> str:
     figures = [charts.against_depth(report, "tvu"), charts.against_depth(report, "thu"),
-               charts.shares_against_depth(report), charts.over_time(report),
+               *charts.shares_against_depth(report), charts.over_time(report),
                charts.histogram(report, "tvu"), charts.histogram(report, "thu")]
     return f"<h2>Against depth</h2><div class='pictures'>{''.join(figures)}</div>"
 
@@ -68,17 +77,15 @@ def _curves(report: Report) -> str:
 def _bands(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
-    shares = charts.shares_of(report)
     for band in report["depth_bands"]:
         met = band["meeting"][wanted] / band["with_number"]
         rows.append([_band_name(band), f"{band['with_number']:,}", f"{band['tvu']['median']:.3f}",
                      f"{band['tvu']['p95']:.3f}", f"{band['thu']['median']:.3f}", f"{band['thu']['p95']:.3f}",
-                     *(f"{100 * band['shares_vertical'][share]:.0f} %" for share in shares),
-                     _judged(met, report)])
+                     f"{band['elevation']['mean']:.2f}", _judged(met, report)])
     head = ["depth [m]", "points", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
-            *shares, f"meet {text(verdict.asked(report))}"]
-    return ("<h2>By depth</h2><p class='soft'>Shares are of the vertical variance. Points without a number have no"
-            " depth and are not in this table.</p>" + table(head, rows))
+            "mean elevation [m]", f"meet {text(verdict.asked(report))}"]
+    return ("<h2>By depth</h2><p class='soft'>Points whose uncertainty was not computed have no depth and are not in this"
+            " table.</p>" + table(head, rows) + appendix.contributions(report))
 
 
 def _judged(fraction: float, report: Report, digits: int = 1) -> str:
@@ -92,16 +99,39 @@ def _specifications(report: Report) -> str:
         for entry in specification["classes"]:
             rows.append([text(specification["title"]), text(entry["name"]), COVERAGES[entry["coverage"]],
                          limit_text(entry["horizontal"]), limit_text(entry["vertical"]),
-                         _judged(entry["fraction"], report)])
+                         text(entry.get("also") or "–"), _judged(entry["fraction"], report)])
     sources = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
                       for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
-            + table(["specification", "class", "at", "THU limit", "TVU limit", "points that meet it"], rows)
+            + table(["specification", "class", "at", "THU limit", "TVU limit", "also asks (not tested)", "points that meet it"],
+                    rows, "words")
             + f"<ul class='soft'>{sources}</ul>"
             + "<h3>By depth</h3><p class='soft'>% of the points with a number that meet each class.</p>"
             + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
-                                                  for band in report["depth_bands"]], ""))
+                                                  for band in report["depth_bands"]], "matrix"))
+
+
+def _bottom(report: Report) -> str:
+    bottom = report["bottom"]
+    of_cell, largest = bottom["points_of_covered_cells"], bottom["largest_void"]
+    rows = [["surveyed area", f"{bottom['surveyed_area']:,.0f} m²: cells between points of the bottom along their row and"
+             " along their column, without land"],
+            ["cells with bottom", f"{percent(bottom['covered_share'])} of the surveyed cells of {bottom['cell']:g} m"],
+            ["points of the bottom", f"{bottom['points_per_square_metre']:.2f} in a m², a spacing of"
+             f" {bottom['spacing']:.2f} m; in cells that have any {of_cell['mean']:.1f} in the mean,"
+             f" {of_cell['median']} in the median, at least {of_cell['p5']} in 95 %"],
+            ["voids", f"{bottom['voids']:,}, of which {bottom['large_voids']:,} have at least"
+             f" {bottom['large_void_area']:.1f} m²"]]
+    if largest is not None:
+        rows.append(["largest void", f"{largest['area']:,.0f} m², about {largest['x']:.1f}, {largest['y']:.1f}"])
+    asks = verdict.also(report)
+    if asks:
+        rows.append([f"{text(verdict.asked(report))} asks", text(asks)])
+    rows.append(["USGS Lidar Base Specification asks", "no voids of (4 × the aggregate nominal pulse spacing)² and more"
+                 " but for water and dark surfaces, and first returns in 90 % of the cells of twice that spacing"])
+    return ("<h2>Density and voids</h2><p class='soft'>What files can show of the coverage. Only points of the bottom"
+            " count: a void may be deep or turbid water, or a gap between lines.</p>" + table(["", ""], rows, "words"))
 
 
 def _edition(specification: dict[str, Any]) -> str:
@@ -150,7 +180,7 @@ def _band_name(band: dict[str, Any]) -> str:
     return f"{band['from']}" + (f"–{band['to']}" if band["to"] is not None else " and more")
 
 
-def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable") -> str:
+def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable matrix") -> str:
     """The percentage of points that meet each class. A row is a name, the points that meet each class, all points."""
     head = [what] + [f"{text(each['title'])}<br>{text(entry['name'])}" for each in report["specifications"]
                      for entry in each["classes"]]
@@ -167,11 +197,11 @@ def _lines(report: Report) -> str:
         for name in ("tvu", "thu"):
             row += [f"{line[name][key]:.3f}" if name in line else "–" for key in ("median", "p95")]
         shares = line.get("shares_vertical")
-        row.append(max(shares, key=lambda name: shares[name]) if shares else "–")
+        row.append(CONTRIBUTIONS[max(shares, key=lambda name: shares[name])] if shares else "–")
         row.append(_judged(line["meeting"][wanted] / line["points"], report))
         rows.append(row)
-    head = ["line", "points", "without number", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
-            "largest share", f"meet {text(verdict.asked(report))}"]
+    head = ["line", "points", "uncertainty not computed", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
+            "largest contribution", f"meet {text(verdict.asked(report))}"]
     return ("<h2>Lines</h2><p class='soft'>Click the head of a column to sort.</p>" + table(head, rows, "sortable")
             + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
             + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
@@ -207,7 +237,7 @@ def _files(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
     for each in report["files"]:
-        outcomes = ", ".join(f"{count:,} {name}" for name, count in each["outcomes"].items() if name != "INTERPOLATED")
+        outcomes = ", ".join(f"{count:,}: {verdict.outcome_text(name)}" for name, count in each["outcomes"].items() if name != "INTERPOLATED")
         wind = f"{each['wind_speed']:g} m/s" if isinstance(each["wind_speed"], (int, float)) else "–"
         sea = verdict.sea_text(each["sea"])
         met = each["meeting"][wanted] / each["points"] if each["points"] else 0
@@ -215,7 +245,7 @@ def _files(report: Report) -> str:
                      text(each.get("water_attenuation") or "left out"), text(outcomes) or "none",
                      _judged(met, report)])
     return "<h2>Files, sea and water</h2>" + table(
-        ["file", "points", "wind", "sea", "attenuation of the water", "points without a number",
+        ["file", "points", "wind", "sea", "attenuation of the water", "uncertainty not computed",
          f"meet {text(verdict.asked(report))}"], rows, "words") + (
         "<h3>Classes by file</h3><p class='soft'>% of the points that meet each class.</p>"
         + _class_matrix(report, "file", [(each["name"], each["meeting"], each["points"]) for each in report["files"]]))

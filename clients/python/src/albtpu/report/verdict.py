@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from .markup import percent
+
 Report = dict[str, Any]
 
 COVERAGES = {"p95": "95 %", "2sigma": "2σ", "1sigma": "1σ"}
@@ -19,7 +21,10 @@ OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "UNKNOWN": "a reason that the summaries do not name",
             "INVALID": "invalid numbers"}
 
-REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration): better numbers for its sensor, or a"
+CONTRIBUTIONS = {"air": "sensor and trajectory", "sea": "sea surface", "water": "water column", "datum": "datum",
+                 "extra": "added by the surveyor"}
+
+REMEDIES = {"air": "sensor and trajectory (scan angles, ranges, calibration): better numbers for the sensor, or a"
                    " lower flight",
             "sea": "the sea surface: a calmer sea, or smaller incidence",
             "water": "the water column: a measured attenuation, or bias = \"correct\"",
@@ -42,26 +47,102 @@ def headline(report: Report) -> str:
 
 def standing(report: Report) -> str:
     """ "fail" of limits, "open" where the numbers are not tested by overlap, or contradicted, or assumed; or "pass"."""
-    if not report["wanted"]["passes"]:
+    wanted = report["wanted"]
+    if not wanted["passes"]:
         return "fail"
-    check = report["crosscheck"]
-    if check is None or not check["agrees"] or _assumed(report) > MOST_ASSUMED * len(report["numbers"]):
+    check, assumed = report["crosscheck"], report.get("assumed")
+    factor, nodes = wanted.get("with_factor"), wanted.get("nodes")
+    if check is None or not check["agrees"] or assumed is None or assumed["share"] > assumed["greatest_for_green"]:
         return "open"
-    return "pass"
-
-
-def _assumed(report: Report) -> int:
-    return sum(1 for each in report["numbers"] if each.get("assumed"))
+    return "open" if any(each is not None and not each["passes"] for each in (factor, nodes)) else "pass"
 
 
 def sentences(report: Report) -> list[str]:
-    """Is the prediction right, what does it rest on, where and why does a survey fail, what helps, what is untested."""
-    assumed = _assumed(report)
-    found = [_truth(report)]
-    if assumed:
-        found.append(f"{assumed} of {len(report['numbers'])} numbers were assumed; they are listed at the end.")
-    found += [*_gaps(report), *_depths(report), *_lines(report), _help(report), NOT_TESTED]
+    """Is the prediction right, where and why does a survey fail, what helps, what is untested."""
+    found = [_truth(report), *_with_factor(report), *_nodes(report), *_gaps(report), *_depths(report), *_lines(report),
+             _help(report), NOT_TESTED]
     return [each for each in found if each]
+
+
+def beside(report: Report) -> list[tuple[str, str, str]]:
+    """What stands beside the verdict, equally large: a title, the number, and what it is."""
+    return [_assumed(report), _differences(report), _density(report), _voids(report), _also(report)]
+
+
+def _assumed(report: Report) -> tuple[str, str, str]:
+    assumed = report.get("assumed")
+    count = sum(1 for each in report["numbers"] if each.get("assumed"))
+    numbers = f"{count} of {len(report['numbers'])} numbers were assumed; they are listed at the end"
+    if assumed is None:
+        return ("Rests on assumed numbers", "not known", f"An earlier version annotated the files. {numbers}.")
+    return ("Rests on assumed numbers", percent(assumed["share"]),
+            f"of the variance: {percent(assumed['horizontal'])} horizontally, {percent(assumed['vertical'])} vertically;"
+            f" more than a third is not green. {numbers}.")
+
+
+def _differences(report: Report) -> tuple[str, str, str]:
+    check = report["crosscheck"]
+    if check is None or not check["lines"]:
+        return ("Differences between lines", "not tested", nothing_to_compare(report))
+    lines = check["lines"]
+    mean = sum(abs(each["mean_difference"]) for each in lines) / len(lines)
+    worst = max(lines, key=lambda each: abs(each["z"]))
+    return ("Differences between lines", f"{mean:.3f} m",
+            f"in the mean of {len(lines)} pairs of lines. The worst pair, {worst['a']} and {worst['b']}, differs by"
+            f" {abs(worst['mean_difference']):.3f} m, {difference_text(worst)}.")
+
+
+def _density(report: Report) -> tuple[str, str, str]:
+    bottom = report["bottom"]
+    of_cell = bottom["points_of_covered_cells"]
+    return ("Density of the bottom", f"{bottom['points_per_square_metre']:.2f} per m²",
+            f"a spacing of {bottom['spacing']:.2f} m; {of_cell['median']} points in a cell of {bottom['cell']:g} m that"
+            f" has any (median), at least {of_cell['p5']} in 95 % of them.")
+
+
+def _voids(report: Report) -> tuple[str, str, str]:
+    bottom = report["bottom"]
+    largest = bottom["largest_void"]
+    if largest is None:
+        return ("Voids", percent(0), f"Every cell of {bottom['cell']:g} m in the surveyed area has a point of the"
+                " bottom.")
+    return ("Voids", percent(bottom["empty_share"]),
+            f"of the surveyed cells of {bottom['cell']:g} m have no bottom. The largest void has"
+            f" {largest['area']:.0f} m², at {largest['x']:.1f}, {largest['y']:.1f};"
+            f" {bottom['large_voids']:,} have {bottom['large_void_area']:.1f} m² or more (4 spacings squared).")
+
+
+def also(report: Report) -> str | None:
+    """What the wanted class asks beside THU and TVU."""
+    for specification in report["specifications"]:
+        for entry in specification["classes"]:
+            if entry["index"] == report["wanted"]["index"]:
+                text: str | None = entry.get("also")
+                return text
+    return None
+
+
+def _also(report: Report) -> tuple[str, str, str]:
+    words = also(report)
+    return (f"{asked(report)} also asks", "not tested",
+            f"{words[:1].upper()}{words[1:]}. Density and voids are what files can show of it." if words else
+            "What else the specification asks, these files cannot show.")
+
+
+def _with_factor(report: Report) -> list[str]:
+    factor = report["wanted"].get("with_factor")
+    if factor is None:
+        return []
+    return [f"With the factor of the overlap, {factor['factor']:.2f}, applied to every σ, {percent(factor['fraction'])}"
+            f" of the points are within the limits: {'enough' if factor['passes'] else 'too few'}."]
+
+
+def _nodes(report: Report) -> list[str]:
+    nodes = report["wanted"].get("nodes")
+    if nodes is None:
+        return []
+    return [f"Of the surface's {nodes['nodes']:,} nodes of {nodes['cell']:g} m, {percent(nodes['fraction'])} are within"
+            f" the limits: {'enough' if nodes['passes'] else 'too few'}."]
 
 
 def limit_text(limit: dict[str, Any] | None) -> str:
@@ -95,8 +176,18 @@ def sea_text(sea: object) -> str:
     """The waves in a few words, without the wind."""
     if not isinstance(sea, dict):
         return "from the wind"
-    return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in sea.items()
-                     if isinstance(value, (int, float, str)))[:200] or "given"
+    parts = []
+    if sea.get("file"):
+        parts.append(f"{sea['file']}{', ' + sea['place'] if sea.get('place') else ''}")
+    facts = [sea[key] for key in ("first", "last") if isinstance(sea.get(key), dict)]
+    for key, name, unit in (("significant_wave_height", "Hs", "m"), ("peak_period", "Tp", "s")):
+        values = [each[key] for each in facts if isinstance(each.get(key), (int, float))]
+        if values:
+            low, high = f"{min(values):.2g}", f"{max(values):.2g}"
+            parts.append(f"{name} {low if low == high else f'{low} to {high}'} {unit}")
+    if sea.get("by_time"):
+        parts.append("interpolated to the time of each pulse")
+    return "; ".join(parts) or "waves as given"
 
 
 def _gaps(report: Report) -> list[str]:
@@ -106,7 +197,7 @@ def _gaps(report: Report) -> list[str]:
         return []
     why = sorted(wanted["without_number"].items(), key=lambda each: -each[1])
     words = "; ".join(f"{count:,}: {outcome_text(name)}" for name, count in why)
-    return [f"{gaps:,} points ({100 * gaps / wanted['points']:.1f} %) have no number and count as not meeting it"
+    return [f"{gaps:,} points ({100 * gaps / wanted['points']:.1f} %) have no uncertainty computed and count as not meeting it"
             f" ({words})."]
 
 
@@ -134,7 +225,7 @@ def _lines(report: Report) -> list[str]:
     if fraction < 1:
         gaps = 1 - worst["with_number"] / worst["points"]
         return [f"The worst line is {worst['line']}: {100 * fraction:.1f} % of its points meet it,"
-                f" {100 * gaps:.1f} % have no number."]
+                f" {100 * gaps:.1f} % have no uncertainty computed."]
     worst = max((line for line in lines if "tvu" in line), key=lambda line: line["tvu"]["p95"])
     return [f"No line fails; line {worst['line']} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
             " percentile)."]
@@ -146,17 +237,17 @@ def _help(report: Report) -> str:
     gaps = wanted["points"] - wanted["with_number"]
     if gaps > failing["points"] and gaps > 0.001 * wanted["points"]:
         name = max(wanted["without_number"], key=lambda each: wanted["without_number"][each], default="")
-        return f"What would help most: numbers for the points that have none ({outcome_text(name)})." if name else ""
+        return f"What would help most: an uncertainty for the points that have none ({outcome_text(name)})." if name else ""
     shares = report["all"].get("shares_vertical")
     if not shares:
         return ""
     if failing["points"]:
         share = max(failing["largest_share"], key=lambda each: failing["largest_share"][each])
         count = failing["largest_share"][share]
-        return (f"What would help most: {REMEDIES[share]}. It has the largest share of the vertical variance at"
+        return (f"What would help most: {REMEDIES[share]}. It is the largest contribution to the vertical variance at"
                 f" {100 * count / failing['points']:.0f} % of the points that do not meet it.")
     share = max(shares, key=lambda each: shares[each])
-    return f"The largest share of the vertical variance, {100 * shares[share]:.0f} %, is {REMEDIES[share]}."
+    return f"The largest contribution to the vertical variance, {100 * shares[share]:.0f} %, is {REMEDIES[share]}."
 
 
 def nothing_to_compare(report: Report) -> str:
@@ -169,7 +260,6 @@ def nothing_to_compare(report: Report) -> str:
 SHARED = "lever arm, boresight, clock, index, water level, datum"
 NOT_TESTED = ("Not tested, because these files cannot show it: coverage and feature detection; errors that all lines"
               f" share ({SHARED}).")
-MOST_ASSUMED = 1 / 3  # Of the numbers, where the headline may be green.
 
 
 def _truth(report: Report) -> str:

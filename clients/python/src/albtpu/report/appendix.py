@@ -1,0 +1,85 @@
+"""The uncertainty of a survey in the order of a descriptive report: B.2, sources, values and method."""
+
+from __future__ import annotations
+
+from .markup import percent, table, text
+from .verdict import CONTRIBUTIONS, COVERAGES, Report, estimate_text
+
+SOURCES = {"position": "position of the trajectory", "attitude": "attitude of the trajectory", "boresight": "boresight",
+           "lever_arm": "lever arm", "scan": "scan angle", "time": "clock", "range_offset": "range offset",
+           "bottom_range": "range to the bottom", "surface_range": "range to the surface",
+           "surface_height": "height of the water surface", "index": "refractive index", "sea": "sea surface",
+           "water": "water column", "datum": "vertical datum", "extra": "added by the surveyor"}
+
+
+def appendix(report: Report) -> str:
+    """Section B.2."""
+    return ("<h2>Appendix: B.2 Quality control, uncertainty</h2>" + _method(report) + _sources(report)
+            + _results(report))
+
+
+def _method(report: Report) -> str:
+    table_of_sea = report["table"]
+    datum = report.get("vertical_datum") or "not stated by the files"
+    return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and trajectory,"
+            " sea surface, water column and datum, propagated along the refracted beam of its pulse. THU and TVU are stated"
+            f" at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is added where limits are"
+            " compared. Water-surface model used for refraction: table "
+            f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are in the vertical datum"
+            f" {text(datum)}; depths are below the water surface at the time of the flight.</p>")
+
+
+def _sources(report: Report) -> str:
+    assumed = report.get("assumed")
+    parts = ["<h3>B.2.2 Sources and values</h3>"]
+    if assumed is None:
+        parts.append("<p>Contributions by source are not known: an earlier version annotated the files.</p>")
+    else:
+        numbers = {each["name"]: each for each in report["numbers"]}
+        rows = []
+        for name, of in assumed["sources"].items():
+            number = numbers.get({"extra": "extra_vertical"}.get(name, name), {})
+            rows.append([text(SOURCES.get(name, name)), text(number.get("value", "–")),
+                         percent(of["horizontal"]), percent(of["vertical"]),
+                         text("not supplied, assumed" if number.get("assumed") else number.get("source", "–"))])
+        rows.sort(key=lambda row: row[0])
+        parts.append(table(["source", "value, 1σ", "of the horizontal variance", "of the vertical variance",
+                            "supplied by"], rows, "words"))
+        parts.append(f"<p class='soft'>How: {text(assumed['how'])}; {assumed['samples']:.0f} samples.</p>")
+    return "".join(parts)
+
+
+def contributions(report: Report) -> str:
+    """Standard deviations and biases by depth, horizontally and vertically."""
+    bands = report.get("contributions")
+    if not bands:
+        return ("<h3>Contributions by depth</h3><p class='soft'>Not known: an earlier version annotated the"
+                " files.</p>")
+    names = [name for name in CONTRIBUTIONS
+             if name != "extra" or any(band[axis]["extra"] > 0 for band in bands
+                                       for axis in ("sigma_horizontal", "sigma_vertical"))]
+    rows = []
+    for band in bands:
+        depth = f"{band['from']:g}" + (f"–{band['to']:g}" if band["to"] is not None else " and more")
+        rows.append([depth, f"{band['points']:,.0f}",
+                     *(f"{band['sigma_horizontal'][name]:.3f}" for name in [*names, "total"] if name != "datum"),
+                     *(f"{band['sigma_vertical'][name]:.3f}" for name in [*names, "total"]),
+                     f"{band['bias_along_beam']:+.3f}", f"{band['bias_vertical']:+.3f}"])
+    head = ["depth [m]", "points",
+            *(f"horizontal: {CONTRIBUTIONS.get(name, name)}" for name in [*names, "total"] if name != "datum"),
+            *(f"vertical: {CONTRIBUTIONS.get(name, name)}" for name in [*names, "total"]),
+            "bias along the beam", "bias upwards"]
+    return ("<h3>Contributions and biases by depth</h3><p class='soft'>Standard deviations in m (1σ, roots of the mean"
+            " variances), horizontal ones radial; means of the biases in m.</p>" + table(head, rows))
+
+
+def _results(report: Report) -> str:
+    wanted, check = report["wanted"], report["crosscheck"]
+    parts = ["<h3>B.2.3 Results and their test</h3><p>THU and TVU are within the limits at"
+             f" {percent(wanted['fraction'], 2)} of {wanted['points']:,} points."]
+    if check is not None:
+        parts.append(f" Crosslines and overlapping lines: {text(check['conclusion'])}; σ of pulses would have to be"
+                     f" multiplied by {text(estimate_text(check['factor_pulse']))}.")
+    else:
+        parts.append(" No overlapping lines test the prediction.")
+    return "".join(parts) + "</p>"

@@ -1,0 +1,19 @@
+// The verdict by the nodes of a surface, beside that by points.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace albtpu::quality {
+
+// `surface` is surface.json of `albtpu-query surface`, or null. FailedPrecondition where it is of other points.
+absl::Status CheckSurface(const nlohmann::ordered_json& surface, std::uint64_t points_with_number);
+
+// How many nodes meet an order of S-44, by their uncertainty and bias and the THU of their points; null without a
+// surface. `pass_share`: %.
+nlohmann::ordered_json NodesOf(const nlohmann::ordered_json& surface, const std::string& order, double pass_share);
+
+}  // namespace albtpu::quality
