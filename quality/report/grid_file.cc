@@ -33,11 +33,11 @@ constexpr std::array kLayers = {
           [](const GridCell& c) { return c.depth; }},
     Layer{"thu", "mean total horizontal uncertainty", "m", [](const GridCell& c) { return c.thu; }},
     Layer{"tvu", "mean total vertical uncertainty", "m", [](const GridCell& c) { return c.tvu; }},
-    Layer{"share_air", "share of the air side in the vertical variance", "1", ShareOf<0>},
-    Layer{"share_sea", "share of the sea surface in the vertical variance", "1", ShareOf<1>},
-    Layer{"share_water", "share of the water column in the vertical variance", "1", ShareOf<2>},
-    Layer{"share_datum", "share of the vertical datum in the vertical variance", "1", ShareOf<3>},
-    Layer{"share_extra", "share of what the surveyor added in the vertical variance", "1", ShareOf<4>}};
+    Layer{"share_air", "contribution of sensor and trajectory to the vertical variance", "1", ShareOf<0>},
+    Layer{"share_sea", "contribution of the sea surface to the vertical variance", "1", ShareOf<1>},
+    Layer{"share_water", "contribution of the water column to the vertical variance", "1", ShareOf<2>},
+    Layer{"share_datum", "contribution of the vertical datum to the vertical variance", "1", ShareOf<3>},
+    Layer{"share_extra", "contribution of what the surveyor added to the vertical variance", "1", ShareOf<4>}};
 
 std::uint8_t DominantShare(const GridCell& cell) {
   return static_cast<std::uint8_t>(std::ranges::max_element(cell.shares) - cell.shares.begin() + 1);
@@ -70,7 +70,7 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const
   const int without = file.Counts("points_without_number", "points of the bottom without an uncertainty");
   const int order = file.Codes("order_met", "order of IHO S-44 that every point with a number meets", 6,
                                "exclusive special order_1a order_1b order_2 none");
-  const int dominant = file.Codes("dominant_share", "largest share of the vertical variance",
+  const int dominant = file.Codes("dominant_share", "largest contribution to the vertical variance",
                                   static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum extra");
   const int gap =
       file.Codes("gap", "why points have no uncertainty, the most severe reason", 5,

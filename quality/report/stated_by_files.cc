@@ -50,9 +50,13 @@ Json SigmasOf(const std::map<std::string, double>& sums, double points) {
 
 }  // namespace
 
-Json ProjectOf(const std::vector<AnnotatedLasFile>& files) {
+Json ProjectOf(const std::vector<AnnotatedLasFile>& files,
+               const std::vector<std::pair<std::string, std::string>>& given) {
+  Json project;
+  for (const auto& [key, text] : given) project[key] = text;
+  if (!project.is_null()) return project;
   for (const AnnotatedLasFile& file : files)
-    if (Json project = MemberOf(file.summary()["input"], "project"); project.is_object()) return project;
+    if (Json of_file = MemberOf(file.summary()["input"], "project"); of_file.is_object()) return of_file;
   return nullptr;
 }
 

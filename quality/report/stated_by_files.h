@@ -4,14 +4,17 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "quality/annotated/annotated_points.h"
 
 namespace albtpu::quality {
 
-// [project] of the survey file, of the first file that has it; null where none has.
-nlohmann::ordered_json ProjectOf(const std::vector<AnnotatedLasFile>& files);
+// `given`, keys and their text; otherwise [project] of the survey file of the first file that has it; null where none has.
+nlohmann::ordered_json ProjectOf(const std::vector<AnnotatedLasFile>& files,
+                                 const std::vector<std::pair<std::string, std::string>>& given);
 
 // Of one file, by name; of several scanners in one file with the channel: "scan, scanner channel 1".
 nlohmann::ordered_json NumbersOf(const nlohmann::ordered_json& summary);

@@ -9,6 +9,7 @@
 #include "annotate/answers/batch.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "quality/report/bottom_coverage.h"
+#include "quality/report/length_histogram.h"
 #include "quality/report/limit_margins.h"
 #include "quality/report/line_path.h"
 #include "quality/report/stated_by_files.h"
@@ -23,7 +24,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kTvuStep = 0.002, kThuStep = 0.01;  // m, of the histograms.
-constexpr std::size_t kSteps = 1000;                 // The last has all that is greater.
 
 constexpr double kReportAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
 constexpr double kLastDate = 9e10;         // s, of which a date can be told.
@@ -32,18 +32,6 @@ const std::vector<int>& BandEnds() {
   static const std::vector<int> ends = {1, 2, 5, 10, 15, 20, 30, 50};
   return ends;
 }
-
-struct Histogram {
-  double step;
-  std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(kSteps);
-
-  void Add(double value) { ++counts[std::min(static_cast<std::size_t>(value / step), kSteps - 1)]; }
-  Json ToJson() const {
-    std::size_t used = kSteps;
-    while (used > 1 && counts[used - 1] == 0) --used;
-    return {{"step", step}, {"counts", std::vector<std::uint64_t>(counts.begin(), counts.begin() + used)}};
-  }
-};
 
 struct OfFile {
   PointTally tally;
@@ -184,13 +172,6 @@ class Reporter {
             {"last", formats::UtcText(last + kReportAdjustment)}};
   }
 
-  Json ProjectJson() const {
-    if (options_.project.empty()) return ProjectOf(files_);
-    Json json;
-    for (const auto& [key, text] : options_.project) json[key] = text;
-    return json;
-  }
-
   Json WantedJson() const {
     const Specification& specification = options_.specifications[wanted_.specification];
     const std::uint64_t meeting = all_.meeting(wanted_.index);
@@ -274,7 +255,7 @@ class Reporter {
                  {"program_version", std::string(Version())},
                  {"made_from", MadeFrom(files_, options_)},
                  {"coverage", annotate::CoverageName(first_.coverage())},
-                 {"project", ProjectJson()},
+                 {"project", ProjectOf(files_, options_.project)},
                  {"surveyed", SurveyedJson()},
                  {"crs", first_.crs_name()},
                  {"vertical_datum", vertical.empty() ? Json() : Json(vertical)},
@@ -332,7 +313,7 @@ class Reporter {
   std::map<int, LinePath> paths_;
   LimitMargins margins_;
   std::vector<OfFile> of_files_;
-  Histogram thu_{kThuStep}, tvu_{kTvuStep};
+  LengthHistogram thu_{kThuStep}, tvu_{kTvuStep};
   Failing failing_;
   LeftOutPoints left_out_;
   SurveyGrid grid_;

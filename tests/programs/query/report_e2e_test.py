@@ -57,7 +57,7 @@ class Numbers(Report):
             expected = sigma**2 * answered.sum() / vertical
             self.assertAlmostEqual(self.json["all"]["shares_vertical"][name], expected, delta=1e-4, msg=name)
         page = (self.made / "report.html").read_text()
-        self.assertIn("<th>extra</th>", page)
+        self.assertIn("<th>added by the surveyor</th>", page)
         self.assertIn("extra_vertical", [each["name"] for each in self.json["numbers"]])
 
     def test_have_the_assumptions_with_their_sources(self):

@@ -28,6 +28,7 @@ wind_from = 250
 column = "none"
 [datum]
 sigma = {datum}
+name = "Chart datum of Mine"
 [extra]
 horizontal = 0.06
 vertical = 0.04
@@ -35,6 +36,10 @@ vertical = 0.04
 classes = [40]
 coverage = "{coverage}"
 details = true
+[project]
+name = "Harbour of Mine"
+number = "17"
+client = "The port's <office>"
 """
 LINES = 4  # And a cross line.
 
@@ -43,7 +48,7 @@ def annotate(flight, output, table, datum=0.05, coverage="p95"):
     output.mkdir(exist_ok=True)
     survey = output.with_suffix(".toml")
     survey.write_text(SURVEY.format(flight=flight, datum=datum, coverage=coverage))
-    query("las", flight, "--output-dir", output, "--survey", survey, "--table", table, check=0)
+    return query("las", flight, "--output-dir", output, "--survey", survey, "--table", table, check=0)
 
 
 class Survey:
@@ -54,7 +59,7 @@ class Survey:
                                       "--pulse-rate", 2500, "--file-for-each-line").folder
         self.annotated = folder / "annotated"
         self.one_table = programs.make_table(folder / "quick.h5")
-        annotate(self.flight, self.annotated, self.one_table)
+        self.annotation = annotate(self.flight, self.annotated, self.one_table).stderr
         self.made = folder / "report"
         self.said = query("report", self.annotated, "--output", self.made, *flags, check=0).stdout
         self.json = json.loads((self.made / "report.json").read_text())

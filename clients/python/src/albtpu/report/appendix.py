@@ -21,10 +21,10 @@ def appendix(report: Report) -> str:
 def _method(report: Report) -> str:
     table_of_sea = report["table"]
     datum = report.get("vertical_datum") or "not stated by the files"
-    return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and trajectory,"
-            " sea surface, water column and datum, propagated along the refracted beam of its pulse. THU and TVU are stated"
-            f" at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is added where limits are"
-            " compared. Water-surface model used for refraction: table "
+    return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and"
+            " trajectory, sea surface, water column and datum, propagated along the refracted beam of its pulse. THU"
+            f" and TVU are stated at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is added"
+            " where limits are compared. Water-surface model used for refraction: table "
             f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are in the vertical datum"
             f" {text(datum)}; depths are below the water surface at the time of the flight.</p>")
 
@@ -58,19 +58,19 @@ def contributions(report: Report) -> str:
     names = [name for name in CONTRIBUTIONS
              if name != "extra" or any(band[axis]["extra"] > 0 for band in bands
                                        for axis in ("sigma_horizontal", "sigma_vertical"))]
+    horizontal = [*(name for name in names if name != "datum"), "total"]  # Nothing of the datum is horizontal.
+    vertical = [*names, "total"]
     rows = []
     for band in bands:
         depth = f"{band['from']:g}" + (f"–{band['to']:g}" if band["to"] is not None else " and more")
-        rows.append([depth, f"{band['points']:,.0f}",
-                     *(f"{band['sigma_horizontal'][name]:.3f}" for name in [*names, "total"] if name != "datum"),
-                     *(f"{band['sigma_vertical'][name]:.3f}" for name in [*names, "total"]),
+        rows.append([depth, f"{band['points']:,.0f}", *(f"{band['sigma_horizontal'][name]:.3f}" for name in horizontal),
+                     *(f"{band['sigma_vertical'][name]:.3f}" for name in vertical),
                      f"{band['bias_along_beam']:+.3f}", f"{band['bias_vertical']:+.3f}"])
-    head = ["depth [m]", "points",
-            *(f"horizontal: {CONTRIBUTIONS.get(name, name)}" for name in [*names, "total"] if name != "datum"),
-            *(f"vertical: {CONTRIBUTIONS.get(name, name)}" for name in [*names, "total"]),
-            "bias along the beam", "bias upwards"]
+    groups = [("", 2), ("horizontal", len(horizontal)), ("vertical", len(vertical)), ("mean bias", 2)]
+    head = ["depth [m]", "points", *(CONTRIBUTIONS.get(name, name) for name in [*horizontal, *vertical]),
+            "along the beam", "upwards"]
     return ("<h3>Contributions and biases by depth</h3><p class='soft'>Standard deviations in m (1σ, roots of the mean"
-            " variances), horizontal ones radial; means of the biases in m.</p>" + table(head, rows))
+            " variances), horizontal ones radial; means of the biases in m.</p>" + table(head, rows, "", groups))
 
 
 def _results(report: Report) -> str:

@@ -164,7 +164,8 @@ def over_time(report: Report) -> str:
     files.sort(key=lambda each: each["first_time"])
     start = files[0]["first_time"]
     hours = [(each["first_time"] - start) / 3600 for each in files]
-    figure, axes = chart("sea surface, water column and wind over time", "hours after the first point", "% of the vertical variance")
+    figure, axes = chart("sea surface, water column and wind over time", "hours after the first point",
+                          "% of the vertical variance")
     for share, colour in (("sea", BLUE), ("water", GREEN)):
         axes.plot(hours, [100 * each["shares_vertical"][share] for each in files], "o-", color=colour,
                   label=CONTRIBUTIONS[share])

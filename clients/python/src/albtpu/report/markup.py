@@ -28,6 +28,7 @@ img { max-width: 100%; height: auto; display: block; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 4px 7px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { white-space: normal; vertical-align: bottom; }
+.group { text-align: center; border-left: 1px solid var(--line); }
 th:first-child, td:first-child, .words td, .words th { text-align: left; }
 .words td { white-space: normal; overflow-wrap: anywhere; }
 .sortable th { cursor: pointer; } .sortable th:focus { outline: 2px solid #0072b2; }
@@ -41,6 +42,7 @@ th:first-child, td:first-child, .words td, .words th { text-align: left; }
 .signatures { display: grid; grid-template-columns: 1fr 1fr; gap: 32px; margin: 40px 0 8px; break-inside: avoid; }
 .signatures div { border-top: 1px solid var(--ink); padding-top: 4px; }
 .soft, caption { color: var(--soft); font-size: 0.9rem; text-align: left; }
+.unbroken { white-space: nowrap; overflow-wrap: normal; }
 .no { color: var(--bad); font-weight: 600; white-space: nowrap; overflow-wrap: normal; }
 .matrix { font-size: 0.8rem; } .matrix th, .matrix td { padding: 3px 4px; }
 .matrix td:first-child { white-space: normal; overflow-wrap: anywhere; min-width: 4.5em; }
@@ -116,11 +118,14 @@ def percent(part: float, digits: int = 1) -> str:
     return f"{shown} %"
 
 
-def table(head: list[str], rows: list[list[str]], kind: str = "") -> str:
-    """A table in HTML, of cells that are HTML, which scrolls sideways by itself where it is too wide."""
+def table(head: list[str], rows: list[list[str]], kind: str = "", groups: list[tuple[str, int]] | None = None) -> str:
+    """A table in HTML, of cells that are HTML, which scrolls sideways by itself where it is too wide. `groups` stand
+    above the heads of as many columns each."""
+    above = "".join(f'<th class="group" colspan="{columns}">{name}</th>' for name, columns in groups or [])
+    above = f"<tr>{above}</tr>" if above else ""
     cells = "".join(f"<th>{each}</th>" for each in head)
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return (f'<div class="wide"><table class="{kind}"><thead><tr>{cells}</tr></thead>'
+    return (f'<div class="wide"><table class="{kind}"><thead>{above}<tr>{cells}</tr></thead>'
             f"<tbody>{body}</tbody></table></div>")
 
 

@@ -33,8 +33,8 @@ def _summary(report: Report) -> str:
     rows = [["points of the bottom", f"{of_all['points']:,}, {of_all['with_number']:,} of them with an uncertainty"],
             ["files; lines", f"{len(files)}; {len(lines)} (point source ID)"],
             ["coordinate system", text(report["crs"])],
-            ["vertical datum of elevations", text(report.get("vertical_datum") or "not stated by the files; give [datum]"
-                                                  " name")],
+            ["vertical datum of elevations", text(report.get("vertical_datum") or "not stated by the files; give"
+                                                  " [datum] name")],
             ["depths", "below the water surface at the time of the flight"],
             ["uncertainties at", COVERAGES[report["coverage"]]],
             ["water-surface model used for refraction", text(f"{report['table']['id']} {report['table']['version']}")],
@@ -48,9 +48,9 @@ def _summary(report: Report) -> str:
         spread = of_all["elevation"]
         rows.append(["elevations", f"{spread['least']:.2f} to {spread['greatest']:.2f} m, mean {spread['mean']:.2f} m"])
     if "bias_vertical" in of_all:
-        rows.append(["mean bias left in the points", f"{of_all['bias_vertical']:+.3f} m upwards (positive: too shallow),"
-                     f" {of_all['bias_along_beam']:+.3f} m along the beam; it is not part of the uncertainty, and counts"
-                     " against limits"])
+        rows.append(["mean bias left in the points", f"{of_all['bias_vertical']:+.3f} m upwards (positive: too"
+                     f" shallow), {of_all['bias_along_beam']:+.3f} m along the beam; it is not part of the uncertainty,"
+                     " and counts against limits"])
     return "<h2>What was surveyed</h2>" + table(["", ""], rows, "words")
 
 
@@ -59,12 +59,14 @@ def _maps(report: Report, overview: maps.Overview) -> str:
                maps.map_of_codes(overview, "order_met", "order of S-44 that all points of a cell meet"),
                maps.map_of_lengths(overview, "tvu", "TVU, mean of each cell"),
                maps.map_of_lengths(overview, "thu", "THU, mean of each cell"),
-               maps.map_of_lengths(overview, "elevation", f"elevation, {report.get('vertical_datum') or 'datum not stated'}"),
+               maps.map_of_lengths(overview, "elevation",
+                                   f"elevation, {report.get('vertical_datum') or 'datum not stated'}"),
                maps.map_of_lengths(overview, "depth", "depth below the water at the time of the flight"),
                maps.map_of_codes(overview, "dominant_share", "largest contribution to the vertical variance"),
                *maps.maps_of_gaps(overview)]
     return (f"<h2>Maps</h2><p class='soft'>Grid north is up; coordinates are those of {text(report['crs'])}. Cells of"
-            f" {report['cell']:g} m are in grid.nc; a picture may combine several.</p><div class='pictures'>{''.join(figures)}</div>")
+            f" {report['cell']:g} m are in grid.nc; a picture may combine several.</p>"
+            f"<div class='pictures'>{''.join(figures)}</div>")
 
 
 def _curves(report: Report) -> str:
@@ -84,8 +86,8 @@ def _bands(report: Report) -> str:
                      f"{band['elevation']['mean']:.2f}", _judged(met, report)])
     head = ["depth [m]", "points", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
             "mean elevation [m]", f"meet {text(verdict.asked(report))}"]
-    return ("<h2>By depth</h2><p class='soft'>Points whose uncertainty was not computed have no depth and are not in this"
-            " table.</p>" + table(head, rows) + appendix.contributions(report))
+    return ("<h2>By depth</h2><p class='soft'>Points whose uncertainty was not computed have no depth and are not in"
+            " this table.</p>" + table(head, rows) + appendix.contributions(report))
 
 
 def _judged(fraction: float, report: Report, digits: int = 1) -> str:
@@ -97,26 +99,31 @@ def _specifications(report: Report) -> str:
     rows = []
     for specification in report["specifications"]:
         for entry in specification["classes"]:
-            rows.append([text(specification["title"]), text(entry["name"]), COVERAGES[entry["coverage"]],
-                         limit_text(entry["horizontal"]), limit_text(entry["vertical"]),
+            rows.append([text(specification["title"]), text(entry["name"]), _unbroken(COVERAGES[entry["coverage"]]),
+                         _unbroken(limit_text(entry["horizontal"])), _unbroken(limit_text(entry["vertical"])),
                          text(entry.get("also") or "–"), _judged(entry["fraction"], report)])
     sources = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
                       for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
-            + table(["specification", "class", "at", "THU limit", "TVU limit", "also asks (not tested)", "points that meet it"],
+            + table(["specification", "class", "at", "THU limit", "TVU limit", "also asks (not tested)",
+                     "points that meet it"],
                     rows, "words")
             + f"<ul class='soft'>{sources}</ul>"
-            + "<h3>By depth</h3><p class='soft'>% of the points with a number that meet each class.</p>"
+            + "<h3>By depth</h3><p class='soft'>% of the points with an uncertainty that meet each class.</p>"
             + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
                                                   for band in report["depth_bands"]], "matrix"))
+
+
+def _unbroken(words: str) -> str:
+    return f"<span class='unbroken'>{words}</span>"
 
 
 def _bottom(report: Report) -> str:
     bottom = report["bottom"]
     of_cell, largest = bottom["points_of_covered_cells"], bottom["largest_void"]
-    rows = [["surveyed area", f"{bottom['surveyed_area']:,.0f} m²: cells between points of the bottom along their row and"
-             " along their column, without land"],
+    rows = [["surveyed area", f"{bottom['surveyed_area']:,.0f} m²: cells between points of the bottom along their row"
+             " and along their column, without land"],
             ["cells with bottom", f"{percent(bottom['covered_share'])} of the surveyed cells of {bottom['cell']:g} m"],
             ["points of the bottom", f"{bottom['points_per_square_metre']:.2f} in a m², a spacing of"
              f" {bottom['spacing']:.2f} m; in cells that have any {of_cell['mean']:.1f} in the mean,"
@@ -180,11 +187,13 @@ def _band_name(band: dict[str, Any]) -> str:
     return f"{band['from']}" + (f"–{band['to']}" if band["to"] is not None else " and more")
 
 
-def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable matrix") -> str:
+def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]],
+                  kind: str = "sortable matrix") -> str:
     """The percentage of points that meet each class. A row is a name, the points that meet each class, all points."""
     head = [what] + [f"{text(each['title'])}<br>{text(entry['name'])}" for each in report["specifications"]
                      for entry in each["classes"]]
-    return table(head, [[text(name)] + [_judged(met / points, report, 0) if points else "–" for met in meeting]
+    return table(head, [[text(name)] + [_judged(met / points, report, 0).replace(" %", "") if points else "–"
+                                        for met in meeting]
                         for name, meeting, points in rows], kind)
 
 
@@ -200,8 +209,8 @@ def _lines(report: Report) -> str:
         row.append(CONTRIBUTIONS[max(shares, key=lambda name: shares[name])] if shares else "–")
         row.append(_judged(line["meeting"][wanted] / line["points"], report))
         rows.append(row)
-    head = ["line", "points", "uncertainty not computed", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
-            "largest contribution", f"meet {text(verdict.asked(report))}"]
+    head = ["line", "points", "uncertainty not computed", "TVU median [m]", "TVU 95th [m]", "THU median [m]",
+            "THU 95th [m]", "largest contribution", f"meet {text(verdict.asked(report))}"]
     return ("<h2>Lines</h2><p class='soft'>Click the head of a column to sort.</p>" + table(head, rows, "sortable")
             + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
             + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
@@ -237,7 +246,8 @@ def _files(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
     for each in report["files"]:
-        outcomes = ", ".join(f"{count:,}: {verdict.outcome_text(name)}" for name, count in each["outcomes"].items() if name != "INTERPOLATED")
+        outcomes = ", ".join(f"{count:,}: {verdict.outcome_text(name)}" for name, count in each["outcomes"].items()
+                             if name != "INTERPOLATED")
         wind = f"{each['wind_speed']:g} m/s" if isinstance(each["wind_speed"], (int, float)) else "–"
         sea = verdict.sea_text(each["sea"])
         met = each["meeting"][wanted] / each["points"] if each["points"] else 0

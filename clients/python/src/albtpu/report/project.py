@@ -47,8 +47,8 @@ def signatures(report: Report) -> str:
     """Lines to sign on."""
     surveyor = str((report.get("project") or {}).get("surveyor", ""))
     made = text(f"{report['program']} {report['program_version']}")
-    return ("<h2>Signature</h2><p class='soft'>The statements above are those of " + made + " from the files and numbers"
-            " listed here. What it does not test is for the surveyor to show.</p>"
+    return ("<h2>Signature</h2><p class='soft'>The statements above are those of " + made + " from the files and"
+            " numbers listed here. What it does not test is for the surveyor to show.</p>"
             f"<div class='signatures'><div>Place, date</div><div>{text(surveyor or 'Surveyor')}</div></div>")
 
 

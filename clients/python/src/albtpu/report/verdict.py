@@ -76,8 +76,8 @@ def _assumed(report: Report) -> tuple[str, str, str]:
     if assumed is None:
         return ("Rests on assumed numbers", "not known", f"An earlier version annotated the files. {numbers}.")
     return ("Rests on assumed numbers", percent(assumed["share"]),
-            f"of the variance: {percent(assumed['horizontal'])} horizontally, {percent(assumed['vertical'])} vertically;"
-            f" more than a third is not green. {numbers}.")
+            f"of the variance: {percent(assumed['horizontal'])} horizontally, {percent(assumed['vertical'])}"
+            f" vertically; more than a third is not green. {numbers}.")
 
 
 def _differences(report: Report) -> tuple[str, str, str]:
@@ -197,8 +197,8 @@ def _gaps(report: Report) -> list[str]:
         return []
     why = sorted(wanted["without_number"].items(), key=lambda each: -each[1])
     words = "; ".join(f"{count:,}: {outcome_text(name)}" for name, count in why)
-    return [f"{gaps:,} points ({100 * gaps / wanted['points']:.1f} %) have no uncertainty computed and count as not meeting it"
-            f" ({words})."]
+    return [f"{gaps:,} points ({100 * gaps / wanted['points']:.1f} %) have no uncertainty computed and count as not"
+            f" meeting it ({words})."]
 
 
 def _depths(report: Report) -> list[str]:
@@ -207,12 +207,12 @@ def _depths(report: Report) -> list[str]:
     if not bad:
         failing = report["wanted"]["failing"]["points"]
         if failing == 0 and report["wanted"]["with_number"] > 0:
-            return ["Every point with a number meets it, at all depths."]
-        return [] if report["wanted"]["with_number"] == 0 else ["Of the points with a number, enough meet it at all"
-                                                                " depths."]
+            return ["Every point with an uncertainty meets it, at all depths."]
+        return [] if report["wanted"]["with_number"] == 0 else ["Of the points with an uncertainty, enough meet it at"
+                                                                " all depths."]
     text = ", ".join(f"{band['from']}{'–' + str(band['to']) if band['to'] is not None else ' and more'} m"
                      f" ({100 * band['meeting'][index] / band['with_number']:.0f} %)" for band in bad)
-    return [f"Too few points with a number meet it at depths of {text}."]
+    return [f"Too few points with an uncertainty meet it at depths of {text}."]
 
 
 def _lines(report: Report) -> list[str]:
@@ -237,7 +237,8 @@ def _help(report: Report) -> str:
     gaps = wanted["points"] - wanted["with_number"]
     if gaps > failing["points"] and gaps > 0.001 * wanted["points"]:
         name = max(wanted["without_number"], key=lambda each: wanted["without_number"][each], default="")
-        return f"What would help most: an uncertainty for the points that have none ({outcome_text(name)})." if name else ""
+        words = f"What would help most: an uncertainty for the points that have none ({outcome_text(name)})."
+        return words if name else ""
     shares = report["all"].get("shares_vertical")
     if not shares:
         return ""
