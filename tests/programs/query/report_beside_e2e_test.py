@@ -1,9 +1,8 @@
 """What a report says beside its verdict, against computations of its own: density and voids, contributions and biases
-by depth, what rests on assumed numbers, the factor of the overlap, nodes, datum and project, and pages on paper."""
+by depth, what rests on assumed numbers, the factor of the overlap, nodes, datum and project."""
 
 import json
 import shutil
-import unittest
 
 import netCDF4
 import numpy as np
@@ -12,7 +11,6 @@ import scipy.ndimage
 import programs
 import reported_survey
 from las_file import LasFile
-from page_probe import print_page, probe
 from programs import query
 from reported_survey import Report
 
@@ -20,7 +18,7 @@ FACTOR = 1.959964  # Of 95 %, vertically.
 
 
 def setUpModule():
-    reported_survey.make()
+    reported_survey.make("--no-page")
 
 
 class Bottom(Report):
@@ -84,8 +82,6 @@ class Contributions(Report):
             for name in ("bias_along_beam", "bias_vertical"):
                 self.assertAlmostEqual(band[name], of[name][inside].mean(), delta=1e-6)
         self.assertIn("horizontal, m, 1 sigma", self.said)
-        self.assertIn(f"<td>{self.json['contributions'][-1]['sigma_horizontal']['sea']:.3f}</td>",
-                      (self.made / "report.html").read_text())
 
     def test_of_assumed_numbers_are_shares_of_the_variance(self):
         of = {name: values[self.points["total_tvu"] >= 0].astype(float) for name, values in self.points.items()}
@@ -137,10 +133,6 @@ class Names(Report):
     def test_of_datum_and_project_are_those_of_the_survey_file(self):
         self.assertEqual(self.json["vertical_datum"], "Chart datum of Mine")
         self.assertEqual(self.json["project"]["client"], "The port's <office>")
-        page = (self.made / "report.html").read_text()
-        for words in ("<h1>Harbour of Mine</h1>", "The port&#x27;s &lt;office&gt;", "Chart datum of Mine",
-                      "B.2.2 Sources and values", "plan of 5 lines"):
-            self.assertIn(words, page)
         with netCDF4.Dataset(self.made / "grid.nc") as grid:
             self.assertEqual(grid["elevation"].vertical_datum, "Chart datum of Mine")
             depth, elevation = grid["depth"][:], grid["elevation"][:]
@@ -156,7 +148,7 @@ class Names(Report):
         self.assertEqual((report["project"], report["vertical_datum"]), ({"name": "Another"}, "MLLW"))
 
     def test_have_no_path_of_the_machine(self):
-        for path in (self.made / "report.json", self.made / "report.html", *self.annotated.glob("*.json")):
+        for path in (self.made / "report.json", *self.annotated.glob("*.json")):
             for folder in (str(self.annotated.parent), str(self.flight)):
                 self.assertNotIn(folder, path.read_text(), path.name)
 
@@ -169,26 +161,6 @@ class Console(Report):
             self.assertEqual(sum(f"flight_{number}.las:" in line for line in lines), 1)
         for once in ("lever_arm 0.02 m (assumed", "trajectory agrees with", "horizontal, %"):
             self.assertEqual(self.annotation.count(once), 1, once)
-
-
-@unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
-class Paper(Report):
-    def test_cuts_no_column_on_a_desk_and_on_paper(self):
-        # The text of A4 is 182 mm wide, that of Letter 188 mm, at 96 dots in an inch.
-        for width, printed in ((1280, False), (688, True), (710, True)):
-            seen = probe(self.made / "report.html", self.folder, width, 900, printed)
-            self.assertEqual(seen["cut"], [], width)
-            self.assertLessEqual(seen["content"], width)
-
-    @unittest.skipIf(shutil.which("pdftotext") is None, "no pdftotext of poppler-utils")
-    def test_has_numbered_pages_with_project_and_date(self):
-        for paper in ("A4", "letter"):
-            pages = print_page(self.made / "report.html", self.folder, paper)
-            self.assertGreater(len(pages), 5)
-            for number, page in enumerate(pages, 1):
-                self.assertIn(f"page {number} of {len(pages)}", page)
-                self.assertIn("Harbour of Mine – 17 – 20", page)
-            self.assertIn("Place, date", pages[-1])
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import programs
 import reported_survey
 from commands import make_folder
 from las_file import LasFile
-from page_probe import probe
+from page_probe import print_page, probe
 from programs import query
 from reported_survey import Report
 
@@ -230,6 +230,37 @@ class Page(Report):
                     cell = re.sub("<.*?>", "", cell)
                     points = of["with_number"] if what.startswith("depth") else of["points"]
                     self.assertAlmostEqual(float(cell.split()[0]), 100 * met / points, delta=1.01)
+
+
+class Named(Report):
+    def test_has_project_datum_plan_and_appendix(self):
+        page = (self.made / "report.html").read_text()
+        for words in ("<h1>Harbour of Mine</h1>", "The port&#x27;s &lt;office&gt;", "Chart datum of Mine",
+                      "B.2.2 Sources and values", "plan of 5 lines", "Density and voids",
+                      f"<td>{self.json['contributions'][-1]['sigma_horizontal']['sea']:.3f}</td>"):
+            self.assertIn(words, page)
+        for folder in (self.annotated.parent, self.flight):
+            self.assertNotIn(str(folder), page)
+
+
+@unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
+class Paper(Report):
+    def test_cuts_no_column_on_a_desk_and_on_paper(self):
+        # The text of A4, the narrower one, is 182 mm wide, at 96 dots in an inch.
+        for width, printed in ((1280, False), (688, True)):
+            seen = probe(self.made / "report.html", self.folder, width, 900, printed)
+            self.assertEqual(seen["cut"], [], width)
+            self.assertLessEqual(seen["content"], width)
+
+    @unittest.skipIf(shutil.which("pdftotext") is None, "no pdftotext of poppler-utils")
+    def test_has_numbered_pages_with_project_and_date(self):
+        for paper in ("A4", "letter"):
+            pages = print_page(self.made / "report.html", self.folder, paper)
+            self.assertGreater(len(pages), 5)
+            for number, page in enumerate(pages, 1):
+                self.assertIn(f"page {number} of {len(pages)}", page)
+                self.assertIn("Harbour of Mine – 17 – 20", page)
+            self.assertIn("Place, date", pages[-1])
 
 
 class Another(Report):

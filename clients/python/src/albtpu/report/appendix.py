@@ -70,7 +70,7 @@ def contributions(report: Report) -> str:
     head = ["depth [m]", "points", *(CONTRIBUTIONS.get(name, name) for name in [*horizontal, *vertical]),
             "along the beam", "upwards"]
     return ("<h3>Contributions and biases by depth</h3><p class='soft'>Standard deviations in m (1σ, roots of the mean"
-            " variances), horizontal ones radial; means of the biases in m.</p>" + table(head, rows, "", groups))
+            " variances), horizontal ones radial; means of the biases in m.</p>" + table(head, rows, "matrix", groups))
 
 
 def _results(report: Report) -> str:
