@@ -57,8 +57,8 @@ inline constexpr std::size_t kSourceSamples = 32;  // Of a batch.
 
 // The contributions to pulses of a batch after ComputeTotals, which changed `aircraft`: each of kSourceSamples equal
 // parts is represented by its first pulse with a total, and the sources of the air side are those of
-// budget/air/air_sources.h for it. Where the trajectory states its errors pulse by pulse, the fraction of the batch without them counts as
-// assumed.
+// budget/air/air_sources.h for it. Where the trajectory states its errors pulse by pulse, the fraction of the batch
+// without them counts as assumed.
 SourceSums SampleSources(const TotalPlan& plan, const PulseBatch& pulses, const AircraftColumns& aircraft,
                          const TotalBatch& totals);
 

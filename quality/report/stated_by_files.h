@@ -12,7 +12,8 @@
 
 namespace albtpu::quality {
 
-// `given`, keys and their text; otherwise [project] of the survey file of the first file that has it; null where none has.
+// `given`, keys and their text; otherwise [project] of the survey file of the first file that has it; null where none
+// has.
 nlohmann::ordered_json ProjectOf(const std::vector<AnnotatedLasFile>& files,
                                  const std::vector<std::pair<std::string, std::string>>& given);
 
