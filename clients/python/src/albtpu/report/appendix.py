@@ -23,8 +23,8 @@ def _method(report: Report) -> str:
     datum = report.get("vertical_datum") or "not stated by the files"
     return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and"
             " trajectory, sea surface, water column and datum, propagated along the refracted beam of its pulse. THU"
-            f" and TVU are stated at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is added"
-            " where limits are compared. Water-surface model used for refraction: table "
+            f" and TVU are stated at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is"
+            " added where limits are compared. Water-surface model used for refraction: table "
             f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are in the vertical datum"
             f" {text(datum)}; depths are below the water surface at the time of the flight.</p>")
 
