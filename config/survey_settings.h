@@ -264,8 +264,8 @@ inline constexpr std::array<Key<DatumSettings>, 6> kDatumKeys = {{
       "The region of VDatum that mcu or sigma is of; recorded beside it"},
      &DatumSettings::region},
     {{"name", "", Text{"the name of a vertical datum", "NAME"}, "by the coordinate system of the files",
-      "The vertical datum of the points' heights, such as NAVD88 (GEOID18), where the files do not state it: reports and "
-      "grids name it"},
+      "The vertical datum of the points' heights, such as NAVD88 (GEOID18), where the files do not state it: reports "
+      "and grids name it"},
      &DatumSettings::name},
 }};
 // An uncertainty of metres from no known source is no survey.
