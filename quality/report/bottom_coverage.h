@@ -15,7 +15,7 @@ namespace albtpu::quality {
 class LandCells {
  public:
   explicit LandCells(double cell) : cell_(cell) {}  // As that of the grid.
-  void Add(const DryPoint& point);
+  void Add(const DryPoint& dry);
   bool Has(std::int64_t column, std::int64_t row) const;
 
  private:
