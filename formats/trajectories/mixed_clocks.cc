@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "formats/trajectories/point_clock.h"
 
 namespace albtpu::formats {
@@ -52,7 +53,8 @@ std::optional<std::string> MixedClocks(const TimeTally& tally) {
   if (is_of_week == AreOfWeek(other.span) || dates.empty()) return std::nullopt;
   const std::string week = MayBeOfDay(is_of_week ? one.span : other.span) ? "seconds of the GPS week or of the day"
                                                                           : "seconds of the GPS week";
-  const std::string date = ClocksText(dates);
+  const std::string date = absl::StrJoin(
+      dates, " or ", [](std::string* text, const PointClock& clock) { absl::StrAppend(text, clock.description); });
   return is_of_week ? BothText(one, week, other, date) : BothText(one, date, other, week);
 }
 

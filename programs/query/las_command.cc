@@ -50,6 +50,7 @@ nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
   if (!annotated.sea->is_null()) json["sea"] = *annotated.sea;
   if (annotated.withheld > 0) json["withheld"] = annotated.withheld;
   if (annotated.synthetic > 0) json["synthetic"] = annotated.synthetic;
+  if (!annotated.notes.empty()) json["notes"] = annotated.notes;
   if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
   return json;
 }

@@ -33,7 +33,7 @@ TEST(SurveyDraft, StatesUnitRangeAndDefaultOfTheTables) {
               HasSubstr("# Wind speed at 10 m above the sea; 0 is a calm [m/s, 0 to 100]\n#wind_speed = NUMBER\n"));
   EXPECT_THAT(text, HasSubstr("# Single-scattering albedo [0.05 to 0.98; not given: 0.8]\n#omega0 = 0.8\n"));
   EXPECT_THAT(text, HasSubstr("\n#position = [0.02, 0.02, 0.06]\n"));
-  EXPECT_THAT(text, HasSubstr("\n#coverage = \"2sigma\"\n"));
+  EXPECT_THAT(text, HasSubstr("\n#coverage = \"p95\"\n"));
 }
 
 // Removes the # of one key after the other; of those in a table of their own, of all at once.

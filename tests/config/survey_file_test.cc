@@ -103,7 +103,7 @@ TEST(SurveyFile, NamesTheKeyThatIsMeant) {
   EXPECT_THAT(ErrorOf("[see]\n"), HasSubstr("did you mean sea?"));
   EXPECT_THAT(ErrorOf("[[sea.waves]]\nhs=1\ntp=5\nwaves_from=20\nheight=2\n"),
               StartsWith("line 5: 'sea.waves.height'"));
-  EXPECT_THAT(ErrorOf("x = 1\n"), HasSubstr("there are datum, extra, output, sea, sensor"));
+  EXPECT_THAT(ErrorOf("x = 1\n"), HasSubstr("there are datum, extra, output, project, sea, sensor"));
 }
 
 TEST(SurveyFile, RefusesTablesThatAreNone) {

@@ -76,7 +76,8 @@ class FaultTest(programs.Test):
         source, target = self.folder / "pulses.csv", self.folder / "answers.csv"
         rows = np.column_stack([pulses[axis] for axis in AXES]).astype(float)
         np.savetxt(source, rows, "%.9g", ",", header=",".join(AXES), comments="")
-        programs.query("csv", source, target, "--table", self.tables / "survey.h5", "--overwrite", check=0)
+        programs.query("csv", source, target, "--table", self.tables / "survey.h5", "--coverage", "2sigma",
+                       "--overwrite", check=0)
         cells = np.genfromtxt(target, delimiter=",", names=True, dtype=None, encoding="ascii")
         return [cells["thu"].astype(np.float32), cells["tvu"].astype(np.float32), cells["outcome"].astype(str)]
 

@@ -53,6 +53,7 @@ TEST_F(FileJobs, RecreatesSubfoldersWhenRecursive) {
 
 TEST_F(FileJobs, LeavesOutFilesAndFoldersWhoseNamesBeginWithADot) {
   folder_.Write("in/.b.las", "");
+  std::filesystem::create_directory(folder_ / "in/.trash");
   folder_.Write("in/.trash/d.las", "");
   options_.files = {folder_ / "in"};
   EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las"));

@@ -87,7 +87,7 @@ class Package(unittest.TestCase):
         rows = [row[:2] for row in csv.reader(io.StringIO(line))]
         with pulses.open("w") as file:
             csv.writer(file).writerows(rows)
-        self.query("csv", pulses, answers, *LINE, *flags, "--overwrite")
+        self.query("csv", pulses, answers, *LINE, *flags, "--coverage", "2sigma", "--overwrite")
         columns = ("incidence", "depth", "thu", "tvu")
         with answers.open() as file:
             return "".join(",".join(cells) + "\n" for cells in

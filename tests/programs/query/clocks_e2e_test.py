@@ -217,7 +217,7 @@ class ClocksTest(programs.Test):
         for bit in (0, 1):
             las = self.with_times("two.las", lambda i, t: self.gps(t) % WEEK if i % 5 else self.gps(t) - 1e9, bit)
             said = ("two.las: its GPS times are of two clocks: ", "seconds of the GPS week (",
-                    "adjusted standard GPS times (")
+                    "adjusted standard GPS times or GPS seconds since 1980 (")
             self.assert_fails(self.las(las), 1, *said)
             self.assert_fails(self.without_trajectory(las, *levels), 1, *said)
         one_level = ("--water-level", self.survey.water_level, *levels[2:])

@@ -1,6 +1,7 @@
 """Random changes of headers, flags, clocks and georeferences of sound files give the numbers of the sound ones, with a
 note where a number of the header was of use, or a refusal."""
 
+import json
 import math
 import os
 import random
@@ -106,8 +107,8 @@ class Mutations(FalseFiles):
                     refused += 1
                     continue
                 self.assert_same(LasFile(target / name).columns(), expected, touched)
-                printed = re.search(rf"(?s)albtpu-query: \S*/out{number}/{name}:\n(.*?)(?=\nalbtpu-query: |\Z)",
-                                    result.stderr)[1]
+                summary = json.loads((target / f"{name}.json").read_text())
+                printed = "\n".join(summary["input"].get("notes", []))
                 if kind == "bounds":
                     self.assertIn("bounds", printed)
                 noted += "header" in printed or "withheld" in printed or "synthetic" in printed

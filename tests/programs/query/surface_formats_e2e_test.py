@@ -104,7 +104,7 @@ class GeoTiff(Raster):
         self.assertEqual({band["noDataValue"] for band in info["bands"]}, {"NaN"})
         self.assertEqual(info["bands"][0]["unit"], "m")
         said = info["metadata"][""]["TIFFTAG_IMAGEDESCRIPTION"]
-        for part in ("95 %", "1 sigma", "Neighbouring pulses share waves", "do not state", "albtpu-query"):
+        for part in ("95 %", "1 sigma", "Neighbouring pulses share waves", "Chart datum of Mine", "albtpu-query"):
             self.assertIn(part, said)
             self.assertIn(part, self.grid.comment)
 
