@@ -50,8 +50,8 @@ class Installation(unittest.TestCase):
 
     def test_published_numbers_answer_by_name_and_are_not_the_default(self):
         published = ("--table-name", "birkebak2018_measured", "--wind-speed", "5.25", "--incidence", "20",
-                     "--azimuth", "0", "--footprint", "0.25", "--depth", "10", "--water-index", "1.33", "--coverage", "2sigma",
-                     "--json")
+                     "--azimuth", "0", "--footprint", "0.25", "--depth", "10", "--water-index", "1.33", "--coverage",
+                     "2sigma", "--json")
         pulse = json.loads(self.run_program("albtpu-query", "pulse", *published))
         self.assertEqual(pulse["outcome"], "INTERPOLATED")
         self.assertAlmostEqual(pulse["refraction_along_wind"], 4.58, places=5)  # Table 4 of the paper

@@ -87,7 +87,7 @@ class Package(unittest.TestCase):
         rows = [row[:2] for row in csv.reader(io.StringIO(line))]
         with pulses.open("w") as file:
             csv.writer(file).writerows(rows)
-        self.query("csv", pulses, answers, *LINE, *flags, "--coverage", "2sigma", "--overwrite")
+        self.query("csv", pulses, answers, *LINE, *flags, "--overwrite")
         columns = ("incidence", "depth", "thu", "tvu")
         with answers.open() as file:
             return "".join(",".join(cells) + "\n" for cells in
@@ -98,7 +98,7 @@ class Package(unittest.TestCase):
         one, from_table = self.run_program(build / "table", self.table).split("\n", 1)
         # A table answers for the water that it was made in, a server for sea water.
         in_its_water = ("--water-index", "1.33")
-        pulse = json.loads(self.query("pulse", *PULSE, *in_its_water, "--json"))
+        pulse = json.loads(self.query("pulse", *PULSE, *in_its_water, "--coverage", "2sigma", "--json"))
         numbers = re.fullmatch(r"# INTERPOLATED: THU (\S+) m, TVU (\S+) m, 2 sigma", one)
         self.assertIsNotNone(numbers, one)
         # Single pulses are computed in double precision, columns in single precision.
