@@ -1,7 +1,10 @@
 // Several records of well-known text in one LAS file, of which the format allows one.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"

@@ -1,4 +1,4 @@
-// What the terminal is told of many files together: one table, and each note once.
+// What the terminal shows for many files together: one table, and each note once.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace albtpu::programs {
 class NotesOfFiles {
  public:
   void Add(const std::string& file, const std::vector<std::string>& notes);
-  // In the order of the first of each. Behind a note that some files do not have is which do.
+  // In the order in which they first occur. A note that only some files have names them.
   std::vector<std::string> Lines() const;
 
  private:

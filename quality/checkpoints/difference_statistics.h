@@ -1,7 +1,7 @@
 // The statistics of differences at check points, of which some errors are common.
 //
-// A difference d errs by what its place has for itself (pulses, waves, the check point), by what the lines there share
-// with other places, and by what all places share (U). With W the covariance of the first two and V that of all three:
+// A difference d has three errors: its own (pulses, waves, the check point), those of its lines, which other places
+// share, and those of the survey, which all places share (U). W is the covariance of the first two, V of all three:
 //
 //   mean     The variance without U is 1'W1 / n^2. Where differences scatter about their mean more than W says, by the
 //            factor s^2 > 1 of sum (d - mean)^2 to its expectation tr W - 1'W1 / n, the variance is s^2 times that.

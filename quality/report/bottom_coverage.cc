@@ -11,9 +11,10 @@
 namespace albtpu::quality {
 namespace {
 
-constexpr double kLargeSpacings = 4;          // Of the side of a void that counts as large.
-constexpr double kFarthestCell = 1e9;         // Of a column or row, as that of SurveyGrid.
-constexpr std::size_t kMostInCell = 100'000;  // Of points in a cell that are told apart.
+constexpr double kLargeSpacings = 4;   // Of the side of a void that counts as large.
+constexpr double kFarthestCell = 1e9;  // Of a column or row, as that of SurveyGrid.
+// Points in a cell, or cells of a void; more count as this many.
+constexpr std::size_t kMostInCell = 100'000;
 
 std::int64_t TileNumber(std::int64_t index, std::int64_t tile) {
   return index >= 0 ? index / tile : -((-index + tile - 1) / tile);
