@@ -11,12 +11,12 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/json_box.h"
 #include "annotate/beams/beam_plan.h"
-#include "annotate/beams/trajectory_checks.h"
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/ray_track.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/track_spline.h"
 #include "formats/crs/map_frame.h"
+#include "formats/trajectories/trajectory_checks.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::annotate {
@@ -42,7 +42,7 @@ struct TrackedFile {
   LocalFrame frame;
   std::shared_ptr<const formats::MapFrame> map;  // May be null where the track comes from the returns.
   formats::PointTimes times;                     // Of the chosen points.
-  PointExtent extent;                            // Of the chosen points.
+  formats::PointExtent extent;                   // Of the chosen points.
   std::vector<AirRay> rays;                      // In order of time, in the local frame.
   std::uint64_t pairs = 0;                       // Pairs of returns, of which the rays are a sample.
   std::string remark;                            // Why there may be few pairs; may be empty.

@@ -183,7 +183,7 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   FileTrack found;
   NoteRemarks(*timeline, found);
   if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, plan, *timeline, found));
-  RETURN_IF_ERROR(CheckNearPoints(file.name, *timeline, *file.map, file.extent));
+  RETURN_IF_ERROR(formats::CheckNearPoints(file.name, *timeline, *file.map, file.extent));
   found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
   ASSIGN_OR_RETURN(found.track,
                    ProjectedTrack::Create(*std::move(timeline), file.map,

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "annotate/beams/pulse_sample.h"
 #include "annotate/beams/water_heights.h"
+#include "budget/beams/pulse_sample.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_points.h"
 #include "formats/trajectories/point_clock.h"

@@ -19,9 +19,6 @@
 namespace albtpu::annotate {
 namespace {
 
-// Of sea water at 15 degrees and a salinity of 35.
-constexpr double kUsualGroupIndex = 1.3643;
-
 template <typename Names>
 std::size_t PlaceOf(const Names& names, const std::string& name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -98,48 +95,15 @@ absl::StatusOr<WaterColumnTable> ReadWaterTable() {
   return WaterColumnTable::Create(*std::move(table));
 }
 
-struct EnteredOptics {
-  std::string entered;  // "Secchi depth 5 m"
-  std::string formula;  // How K follows from it, with the source (water_optics.h).
-};
-
-EnteredOptics EnteredOf(const config::WaterSettings& settings) {
-  constexpr const char* kOfSun = "K = 0.85 Kd, the mean cosine of the sun's light in water (Gordon 1989)";
-  if (settings.secchi.has_value())
-    return {
-        absl::StrCat("Secchi depth Z = ", *settings.secchi, " m"),
-        absl::StrCat("Kd = 0.94 / Z (Lee et al. 2015; 1.7 / Z by Poole and Atkins 1929 would be 1.8 times as much), "
-                     "not less than 532 nm has where 490 nm has this; ",
-                     kOfSun)};
-  if (settings.jerlov.has_value())
-    return {absl::StrCat("Jerlov type ", *settings.jerlov),
-            "Kd of the type at 532 nm (Jerlov 1976, Table XXVII); K = Kd of oceanic types, 0.85 Kd of coastal ones "
-            "(Gordon 1989)"};
-  if (!settings.kd.has_value())
-    return {
-        absl::StrCat("absorption a = ", *settings.absorption, " 1/m, scattering b = ", *settings.scattering, " 1/m"),
-        "K = sqrt(a^2 + 6 B a b), B the backscatter fraction"};
-  const std::string entered = absl::StrCat("Kd = ", *settings.kd, " 1/m of kind ", *settings.kd_kind);
-  if (*settings.kd_kind == "satellite490")
-    return {entered, absl::StrCat("Kd(532) = 0.0536 + 0.681 (Kd - 0.0224) (Austin and Petzold 1986); ", kOfSun)};
-  if (*settings.kd_kind == "system")
-    return {entered, "K = Kd / 1.05: the lidar's echoes decay 0.88 to 1.25 times as fast as Kd says"};
-  return {entered, kOfSun};
-}
-
 // What was taken of the optics, and whose numbers they are.
 void StateOptics(const config::WaterSettings& settings, const WaterOptics& optics, std::vector<StatedNumber>& numbers) {
-  const std::string way = settings.kd.has_value()       ? absl::StrCat("kd of kind ", *settings.kd_kind)
-                          : settings.secchi.has_value() ? "the Secchi depth"
-                          : settings.jerlov.has_value() ? absl::StrCat("Jerlov type ", *settings.jerlov)
-                                                        : "absorption and scattering";
-  const EnteredOptics entered = EnteredOf(settings);
-  numbers.push_back({"water_entered", entered.entered, "[water]", false});
+  const OpticsText text = TextOf(OpticsGiven(settings));
+  numbers.push_back({"water_entered", text.entered, "[water]", false});
   numbers.push_back({"water_attenuation", absl::StrFormat("%.4g 1/m", optics.attenuation),
-                     absl::StrCat("[water] ", way, ": ", entered.formula), false});
+                     absl::StrCat("[water] ", text.way, ": ", text.formula), false});
   numbers.push_back(
       {"water_attenuation_sigma", absl::StrFormat("%.3g %%", 100 * optics.attenuation_log_sigma),
-       settings.kd_sigma.has_value() ? "[water] kd_sigma" : absl::StrCat("assumed: what ", way, " is good for"),
+       settings.kd_sigma.has_value() ? "[water] kd_sigma" : absl::StrCat("assumed: what ", text.way, " is good for"),
        !settings.kd_sigma.has_value()});
   const bool albedo_told = settings.omega0.has_value() || settings.absorption.has_value();
   const double ratio = optics.scattering_over_absorption;
@@ -202,7 +166,7 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
                                .field_of_view = *settings.field_of_view,
                                .pulse_length = *settings.pulse_length,
-                               .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
+                               .group_index = of_state.has_value() ? of_state->group : kSeaWaterGroupIndex};
   absl::StatusOr<WaterContribution> share = WaterContribution::Create(table, *optics, receiver, treatment);
   if (!share.ok()) return InWater(share.status());
   if (!settings.processed_with.has_value())

@@ -5,11 +5,14 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kSunCosine = 0.85;
+constexpr double kSecchiProduct = 0.94, kOldSecchiProduct = 1.7;  // Kd Z; the old one by Poole and Atkins (1929)
+constexpr double kSystemFactor = 1.05;                            // of the decay of a lidar's echoes, over Kd
 constexpr double kDefaultOmega0 = 0.8, kDefaultOmega0Sigma = 0.1;
 constexpr double kMinFraction = 0.01, kMaxFraction = 0.03;
 constexpr double kMiddleFraction = 0.0183;
@@ -23,8 +26,8 @@ constexpr std::array<double, 10> kJerlovKd = {0.0486, 0.0533, 0.0590, 0.0796, 0.
                                               0.1272, 0.1972, 0.3072, 0.4816, 0.7380};
 constexpr std::size_t kOceanicTypes = 5;
 
-constexpr double kSlopeOf490 = 0.681;
-double Kd532Of490(double kd) { return 0.0536 + kSlopeOf490 * (kd - 0.0224); }
+constexpr double kPureKd532 = 0.0536, kSlopeOf490 = 0.681, kPureKd490 = 0.0224;
+double Kd532Of490(double kd) { return kPureKd532 + kSlopeOf490 * (kd - kPureKd490); }
 
 struct Attenuation {
   double kd, factor, log_sigma;  // K = kd * factor
@@ -37,7 +40,7 @@ Attenuation OfKd(double kd, KdKind kind) {
     case KdKind::kDiffuse532:
       return {kd, kSunCosine, kMeasured};
     case KdKind::kSystem:
-      return {kd, 1 / 1.05, std::hypot(kMeasured, kSystem)};
+      return {kd, 1 / kSystemFactor, std::hypot(kMeasured, kSystem)};
     case KdKind::kSecchi:
       return {kd, kSunCosine, kSecchi};
     case KdKind::kJerlov:
@@ -68,7 +71,7 @@ absl::Status CheckWays(const OpticsInput& given) {
 Attenuation AttenuationOf(const OpticsInput& given) {
   if (given.kd.has_value()) return OfKd(*given.kd, *given.kd_kind);
   if (given.secchi.has_value()) {
-    const double clearest = 0.94 / *given.secchi;
+    const double clearest = kSecchiProduct / *given.secchi;
     return {std::max(clearest, Kd532Of490(clearest)), kSunCosine, kSecchi};
   }
   if (given.jerlov.has_value()) {
@@ -86,6 +89,39 @@ Attenuation AttenuationOf(const OpticsInput& given) {
 double WaterOptics::MaxRatio(double attenuation, double backscatter_fraction) {
   const double relative = attenuation / kPureWaterAbsorption;
   return std::max(0.0, (relative * relative - 1) / (6 * backscatter_fraction));
+}
+
+OpticsText TextOf(const OpticsInput& given) {
+  const std::string of_sun =
+      absl::StrCat("K = ", kSunCosine, " Kd, the mean cosine of the sun's light in water (Gordon 1989)");
+  if (given.secchi.has_value()) {
+    return {"the Secchi depth", absl::StrCat("Secchi depth Z = ", *given.secchi, " m"),
+            absl::StrFormat("Kd = %g / Z (Lee et al. 2015; %g / Z by Poole and Atkins 1929 would be %.1f times as "
+                            "much), not less than 532 nm has where 490 nm has this; %s",
+                            kSecchiProduct, kOldSecchiProduct, kOldSecchiProduct / kSecchiProduct, of_sun)};
+  }
+  if (given.jerlov.has_value()) {
+    const std::string type = absl::StrCat("Jerlov type ", std::string(*given.jerlov));
+    return {type, type,
+            absl::StrCat("Kd of the type at 532 nm (Jerlov 1976, Table XXVII); K = Kd of oceanic types, ", kSunCosine,
+                         " Kd of coastal ones (Gordon 1989)")};
+  }
+  if (!given.kd.has_value()) {
+    return {"absorption and scattering",
+            absl::StrCat("absorption a = ", *given.absorption, " 1/m, scattering b = ", *given.scattering, " 1/m"),
+            "K = sqrt(a^2 + 6 B a b), B the backscatter fraction"};
+  }
+  const std::string kind(kKdKindNames[static_cast<std::size_t>(*given.kd_kind)]);
+  OpticsText text = {absl::StrCat("kd of kind ", kind), absl::StrCat("Kd = ", *given.kd, " 1/m of kind ", kind),
+                     of_sun};
+  if (given.kd_kind == KdKind::kSatellite490) {
+    text.formula = absl::StrCat("Kd(532) = ", kPureKd532, " + ", kSlopeOf490, " (Kd - ", kPureKd490,
+                                ") (Austin and Petzold 1986); ", of_sun);
+  } else if (given.kd_kind == KdKind::kSystem) {
+    text.formula =
+        absl::StrCat("K = Kd / ", kSystemFactor, ": the lidar's echoes decay 0.88 to 1.25 times as fast as Kd says");
+  }
+  return text;
 }
 
 absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {

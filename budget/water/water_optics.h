@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "absl/status/statusor.h"
@@ -67,5 +68,14 @@ inline constexpr double kPureWaterAbsorption = 0.045;
 //
 //     OpticsOf({.kd = 0.12, .kd_kind = KdKind::kDiffuse532})->attenuation  // 0.102
 absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given);
+
+// The same for people, of what OpticsOf() takes. `way` names what was given, `entered` has its number, and `formula` is
+// how K follows from it, with the source.
+struct OpticsText {
+  std::string way;      // "the Secchi depth"
+  std::string entered;  // "Secchi depth Z = 5 m"
+  std::string formula;  // "Kd = 0.94 / Z (Lee et al. 2015; ..."
+};
+OpticsText TextOf(const OpticsInput& given);
 
 }  // namespace albtpu

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "sea/water_index.h"
+
 namespace albtpu {
 
 // How the receiver determines the time of an echo.
@@ -14,7 +16,7 @@ struct WaterReceiver {
   EchoDetector detector = EchoDetector::kPeak;
   double field_of_view = 0;  // m, diameter on the surface, across the beam; infinity: all
   double pulse_length = 0;   // ns, full width at half maximum
-  double group_index = 1.3643;
+  double group_index = kSeaWaterGroupIndex;
 };
 
 // How the processing of the survey corrected the bias.

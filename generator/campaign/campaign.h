@@ -22,7 +22,7 @@ namespace albtpu {
 
 // The settings of a table of the water column, in place of a sea.
 struct WaterWork {
-  double group_index = 1.3643;
+  double group_index = kSeaWaterGroupIndex;
   std::uint32_t photons = 60'000;  // of each pool
   int pairs_per_photon = 3;
 };

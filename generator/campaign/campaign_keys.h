@@ -178,7 +178,7 @@ inline constexpr CampaignKey kPulseLength = {
     "axes", "pulse_length", NodeRange{0.001, true, 1.5, "an echo is kept up to five depths below the bottom"}, "",
     Required{}, "Length of the pulse at half its maximum, in water, over twice the depth."};
 inline constexpr CampaignKey kGroupIndex = {
-    "water", "group_index", NumberRange{1.01, 2}, "", 1.3643,
+    "water", "group_index", NumberRange{1.01, 2}, "", kSeaWaterGroupIndex,
     "Index of the group, which delays the pulse."};
 inline constexpr CampaignKey kPhotons = {
     "effort", "photons", WholeRange{1000, 10'000'000}, "", std::int64_t{60'000},

@@ -83,7 +83,7 @@ struct WaterPointOptions {
   double depth = 0, field_of_view = 0;  // m; the field of view may be infinite
   double pulse_length = 0;              // ns
   double footprint = 0;                 // m
-  double refractive_index = 1.342, group_index = 1.3643;
+  double refractive_index = 1.342, group_index = kSeaWaterGroupIndex;
   std::uint32_t photons = 1'600'000;
   std::uint64_t seed = 1;
   bool json = false;

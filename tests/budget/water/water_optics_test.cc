@@ -30,6 +30,21 @@ TEST(OpticsOf, TakesTheAttenuationAsOfItsKind) {
               std::sqrt(a * a + 0.12 * a * b), 1e-12);
 }
 
+TEST(TextOf, HasTheNumbersThatWereComputedWith) {
+  const OpticsText secchi = TextOf({.secchi = 5.0});
+  EXPECT_EQ(secchi.way, "the Secchi depth");
+  EXPECT_EQ(secchi.entered, "Secchi depth Z = 5 m");
+  EXPECT_THAT(secchi.formula, HasSubstr("Kd = 0.94 / Z (Lee et al. 2015; 1.7 / Z by Poole and Atkins 1929 would be "
+                                        "1.8 times as much)"));
+  EXPECT_THAT(secchi.formula, HasSubstr("K = 0.85 Kd"));
+  const OpticsText satellite = TextOf({.kd = 0.1, .kd_kind = KdKind::kSatellite490});
+  EXPECT_EQ(satellite.entered, "Kd = 0.1 1/m of kind satellite490");
+  EXPECT_THAT(satellite.formula, HasSubstr("Kd(532) = 0.0536 + 0.681 (Kd - 0.0224) (Austin and Petzold 1986)"));
+  EXPECT_THAT(TextOf({.kd = 0.1, .kd_kind = KdKind::kSystem}).formula, HasSubstr("K = Kd / 1.05"));
+  EXPECT_EQ(TextOf({.jerlov = "1C"}).entered, "Jerlov type 1C");
+  EXPECT_EQ(TextOf({.absorption = 0.1, .scattering = 0.2}).entered, "absorption a = 0.1 1/m, scattering b = 0.2 1/m");
+}
+
 TEST(OpticsOf, SpreadsTheAlbedoByItsLogit) {
   const absl::StatusOr<WaterOptics> optics =
       OpticsOf({.kd = 0.2, .kd_kind = KdKind::kDiffuse532, .omega0 = 0.8, .omega0_sigma = 0.1});

@@ -1,4 +1,4 @@
-#include "annotate/beams/pulse_sample.h"
+#include "budget/beams/pulse_sample.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "sea/samples.h"
 
-namespace albtpu::annotate {
+namespace albtpu {
 std::uint64_t HashOfTime(double time) { return MixBits(std::bit_cast<std::uint64_t>(time) + 0x9e3779b97f4a7c15); }
 
 void PairSample::Add(const ReturnPair& pair) {
@@ -109,4 +109,4 @@ std::vector<std::vector<PulseReturn>> PulseSample::Take() {
   return pulses;
 }
 
-}  // namespace albtpu::annotate
+}  // namespace albtpu

@@ -1,4 +1,4 @@
-#include "annotate/beams/pulse_sample.h"
+#include "budget/beams/pulse_sample.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace albtpu::annotate {
+namespace albtpu {
 namespace {
 
 PulseReturn Return(double time, int number, int count, int channel = 0) {
@@ -125,4 +125,4 @@ TEST(PairSample, DoesNotDependOnTheOrder) {
 }
 
 }  // namespace
-}  // namespace albtpu::annotate
+}  // namespace albtpu

@@ -1,4 +1,4 @@
-#include "annotate/beams/trajectory_checks.h"
+#include "formats/trajectories/trajectory_checks.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
 
-namespace albtpu::annotate {
+namespace albtpu::formats {
 namespace {
 
 using namespace albtpu::testing;  // Flight, Fly, SbetRow and its fields.
@@ -16,14 +16,14 @@ using ::testing::HasSubstr;
 
 class CheckNearPointsTest : public ::testing::Test {
  protected:
-  static std::shared_ptr<const formats::MapFrame> Frame(const std::string& crs) {
-    return *formats::MapFrame::Create("in.las", {.user = crs});
+  static std::shared_ptr<const MapFrame> Frame(const std::string& crs) {
+    return *MapFrame::Create("in.las", {.user = crs});
   }
-  formats::TrajectoryTimeline Timeline(const std::vector<SbetRow>& rows) {
-    auto file = formats::SbetFile::Open(folder_.Write("flight.sbet", SbetBytes(rows)));
+  TrajectoryTimeline Timeline(const std::vector<SbetRow>& rows) {
+    auto file = SbetFile::Open(folder_.Write("flight.sbet", SbetBytes(rows)));
     EXPECT_TRUE(file.ok()) << file.status();
-    return *formats::TrajectoryTimeline::Create({*std::move(file)}, formats::TrajectoryClock::kGps,
-                                                {{300010, 300040}, formats::PointTimeForm::kWeekSeconds});
+    return *TrajectoryTimeline::Create({*std::move(file)}, TrajectoryClock::kGps,
+                                       {{300010, 300040}, PointTimeForm::kWeekSeconds});
   }
   // The points below a flight, in `crs`.
   static PointExtent Below(const Flight& flight, const std::string& crs) {
@@ -31,7 +31,7 @@ class CheckNearPointsTest : public ::testing::Test {
     PointExtent extent = {1e300, -1e300, 1e300, -1e300};
     for (double time = 10; time <= 40; time += 1) {
       const SbetRow row = RowAt(flight, time);
-      const formats::MapPosition position = frame->Project({row[kLatitude], row[kLongitude]});
+      const MapPosition position = frame->Project({row[kLatitude], row[kLongitude]});
       extent.x_min = std::min(extent.x_min, position.x);
       extent.x_max = std::max(extent.x_max, position.x);
       extent.y_min = std::min(extent.y_min, position.y);
@@ -108,4 +108,4 @@ TEST_F(CheckNearPointsTest, SaysHowFarAnotherFlightIs) {
 }
 
 }  // namespace
-}  // namespace albtpu::annotate
+}  // namespace albtpu::formats

@@ -7,7 +7,7 @@
 #include "formats/crs/map_frame.h"
 #include "formats/trajectories/trajectory_timeline.h"
 
-namespace albtpu::annotate {
+namespace albtpu::formats {
 
 // The bounding box of the points, in their units as the header states it.
 struct PointExtent {
@@ -21,7 +21,7 @@ inline constexpr double kFarthestFromPoints = 5000;  // m
 // points. The message says how far, and the cause where a change brings the trajectory to the points: another zone, the
 // other hemisphere, exchanged latitude and longitude, exchanged x and y, a wrong sign of the longitude or latitude,
 // feet for metres. `las` is the file of the points.
-absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTimeline& timeline,
-                             const formats::MapFrame& frame, const PointExtent& extent);
+absl::Status CheckNearPoints(const std::string& las, const TrajectoryTimeline& timeline, const MapFrame& frame,
+                             const PointExtent& extent);
 
-}  // namespace albtpu::annotate
+}  // namespace albtpu::formats

@@ -1,4 +1,4 @@
-#include "annotate/beams/trajectory_checks.h"
+#include "formats/trajectories/trajectory_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
 
-namespace albtpu::annotate {
+namespace albtpu::formats {
 namespace {
 
 // Times at which distances are taken. Over five hours they are 9 s or half a kilometre apart.
@@ -21,18 +21,18 @@ constexpr int kSamples = 2000;
 constexpr double kFoot = 0.3048;                     // m, exact; the US survey foot differs by 2e-6 of it.
 constexpr double kSouthernFalseNorthing = 10000000;  // m, of all southern UTM zones.
 
-std::vector<formats::GeographicPosition> SamplePositions(const formats::TrajectoryTimeline& timeline) {
-  const formats::TimeSpan& span = timeline.points().span;
-  std::vector<formats::GeographicPosition> samples;
+std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeline) {
+  const TimeSpan& span = timeline.points().span;
+  std::vector<GeographicPosition> samples;
   for (int i = 0; i <= kSamples; ++i) {
-    const std::optional<formats::TrajectoryRecord> record =
+    const std::optional<TrajectoryRecord> record =
         timeline.RecordAt(span.first + (span.last - span.first) * i / kSamples);
     if (record.has_value()) samples.push_back({record->latitude, record->longitude});
   }
   // Points of a few moments that lie in gaps: the records nearest to them.
   if (samples.empty()) {
-    for (const formats::TimelineRun& run : timeline.runs()) {
-      const formats::TrajectoryRecord record = run.trajectory->Record(run.begin);
+    for (const TimelineRun& run : timeline.runs()) {
+      const TrajectoryRecord record = run.trajectory->Record(run.begin);
       samples.push_back({record.latitude, record.longitude});
     }
   }
@@ -40,10 +40,9 @@ std::vector<formats::GeographicPosition> SamplePositions(const formats::Trajecto
 }
 
 // Minimum distance in m of projected positions from the box; infinite where none can be projected.
-double MinDistance(const std::vector<formats::MapPosition>& positions, const formats::MapMetric& metric,
-                   const PointExtent& extent) {
+double MinDistance(const std::vector<MapPosition>& positions, const MapMetric& metric, const PointExtent& extent) {
   double least = HUGE_VAL;
-  for (const formats::MapPosition& position : positions) {
+  for (const MapPosition& position : positions) {
     const double x = std::max({extent.x_min - position.x, 0.0, position.x - extent.x_max});
     const double y = std::max({extent.y_min - position.y, 0.0, position.y - extent.y_max});
     const double distance = std::hypot(x * metric.metres_per_x, y * metric.metres_per_y);
@@ -55,8 +54,8 @@ double MinDistance(const std::vector<formats::MapPosition>& positions, const for
 // Changes of the geographic coordinates before projection and of the map coordinates after it.
 struct Change {
   std::string description;
-  std::function<formats::GeographicPosition(formats::GeographicPosition)> before;
-  std::function<formats::MapPosition(formats::MapPosition)> after;
+  std::function<GeographicPosition(GeographicPosition)> before;
+  std::function<MapPosition(MapPosition)> after;
 };
 
 // "zone 18" for two zones east of zone 16, where the name of the coordinate system has a zone.
@@ -70,44 +69,43 @@ std::string NameOfZone(const std::string& crs_name, int zones) {
   return absl::StrCat(", UTM zone ", (zone - 1 + zones + 120) % 60 + 1);
 }
 
-std::vector<Change> Changes(const formats::MapFrame& frame) {
-  const auto same = [](formats::MapPosition position) { return position; };
-  const auto unchanged = [](formats::GeographicPosition position) { return position; };
+std::vector<Change> Changes(const MapFrame& frame) {
+  const auto same = [](MapPosition position) { return position; };
+  const auto unchanged = [](GeographicPosition position) { return position; };
   std::vector<Change> changes;
   changes.push_back({"the latitude and longitude of the trajectory are exchanged",
-                     [](formats::GeographicPosition p) {
-                       return formats::GeographicPosition{p.longitude, p.latitude};
+                     [](GeographicPosition p) {
+                       return GeographicPosition{p.longitude, p.latitude};
                      },
                      same});
   changes.push_back({"the longitude of the trajectory has the wrong sign",
-                     [](formats::GeographicPosition p) {
-                       return formats::GeographicPosition{p.latitude, -p.longitude};
+                     [](GeographicPosition p) {
+                       return GeographicPosition{p.latitude, -p.longitude};
                      },
                      same});
   changes.push_back({"the latitude of the trajectory has the wrong sign",
-                     [](formats::GeographicPosition p) {
-                       return formats::GeographicPosition{-p.latitude, p.longitude};
+                     [](GeographicPosition p) {
+                       return GeographicPosition{-p.latitude, p.longitude};
                      },
                      same});
-  changes.push_back({"x and y of the points are exchanged", unchanged, [](formats::MapPosition p) {
-                       return formats::MapPosition{p.y, p.x};
+  changes.push_back({"x and y of the points are exchanged", unchanged, [](MapPosition p) {
+                       return MapPosition{p.y, p.x};
                      }});
   if (frame.is_geographic()) return changes;
   const double unit = frame.unit();
   changes.push_back(
-      {"the points are in feet, but their coordinate system states metres", unchanged, [unit](formats::MapPosition p) {
-         return formats::MapPosition{p.x * unit / kFoot, p.y * unit / kFoot};
+      {"the points are in feet, but their coordinate system states metres", unchanged, [unit](MapPosition p) {
+         return MapPosition{p.x * unit / kFoot, p.y * unit / kFoot};
        }});
-  changes.push_back({"the points are in metres, but their coordinate system states another unit", unchanged,
-                     [unit](formats::MapPosition p) {
-                       return formats::MapPosition{p.x * unit, p.y * unit};
-                     }});
+  changes.push_back(
+      {"the points are in metres, but their coordinate system states another unit", unchanged, [unit](MapPosition p) {
+         return MapPosition{p.x * unit, p.y * unit};
+       }});
   if (!frame.is_transverse_mercator()) return changes;
   for (const double sign : {-1.0, 1.0}) {
-    changes.push_back(
-        {"the points are in the zone of the other hemisphere", unchanged, [unit, sign](formats::MapPosition p) {
-           return formats::MapPosition{p.x, p.y + sign * kSouthernFalseNorthing / unit};
-         }});
+    changes.push_back({"the points are in the zone of the other hemisphere", unchanged, [unit, sign](MapPosition p) {
+                         return MapPosition{p.x, p.y + sign * kSouthernFalseNorthing / unit};
+                       }});
   }
   // A position seen from another central meridian is the position turned by the angle between the two. Gauss-Krueger
   // zones are 3 degrees wide, UTM zones 6.
@@ -117,8 +115,8 @@ std::vector<Change> Changes(const formats::MapFrame& frame) {
       changes.push_back({absl::StrFormat("another zone: the points fit a central meridian %d degrees further %s%s",
                                          degrees, sign > 0 ? "east" : "west",
                                          degrees % 6 == 0 ? NameOfZone(frame.crs_name(), sign * degrees / 6) : ""),
-                         [turn](formats::GeographicPosition p) {
-                           return formats::GeographicPosition{p.latitude, p.longitude - turn};
+                         [turn](GeographicPosition p) {
+                           return GeographicPosition{p.latitude, p.longitude - turn};
                          },
                          same});
     }
@@ -126,28 +124,28 @@ std::vector<Change> Changes(const formats::MapFrame& frame) {
   return changes;
 }
 
-double DistanceAfter(const Change& change, const std::vector<formats::GeographicPosition>& samples,
-                     const formats::MapFrame& frame, const formats::MapMetric& metric, const PointExtent& extent) {
-  std::vector<formats::GeographicPosition> positions;
-  for (const formats::GeographicPosition& sample : samples) {
-    const formats::GeographicPosition changed = change.before(sample);
+double DistanceAfter(const Change& change, const std::vector<GeographicPosition>& samples, const MapFrame& frame,
+                     const MapMetric& metric, const PointExtent& extent) {
+  std::vector<GeographicPosition> positions;
+  for (const GeographicPosition& sample : samples) {
+    const GeographicPosition changed = change.before(sample);
     if (std::abs(changed.latitude) <= std::numbers::pi / 2) positions.push_back(changed);
   }
-  std::vector<formats::MapPosition> projected(positions.size());
+  std::vector<MapPosition> projected(positions.size());
   frame.Project(positions, projected);
-  for (formats::MapPosition& position : projected) position = change.after(position);
+  for (MapPosition& position : projected) position = change.after(position);
   return MinDistance(projected, metric, extent);
 }
 
 }  // namespace
 
-absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTimeline& timeline,
-                             const formats::MapFrame& frame, const PointExtent& extent) {
-  const std::vector<formats::GeographicPosition> samples = SamplePositions(timeline);
-  std::vector<formats::MapPosition> projected(samples.size());
+absl::Status CheckNearPoints(const std::string& las, const TrajectoryTimeline& timeline, const MapFrame& frame,
+                             const PointExtent& extent) {
+  const std::vector<GeographicPosition> samples = SamplePositions(timeline);
+  std::vector<MapPosition> projected(samples.size());
   frame.Project(samples, projected);
-  const formats::MapMetric metric =
-      frame.is_geographic() ? frame.MetricAt(samples.front()) : formats::MapMetric{frame.unit(), frame.unit(), 0};
+  const MapMetric metric =
+      frame.is_geographic() ? frame.MetricAt(samples.front()) : MapMetric{frame.unit(), frame.unit(), 0};
   const double distance = MinDistance(projected, metric, extent);
   if (distance <= kFarthestFromPoints) return absl::OkStatus();
   double least = kFarthestFromPoints;
@@ -168,7 +166,7 @@ absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTi
         "another flight, such as one at the same hours of another week, which an SBET does not name, or "
         "another coordinate system";
   }
-  const formats::GeographicPosition& sample = samples.front();
+  const GeographicPosition& sample = samples.front();
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s: at the times of its points the trajectory is %s away from them in %s (%s is at latitude %.4f and "
       "longitude %.4f degrees: %s); %s",
@@ -177,4 +175,4 @@ absl::Status CheckNearPoints(const std::string& las, const formats::TrajectoryTi
       DegreesOfRadians(sample.longitude), cause, remedy));
 }
 
-}  // namespace albtpu::annotate
+}  // namespace albtpu::formats

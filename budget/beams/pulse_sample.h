@@ -10,7 +10,7 @@
 
 #include "budget/beams/return_pair.h"
 
-namespace albtpu::annotate {
+namespace albtpu {
 
 // Pairs of returns of a long file in bounded memory: a sample that is spread over its time.
 
@@ -78,4 +78,4 @@ class PulseSample {
   std::vector<PulseReturn> returns_;
 };
 
-}  // namespace albtpu::annotate
+}  // namespace albtpu
