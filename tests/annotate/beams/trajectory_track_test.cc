@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/budget/beams/ray_flight.h"
@@ -149,6 +150,10 @@ TEST_F(TrackFromFilesTest, ReadsTheTimesOfEveryClockByWhatFits) {
     for (std::size_t format = 0; format < formats::kTimeFormatNames.size(); ++format) {
       plan_.time_format = static_cast<formats::TimeFormat>(format);
       const bool is_auto = format == 0, is_right = formats::kTimeFormatNames[format] == clock.name;
+      // Of the wrong ones, that named before the right one; all of them take seconds.
+      const bool is_before = format + 1 < formats::kTimeFormatNames.size() &&
+                             formats::kTimeFormatNames[format + 1] == clock.name;
+      if (!is_auto && !is_right && !is_before && std::getenv("ALBTPU_EVERY_CASE") == nullptr) continue;
       const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
       ASSERT_EQ(found.ok(), is_auto || is_right)
           << clock.name << " as " << formats::kTimeFormatNames[format] << ": " << found.status();

@@ -21,7 +21,7 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kDepth = 10;  // m
 constexpr double kFootprint = 0.5, kPointsPerFootprint = 64;
 constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven peak wavelengths
-constexpr int kSurfaces = 60, kPlaces = 36, kRays = 4000;
+constexpr int kSurfaces = 40, kPlaces = 36, kRays = 4000;
 const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
 const std::vector<BeamOptions> kBeams = {{.footprint = kFootprint},

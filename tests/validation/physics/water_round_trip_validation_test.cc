@@ -15,7 +15,7 @@ namespace albtpu {
 namespace {
 
 const PhaseFunction kOcean = PhaseFunction::FournierForand(0.0183);
-constexpr std::uint32_t kPools = 16, kPhotons = 500'000;  // some tens of seconds a case
+constexpr std::uint32_t kPools = 16, kPhotons = 250'000;  // some seconds a case
 
 struct Case {
   std::string name;
