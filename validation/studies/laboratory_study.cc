@@ -273,10 +273,9 @@ absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options) {
       SizeParagraph(cells), TrendParagraph(cells, variations), SensitivityParagraph(variations),
       EvolvingParagraph(evolving, cells, frames)};
   study.paragraphs.push_back(
-      options.quick
-          ? "Quick run: 60 of 400 frames, three of six winds and two of four incidences, evolving waves "
-            "at one wind, no other grids, patches and draws; the full run has them."
-          : GridParagraph(variations));
+      options.quick ? "Quick run: 60 of 400 frames, three of six winds and two of four incidences, evolving waves "
+                      "at one wind, no other grids, patches and draws; the full run has them."
+                    : GridParagraph(variations));
   study.comparisons = Comparisons(cells);
   study.tables = {TableOfCells(cells), TableOf(variations), TableOf(evolving), LightUnderWaves(options.seed)};
   study.figures = {

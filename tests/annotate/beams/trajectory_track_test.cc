@@ -151,8 +151,8 @@ TEST_F(TrackFromFilesTest, ReadsTheTimesOfEveryClockByWhatFits) {
       plan_.time_format = static_cast<formats::TimeFormat>(format);
       const bool is_auto = format == 0, is_right = formats::kTimeFormatNames[format] == clock.name;
       // Of the wrong ones, that named before the right one; all of them take seconds.
-      const bool is_before = format + 1 < formats::kTimeFormatNames.size() &&
-                             formats::kTimeFormatNames[format + 1] == clock.name;
+      const bool is_before =
+          format + 1 < formats::kTimeFormatNames.size() && formats::kTimeFormatNames[format + 1] == clock.name;
       if (!is_auto && !is_right && !is_before && std::getenv("ALBTPU_EVERY_CASE") == nullptr) continue;
       const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
       ASSERT_EQ(found.ok(), is_auto || is_right)
