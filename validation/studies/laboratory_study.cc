@@ -19,7 +19,7 @@
 namespace albtpu {
 namespace {
 
-// For each cell and variation. 400 are 20 s at 20 Hz, as in the laboratory; standard errors of 60 are 2.6 times as large.
+// For each cell and variation. 400 are 20 s at 20 Hz, as in the laboratory; 60 have standard errors 2.6 times as large.
 int FramesOf(const StudyOptions& options) { return options.quick ? 60 : 400; }
 
 // The relative scatter of a published 2 sigma: sqrt(1 / (2 (frames - 1))) for 400 independent frames and normal
