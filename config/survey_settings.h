@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "budget/water/water_contribution.h"
+#include "budget/water/known_water.h"
 #include "config/key.h"
 #include "config/project_settings.h"
 #include "config/sea_settings.h"
@@ -135,8 +135,8 @@ inline constexpr NumberOrPath kLevel = {
 // The geoid lies up to 106 m from the ellipsoid, in metres or in feet, and tides of 16 m about it.
 inline constexpr Number kLevelOffset = {-500, 500, "1"};
 inline constexpr Number kHoursFromUtc = {-12, 14, "h"};
-// Fresh water at 30 degrees and 1064 nm has 1.32, cold sea water at 355 nm 1.36.
-inline constexpr Number kWaterIndex = {1.3, 1.4, "1"};
+constexpr Number In(const WaterRange& range) { return {range.least, range.greatest, range.unit}; }
+inline constexpr Number kWaterIndex = In(kWaterIndexRange);
 
 // clang-format off
 inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
@@ -192,57 +192,55 @@ inline constexpr std::array<Key<SurfaceSettings>, 7> kSurfaceKeys = {{
       "Local time less UTC, of a file of water levels that does not state its time zone, as those of CO-OPS"},
      &SurfaceSettings::level_hours_from_utc},
 }};
-// Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
-// and the salt of the ocean 45 at most; it freezes above -2.
 static_assert(kSeaWaterIndex == 1.34);  // As the text of the index says.
 inline constexpr std::array<Key<WaterSettings>, 21> kWaterKeys = {{
     {{"index", "--water-index", kWaterIndex, "by temperature and salinity, or 1.34", "Refractive index of the water"},
      &WaterSettings::index},
-    {{"temperature", "", Number{-2, 40, "degree C"}, "", "Temperature of the water, for its index"},
+    {{"temperature", "", In(kTemperatureRange), "", "Temperature of the water, for its index"},
      &WaterSettings::temperature},
-    {{"salinity", "", Number{0, 45, "1"}, "", "Salinity of the water, for its index"}, &WaterSettings::salinity},
+    {{"salinity", "", In(kSalinityRange), "", "Salinity of the water, for its index"}, &WaterSettings::salinity},
     {{"processed_with", "", kWaterIndex, "the group index of the water",
       "The index that the ranges were computed with"},
      &WaterSettings::processed_with},
     {{"column", "--water-column", Word{kColumns}, "", "none: leave out the contribution of the water column"},
      &WaterSettings::column},
-    {{"kd", "", Number{0.001, 10, "1/m"}, "", "Attenuation of the water, of the kind that kd_kind says"},
+    {{"kd", "", In(kKdRange), "", "Attenuation of the water, of the kind that kd_kind says"},
      &WaterSettings::kd},
     {{"kd_kind", "", Word{kKdKindNames}, "", "Where kd is from"}, &WaterSettings::kd_kind},
-    {{"kd_sigma", "", Number{0, 10, "1/m"}, "by the kind of kd", "Standard deviation of the attenuation"},
+    {{"kd_sigma", "", In(kKdSigmaRange), "by the kind of kd", "Standard deviation of the attenuation"},
      &WaterSettings::kd_sigma},
-    {{"secchi", "", Number{0.1, 80, "m"}, "", "Secchi depth, in place of kd"}, &WaterSettings::secchi},
+    {{"secchi", "", In(kSecchiRange), "", "Secchi depth, in place of kd"}, &WaterSettings::secchi},
     {{"jerlov", "", Word{kJerlovTypes}, "", "Jerlov's type of the water, in place of kd"}, &WaterSettings::jerlov},
-    {{"absorption", "", Number{0.001, 10, "1/m"}, "", "Absorption at 532 nm, with scattering in place of kd"},
+    {{"absorption", "", In(kAbsorptionRange), "", "Absorption at 532 nm, with scattering in place of kd"},
      &WaterSettings::absorption},
-    {{"scattering", "", Number{0.001, 50, "1/m"}, "", "Scattering at 532 nm"}, &WaterSettings::scattering},
-    {{"omega0", "", Number{0.05, 0.98, "1"}, "0.8", "Single-scattering albedo"}, &WaterSettings::omega0},
-    {{"omega0_sigma", "", Number{0, 0.3, "1"}, "0.1", "Standard deviation of omega0"}, &WaterSettings::omega0_sigma},
-    {{"backscatter_fraction", "", Number{0.005, 0.05, "1"}, "0.01 to 0.03",
+    {{"scattering", "", In(kScatteringRange), "", "Scattering at 532 nm"}, &WaterSettings::scattering},
+    {{"omega0", "", In(kAlbedoRange), "0.8", "Single-scattering albedo"}, &WaterSettings::omega0},
+    {{"omega0_sigma", "", In(kAlbedoSigmaRange), "0.1", "Standard deviation of omega0"}, &WaterSettings::omega0_sigma},
+    {{"backscatter_fraction", "", In(kBackscatterRange), "0.01 to 0.03",
       "Share of scattered light that turns back"},
      &WaterSettings::backscatter_fraction},
     {{"detector", "", Word{kEchoDetectorNames}, "", "How the receiver reads the bottom from the echo"},
      &WaterSettings::detector},
-    {{"field_of_view", "", Number{0.1, 1000, "m"}, "",
+    {{"field_of_view", "", In(kFieldOfViewRange), "",
       "Diameter of what the receiver sees on the surface, across the beam"},
      &WaterSettings::field_of_view},
-    {{"pulse_length", "", Number{0.1, 20, "ns"}, "", "Length of the pulse at half its maximum"},
+    {{"pulse_length", "", In(kPulseLengthRange), "", "Length of the pulse at half its maximum"},
      &WaterSettings::pulse_length},
-    {{"photons", "", Number{1, 1e9, "1"}, "their noise is in [sigma] bottom_range", "Photons that an echo counts"},
+    {{"photons", "", In(kPhotonsRange), "their noise is in [sigma] bottom_range", "Photons that an echo counts"},
      &WaterSettings::photons},
     {{"bias", "", Word{kBiasHandlingNames}, "",
       "What the processing did about the bias of scattering: none leaves it in the points, correct took away the mean, "
       "vendor left a residual_fraction, calibrated took away the mean scaled to a calibration"},
      &WaterSettings::bias},
-    {{"residual_fraction", "", Number{0, 1, "1"}, "", "The fraction of the bias that a vendor's correction leaves"},
+    {{"residual_fraction", "", In(kFractionRange), "", "The fraction of the bias that a vendor's correction leaves"},
      &WaterSettings::residual_fraction},
 }};
-// The offset of a calibration may be negative; none that a survey had was beyond metres.
 inline constexpr std::array<Key<CalibrationSettings>, 3> kCalibrationKeys = {{
-    {{"depth", "", Number{0.1, 100, "m"}, "", "Depth at which the bias was measured"}, &CalibrationSettings::depth},
-    {{"offset", "", Number{-10, 10, "m"}, "", "The bias, positive if the points were too shallow"},
+    {{"depth", "", In(kCalibrationDepthRange), "", "Depth at which the bias was measured"},
+     &CalibrationSettings::depth},
+    {{"offset", "", In(kCalibrationOffsetRange), "", "The bias, positive if the points were too shallow"},
      &CalibrationSettings::offset},
-    {{"sigma", "", Number{0, 10, "m"}, "", "Its standard deviation"}, &CalibrationSettings::sigma},
+    {{"sigma", "", In(kCalibrationSigmaRange), "", "Its standard deviation"}, &CalibrationSettings::sigma},
 }};
 // What EGM2008 has on Earth is -107 to 86 m. The regions of VDatum have an mcu of 0.08 to 0.23 m; in centimetres, as
 // the table of cBLUE has them, all are 8 or more.

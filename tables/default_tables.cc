@@ -16,4 +16,11 @@ std::filesystem::path DefaultTablesDirectory() {
   return InstalledDataDirectory() / "tables";
 }
 
+std::filesystem::path WaterTablePath() {
+  if (const char* path = std::getenv("ALBTPU_WATER_TABLE"); path != nullptr && *path != '\0') return path;
+  return InstalledWaterTable();
+}
+
+std::filesystem::path InstalledWaterTable() { return InstalledDataDirectory() / "water" / "water_column.h5"; }
+
 }  // namespace albtpu

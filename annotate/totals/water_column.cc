@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <limits>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/run/file_progress.h"
 #include "budget/total/reported_point.h"
-#include "sea/angle.h"
 #include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_io.h"
@@ -117,17 +114,25 @@ void StateOptics(const config::WaterSettings& settings, const WaterOptics& optic
                      !settings.backscatter_fraction.has_value()});
 }
 
+EchoDetector DetectorOf(const config::WaterSettings& settings) {
+  return static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector));
+}
+
+absl::StatusOr<WaterPlan> Compile(const WaterColumnTable* table, const KnownWater& known, double index) {
+  absl::StatusOr<CompiledWater> compiled = CompileWater(table, known);
+  if (!compiled.ok()) return InWater(compiled.status());
+  WaterPlan plan;
+  static_cast<CompiledWater&>(plan) = *std::move(compiled);
+  plan.index = index;
+  return plan;
+}
+
 // Whether the treatment leaves the points biased; by BiasHandling.
 constexpr std::array<const char*, kBiasHandlingNames.size()> kHandlingTexts = {
     "in the points, and in bias_vertical and bias_along_beam", "its mean was taken away",
     "taken away by the vendor, but for a fraction", "taken away as it was measured, scaled to other depths"};
 
 }  // namespace
-
-std::filesystem::path WaterTablePath() {
-  if (const char* path = std::getenv("ALBTPU_WATER_TABLE"); path != nullptr && *path != '\0') return path;
-  return InstalledDataDirectory() / "water" / "water_column.h5";
-}
 
 std::optional<double> IndexOf(const config::WaterSettings& water) {
   if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value()) return water.index;
@@ -136,19 +141,14 @@ std::optional<double> IndexOf(const config::WaterSettings& water) {
 
 absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
                                     std::vector<StatedNumber>& numbers) {
-  WaterPlan plan{.share = nullptr, .photons = settings.photons, .index = index, .of_water = {}, .surface = {}};
-  std::optional<WaterIndex> of_state;
-  if (settings.temperature.has_value() && settings.salinity.has_value())
-    of_state = SeaWaterIndex(*settings.temperature, *settings.salinity);
-  if (settings.processed_with.has_value()) {
-    if (!of_state.has_value())
-      return formats::UsageError(
-          "[water] processed_with needs the index that the water has; give its temperature (degree C) and "
-          "salinity");
-    plan.of_water = of_state;
-    plan.processed_with = *settings.processed_with;
+  KnownWater known{.optics = OpticsGiven(settings),
+                   .photons = settings.photons,
+                   .temperature = settings.temperature,
+                   .salinity = settings.salinity,
+                   .processed_with = settings.processed_with};
+  if (!known.index().has_value()) known.temperature = known.salinity = std::nullopt;
+  if (settings.processed_with.has_value())
     numbers.push_back({"processed_with", absl::StrCat(*settings.processed_with), "[water]", false});
-  }
   if (settings.without_column()) {
     if (settings.bias.has_value())
       return formats::UsageError(
@@ -156,19 +156,18 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
           "give one of "
           "them");
     numbers.push_back({"water_column", "left out", "[water]", false});
-    return plan;
+    return Compile(nullptr, known, index);
   }
   RETURN_IF_ERROR(CheckReceiver(settings));
   ASSIGN_OR_RETURN(const BiasTreatment treatment, TreatmentOf(settings));
   const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(settings));
   if (!optics.ok()) return InWater(optics.status());
   ASSIGN_OR_RETURN(const WaterColumnTable table, ReadWaterTable());
-  const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
-                               .field_of_view = *settings.field_of_view,
-                               .pulse_length = *settings.pulse_length,
-                               .group_index = of_state.has_value() ? of_state->group : kSeaWaterGroupIndex};
-  absl::StatusOr<WaterContribution> share = WaterContribution::Create(table, *optics, receiver, treatment);
-  if (!share.ok()) return InWater(share.status());
+  known.detector = DetectorOf(settings);
+  known.field_of_view = *settings.field_of_view;
+  known.pulse_length = *settings.pulse_length;
+  known.bias = treatment;
+  ASSIGN_OR_RETURN(WaterPlan plan, Compile(&table, known, index));
   if (!settings.processed_with.has_value())
     numbers.push_back(
         {"processed_with", "the group index of the water", "assumed: ranges in water were computed with it", true});
@@ -180,7 +179,6 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
                      absl::StrCat("[water]: ", kHandlingTexts[static_cast<std::size_t>(treatment.handling)]), false});
   numbers.push_back({"water_table", absl::StrCat(table.table().provenance().id, " ", table.table().digest()),
                      "the installed table", false});
-  plan.share = std::make_shared<WaterContribution>(*std::move(share));
   return plan;
 }
 
@@ -207,100 +205,48 @@ absl::Status PlanGreenSurface(const config::SurveySettings& survey, BudgetOption
         optics.ok() ? "detector and pulse_length (ns)"
                     : absl::StrCat("optics, detector and pulse_length: ", std::string(optics.status().message()))));
   }
-  const WaterReceiver receiver{.detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *water.detector)),
-                               .pulse_length = *water.pulse_length};
-  if (receiver.detector == EchoDetector::kCentroid) {
+  const KnownWater known{.optics = OpticsGiven(water),
+                         .detector = DetectorOf(water),
+                         .pulse_length = *water.pulse_length,
+                         .green_surface = true};
+  if (known.detector == EchoDetector::kCentroid) {
     return formats::UsageError(
         "[surface] channel = \"green\" cannot be computed for [water] detector = \"centroid\" (the water's light has "
         "no "
         "end that would give a centroid); give \"half\" or \"peak\", or \"infrared\" where the processing corrected "
         "it");
   }
-  plan.surface = GreenSurfaceOf(*optics, receiver);
+  ASSIGN_OR_RETURN(const CompiledWater compiled, CompileWater(nullptr, known));
+  plan.surface = compiled.surface;
   const auto metres = [](double length) { return absl::StrFormat("%.3g m", length); };
   const char* const kOrigin = "[water], glint from none to all: docs/physics.md, \"The green surface\"";
   numbers.push_back({"green_surface_range", metres(plan.surface->mean), kOrigin, false});
   numbers.push_back({"green_surface_range_sigma", metres(plan.surface->unknown), kOrigin, false});
   if (options.located != SurfaceLocation::kPulse) return absl::OkStatus();
   numbers.push_back({"green_surface_range_spread", metres(plan.surface->spread), kOrigin, false});
-  AirErrors& errors = options.errors;
-  double& own = errors.surface_height > 0 ? errors.surface_height : errors.surface_range;
-  own = std::hypot(own, plan.surface->spread);
+  AddGreenSpread(*plan.surface, options.located, options.errors);
   return absl::OkStatus();
 }
-
-namespace {
-
-// A bias that is not known counts as none.
-void AddTo(float& bias, double more) { bias = static_cast<float>((std::isfinite(bias) ? bias : 0) + more); }
-
-// That of scattering between surface and bottom.
-void AddColumn(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
-  const WaterContribution& share = *plan.share;
-  share.Compute(pulses.axis[Index(AxisId::kIncidence)], pulses.axis[Index(AxisId::kDepth)],
-                {.bias_along = water.bias_along,
-                 .bias_vertical = water.bias_vertical,
-                 .sigma_along = water.sigma_along,
-                 .sigma_vertical = water.sigma_vertical,
-                 .correlation = water.correlation,
-                 .stretch = water.stretch});
-  for (std::size_t i = 0; i < pulses.size; ++i) {
-    if (!answers.interpolated(i)) continue;
-    const bool cut = pulses.coordinate(AxisId::kFootprint, i) > share.greatest_footprint();
-    if (cut || !std::isfinite(water.sigma_vertical[i])) {
-      answers.outcomes[i] = kNoWater;
-      water.sigma_vertical[i] = std::numeric_limits<float>::quiet_NaN();
-      continue;
-    }
-    AddTo(answers.values[Index(Quantity::kBiasAlongBeam)][i], water.bias_along[i]);
-    AddTo(answers.values[Index(Quantity::kBiasVertical)][i], water.bias_vertical[i]);
-    water.noise[i] = 0;
-    if (!plan.photons.has_value()) continue;
-    const double sine = std::sin(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i))) / plan.index;
-    water.noise[i] = static_cast<float>(share.PhotonNoise(*plan.photons, water.stretch[i], std::sqrt(1 - sine * sine)));
-  }
-}
-
-// The mean is a bias; its uncertainty is common to all pulses, and moves points on one line.
-void AddGreenSurface(const GreenSurface& surface, double index, const PulseBatch& pulses, AnswerBatch& answers,
-                     WaterBatch& water) {
-  for (std::size_t i = 0; i < pulses.size; ++i) {
-    if (!answers.interpolated(i)) continue;
-    const ShiftBySurface shift = ShiftBySurfaceOf(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), index);
-    AddTo(answers.values[Index(Quantity::kBiasAlongBeam)][i], shift.along * surface.mean);
-    AddTo(answers.values[Index(Quantity::kBiasVertical)][i], -shift.down * surface.mean);
-    const double along = water.sigma_along[i], up = water.sigma_vertical[i];
-    const double more_along = shift.along * surface.unknown, more_down = shift.down * surface.unknown;
-    const double both = water.correlation[i] * along * up - more_along * more_down;
-    const double all_along = std::hypot(along, more_along), all_up = std::hypot(up, more_down);
-    water.sigma_along[i] = static_cast<float>(all_along);
-    water.sigma_vertical[i] = static_cast<float>(all_up);
-    water.correlation[i] = all_along > 0 && all_up > 0 ? static_cast<float>(both / (all_along * all_up)) : 0;
-  }
-}
-
-}  // namespace
 
 void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water) {
   std::vector<float>& along = answers.values[Index(Quantity::kBiasAlongBeam)];
   std::vector<float>& vertical = answers.values[Index(Quantity::kBiasVertical)];
   for (std::size_t i = 0; i < along.size(); ++i)
     along[i] = ReportedBiasAlong(along[i], vertical[i], pulses.coordinate(AxisId::kIncidence, i), plan.index);
-  if (plan.of_water.has_value()) {
-    for (std::size_t i = 0; i < pulses.size; ++i) {
-      const IndexBias bias =
-          BiasOfIndex(RadiansOfDegrees(pulses.coordinate(AxisId::kIncidence, i)), *plan.of_water, plan.processed_with);
-      const float z = pulses.coordinate(AxisId::kDepth, i);
-      AddTo(along[i], bias.along * z);
-      AddTo(vertical[i], bias.vertical * z);
-    }
+  ComputeWater(plan, plan.index,
+               {.size = pulses.size,
+                .incidence = pulses.axis[Index(AxisId::kIncidence)],
+                .depth = pulses.axis[Index(AxisId::kDepth)],
+                .footprint = pulses.axis[Index(AxisId::kFootprint)]},
+               water);
+  if (water.bias_along.empty()) return;
+  const auto add_to = [](float& bias, float more) { bias = (std::isfinite(bias) ? bias : 0) + more; };
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    if (!answers.interpolated(i)) continue;
+    add_to(along[i], water.bias_along[i]);
+    add_to(vertical[i], water.bias_vertical[i]);
+    if (water.is_beyond(i)) answers.outcomes[i] = kNoWater;
   }
-  for (std::vector<float>* column : {&water.sigma_along, &water.sigma_vertical, &water.correlation, &water.noise,
-                                     &water.bias_along, &water.bias_vertical, &water.stretch})
-    column->assign(plan.has_share() ? pulses.size : 0, 0.0f);
-  if (pulses.size == 0) return;
-  if (plan.share != nullptr) AddColumn(plan, pulses, answers, water);
-  if (plan.surface.has_value()) AddGreenSurface(*plan.surface, plan.index, pulses, answers, water);
 }
 
 }  // namespace albtpu::annotate

@@ -1,16 +1,14 @@
 // The water column in a total: from the settings of the user to the columns of a budget.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
-#include "budget/water/green_surface.h"
-#include "budget/water/refractive_index.h"
-#include "budget/water/water_contribution.h"
+#include "budget/water/known_water.h"
+#include "budget/water/water_columns.h"
 #include "config/survey_settings.h"
 #include "sea/water_index.h"
 
@@ -23,21 +21,12 @@ struct StatedNumber {
   bool assumed = false;             // By albtpu, where neither the user nor the sensor's file says it.
 };
 
-// What a total takes of the water.
-struct WaterPlan {
-  std::shared_ptr<const WaterContribution> share;  // null: left out
-  std::optional<double> photons;                   // counted in an echo
-  double index = kSeaWaterIndex;                   // of the phase
-  // Where the processing used another index than that of the water.
-  std::optional<WaterIndex> of_water;
-  double processed_with = 0;
-  // Of a surface that returns of a green laser located; its spread is among the errors of the air side.
-  std::optional<GreenSurface> surface;
+// What a total takes of the water. The spread of a green surface is among the errors of the air side.
+struct WaterPlan : CompiledWater {
+  double index = kSeaWaterIndex;  // of the phase
   // Nothing says which laser located the surface by its returns. What the sensor's file says of its lasers.
   bool channel_assumed = false;
   std::string lasers = {};
-
-  bool has_share() const { return share != nullptr || surface.has_value(); }
 };
 
 // `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the
@@ -54,18 +43,6 @@ absl::Status PlanGreenSurface(const config::SurveySettings& survey, BudgetOption
 std::optional<double> IndexOf(const config::WaterSettings& water);
 // The same, or that of sea water: the index of the geometry, of the air side and of the sea's share.
 inline double IndexOrUsual(const config::WaterSettings& water) { return IndexOf(water).value_or(kSeaWaterIndex); }
-
-// The value of the environment variable `ALBTPU_WATER_TABLE`. If it is empty or not set,
-// PREFIX/share/albtpu/water/water_column.h5 for a program that runs as PREFIX/bin/NAME.
-std::filesystem::path WaterTablePath();
-
-// Columns of BudgetInput, one element for each pulse; empty where the share is left out. The first three have the
-// surface that a green laser located, too.
-struct WaterBatch {
-  std::vector<float> sigma_along, sigma_vertical, correlation, noise;
-  std::vector<float> bias_along, bias_vertical,
-      stretch;  // of scattering alone, as far as it is in the points
-};
 
 // Restates the biases of the sea, as a table answers them, for the reported point (budget/total/reported_point.h);
 // finds the water's share of pulses that have an answer of the sea, and adds its biases. Call it once for each answer.

@@ -253,7 +253,9 @@ std::optional<WaterAnswerOfSurvey> WaterContribution::At(double incidence, doubl
 
 void WaterContribution::Compute(std::span<const float> incidence, std::span<const float> depth,
                                 const WaterColumns& columns) const {
-  const std::size_t size = std::max(incidence.size(), depth.size());
+  const std::size_t size = std::max(
+      {incidence.size(), depth.size(), columns.bias_along.size(), columns.bias_vertical.size(),
+       columns.sigma_along.size(), columns.sigma_vertical.size(), columns.correlation.size(), columns.stretch.size()});
   const auto put = [](std::span<float> column, std::size_t i, double value) {
     if (!column.empty()) column[i] = static_cast<float>(value);
   };

@@ -56,6 +56,9 @@ class WaterContribution {
   // m; a wider beam would be cut by the field of view, which the table does not know.
   double greatest_footprint() const { return max_footprint_; }
 
+  // Bytes that it holds.
+  std::size_t memory() const { return nodes_.size() * sizeof(Node); }
+
   // nullopt if the pulse is beyond; incidence in degree, depth in m, 0 or more.
   std::optional<WaterAnswerOfSurvey> At(double incidence, double depth) const;
 

@@ -137,7 +137,7 @@ config::SurveySettings Survey(const std::string& text) {
 
 TEST_F(WaterColumnPlan, AddsTheSurfaceThatAGreenLaserFinds) {
   const config::SurveySettings survey = Survey("[surface]\nchannel = \"green\"\n[water]\n" + kOptics + kReceiver);
-  WaterPlan plan{.share = nullptr, .photons = {}, .index = 1.34, .of_water = {}, .surface = {}};
+  WaterPlan plan;
   BudgetOptions options = {.errors = {.surface_range = 0.02}};
   std::vector<StatedNumber> numbers;
   ASSERT_EQ(PlanGreenSurface(survey, options, plan, numbers), absl::OkStatus());
