@@ -9,8 +9,11 @@
 #include "albtpu/v1/sea.pb.h"
 #include "albtpu/v1/table.pb.h"
 #include "albtpu/v1/uncertainty.pb.h"
+#include "albtpu/v1/water.pb.h"
 #include "budget/air/air_errors.h"
 #include "budget/query/budget_query.h"
+#include "budget/water/water_optics.h"
+#include "budget/water/water_receiver.h"
 #include "sea/spectra/spectral_tail.h"
 #include "tables/coverage.h"
 #include "tables/query/interpolation.h"
@@ -37,6 +40,12 @@ template <>
 struct OnWire<BudgetQuantity> : std::type_identity<v1::BudgetQuantity> {};
 template <>
 struct OnWire<TailRule> : std::type_identity<v1::TailRule> {};
+template <>
+struct OnWire<KdKind> : std::type_identity<v1::KdKind> {};
+template <>
+struct OnWire<EchoDetector> : std::type_identity<v1::EchoDetector> {};
+template <>
+struct OnWire<BiasHandling> : std::type_identity<v1::BiasHandling> {};
 
 template <typename Enum>
 constexpr typename OnWire<Enum>::type ToWire(Enum value) {
@@ -83,6 +92,21 @@ static_assert(ToWire(TailRule::kWind) == v1::TAIL_RULE_WIND);
 static_assert(ToWire(TailRule::kRelax) == v1::TAIL_RULE_RELAX);
 static_assert(ToWire(TailRule::kLevel) == v1::TAIL_RULE_LEVEL);
 static_assert(ToWire(TailRule::kNone) == v1::TAIL_RULE_NONE);
+
+static_assert(ToWire(KdKind::kSatellite490) == v1::KD_KIND_SATELLITE490);
+static_assert(ToWire(KdKind::kDiffuse532) == v1::KD_KIND_DIFFUSE532);
+static_assert(ToWire(KdKind::kSystem) == v1::KD_KIND_SYSTEM);
+static_assert(ToWire(KdKind::kSecchi) == v1::KD_KIND_SECCHI);
+static_assert(ToWire(KdKind::kJerlov) == v1::KD_KIND_JERLOV);
+
+static_assert(ToWire(EchoDetector::kPeak) == v1::ECHO_DETECTOR_PEAK);
+static_assert(ToWire(EchoDetector::kHalf) == v1::ECHO_DETECTOR_HALF);
+static_assert(ToWire(EchoDetector::kCentroid) == v1::ECHO_DETECTOR_CENTROID);
+
+static_assert(ToWire(BiasHandling::kNone) == v1::BIAS_HANDLING_NONE);
+static_assert(ToWire(BiasHandling::kCorrect) == v1::BIAS_HANDLING_CORRECT);
+static_assert(ToWire(BiasHandling::kVendor) == v1::BIAS_HANDLING_VENDOR);
+static_assert(ToWire(BiasHandling::kCalibrated) == v1::BIAS_HANDLING_CALIBRATED);
 
 static_assert(ToWire(Scale::kLinear) == v1::SCALE_LINEAR && ToWire(Scale::kLog) == v1::SCALE_LOG);
 

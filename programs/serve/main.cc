@@ -30,7 +30,9 @@
 #include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_folder.h"
+#include "tables/file/table_io.h"
 #include "tables/version.h"
+#include "tables/water/water_column_table.h"
 
 namespace albtpu::programs {
 namespace {
@@ -38,6 +40,7 @@ namespace {
 struct Options {
   std::optional<std::filesystem::path> tables;
   std::string default_table;
+  std::optional<std::filesystem::path> water_table;
   std::string listen = "127.0.0.1:50051";
   std::optional<std::string> metrics;
   long long max_stream_idle = server::kMaxStreamIdle.count();
@@ -76,6 +79,12 @@ void AddFlags(CLI::App& app, Options& options) {
   app.add_option("--default-table", options.default_table,
                  "Table for requests that name none (default: survey, else the only one)")
       ->type_name("NAME");
+  app.add_option(
+         "--water-table", options.water_table,
+         "Table of the water column, for requests with a water (default: $ALBTPU_WATER_TABLE, else the installed "
+         "table; without one, such requests fail)")
+      ->type_name("FILE")
+      ->check(NotEmpty("file"));
   app.add_option("--listen", options.listen, "Address to listen on; port 0 takes any free port")
       ->type_name("HOST:PORT")
       ->capture_default_str();
@@ -89,7 +98,7 @@ void AddFlags(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_flag("--log-json", options.log_json, "Log one JSON object per line");
   AddCredentialFlags(app, options);
-  Group(app, "Tables", {"--tables", "--default-table"});
+  Group(app, "Tables", {"--tables", "--default-table", "--water-table"});
   Group(app, "Addresses", {"--listen", "--metrics"});
   Group(app, "Limits", {"--max-stream-idle"});
   Group(app, "Log", {"--log-json"});
@@ -176,13 +185,14 @@ server::Access MakeAccess(const server::CredentialFiles& files, std::shared_ptr<
 }
 
 // Serves until a signal stops it; returns the exit code.
-int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Access access,
-          std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics, const server::Recorders& recorders,
-          const sigset_t& signals) {
+int Serve(server::TableCatalog catalog, std::shared_ptr<const WaterColumnTable> water, const Addresses& addresses,
+          server::Access access, std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics,
+          const server::Recorders& recorders, const sigset_t& signals) {
   server::LiveTables tables(std::move(catalog), [&metrics](const server::LiveTables::ReloadResult& result) {
     metrics.reloads.Count(result);
     server::LogReload(result);
   });
+  const bool computes_waters = water != nullptr;
   const auto table_metrics = std::make_shared<server::TableMetrics>(tables);
   std::unique_ptr<server::MetricsEndpoint> endpoint;
   if (addresses.metrics.has_value()) {
@@ -191,10 +201,11 @@ int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Acce
     if (!started.ok()) return Fail(formats::kExitFailure, WithFlag("--metrics", started.status()));
     endpoint = *std::move(started);
   }
-  const absl::StatusOr<std::unique_ptr<server::Server>> server =
-      server::Server::Start(tables, recorders, addresses.service, std::move(access), max_stream_idle);
+  const absl::StatusOr<std::unique_ptr<server::Server>> server = server::Server::Start(
+      {tables, std::move(water)}, recorders, addresses.service, std::move(access), max_stream_idle);
   if (!server.ok()) return Fail(formats::kExitFailure, server.status());
   spdlog::info("ready on {}, {}", (*server)->address(), Summary(*tables.current()));
+  if (!computes_waters) spdlog::info("no table of the water column: requests with a water will fail");
   if (endpoint != nullptr) spdlog::info("metrics on http://{}/metrics", endpoint->address());
   const int signal = WaitForStop(signals, tables);
   spdlog::info("draining after {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
@@ -203,13 +214,23 @@ int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Acce
   return 0;
 }
 
+// The table of the water column that the flag or the environment names, or the installed one. Null if nothing names one
+// and none is installed.
+absl::StatusOr<std::shared_ptr<const WaterColumnTable>> ReadWaterTable(const Options& options) {
+  const std::filesystem::path path = options.water_table.has_value() ? *options.water_table : WaterTablePath();
+  if (path == InstalledWaterTable() && !std::filesystem::exists(path)) return nullptr;
+  ASSIGN_OR_RETURN(Table table, ReadTable(path, kWaterColumn));
+  ASSIGN_OR_RETURN(WaterColumnTable water, WaterColumnTable::Create(std::move(table)));
+  return std::make_shared<const WaterColumnTable>(std::move(water));
+}
+
 int Run(const Options& options) {
   const absl::StatusOr<Addresses> addresses = ReadAddresses(options);
   if (!addresses.ok()) return Fail(formats::kExitUsage, addresses.status());
   const sigset_t signals = BlockSignals();
   server::ServerMetrics metrics;
   server::CallLog call_log;
-  const server::Recorders recorders = {metrics.calls, metrics.access, metrics.seas, call_log};
+  const server::Recorders recorders = {metrics.calls, metrics.access, metrics.seas, metrics.waters, call_log};
   // After BlockSignals(): this starts threads of gRPC, which must not receive the signals.
   const absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials =
       server::MakeCredentials(options.credentials, recorders);
@@ -220,7 +241,12 @@ int Run(const Options& options) {
     return Fail(formats::kExitFailure,
                 WithFlag(options.tables.has_value() ? "--tables" : "no --tables given", catalog.status()));
   }
-  return Serve(*std::move(catalog), *addresses, MakeAccess(options.credentials, *credentials),
+  absl::StatusOr<std::shared_ptr<const WaterColumnTable>> water = ReadWaterTable(options);
+  if (!water.ok()) {
+    return Fail(formats::kExitFailure,
+                WithFlag(options.water_table.has_value() ? "--water-table" : "no --water-table given", water.status()));
+  }
+  return Serve(*std::move(catalog), *std::move(water), *addresses, MakeAccess(options.credentials, *credentials),
                std::chrono::seconds(options.max_stream_idle), metrics, recorders, signals);
 }
 

@@ -82,16 +82,22 @@ absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity
   return absl::OkStatus();
 }
 
-// Reads a QueryBudgetResponse about `count` pulses. Fills the columns of `answers` from `begin` on, and returns the
-// digest of the table. Internal when the answer violates the protocol: its coverage is not that of `options`, a column
-// has the wrong length, or a number is not a known outcome, axis or order.
-absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options, std::size_t begin,
-                                       std::size_t count, const BudgetAnswers& answers) {
+// Reads a QueryBudgetResponse about `count` pulses of a task. Fills the columns of its answers from `begin` on, and its
+// summary of the water; returns the digest of the table. Internal when the answer violates the protocol: its coverage
+// is not that of the task, a column has the wrong length, or a number is not a known outcome, axis or order.
+// FailedPrecondition where the server knows no waters: its totals lack them.
+absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetTask& task, std::size_t begin,
+                                       std::size_t count) {
+  const BudgetAnswers& answers = task.answers;
   v1::QueryBudgetResponse response;
   grpc::ProtoBufferReader reader(&bytes);
   if (!reader.status().ok() || !response.ParseFromZeroCopyStream(&reader))
     return absl::InternalError("answered bytes that are not a valid message");
-  const v1::Coverage coverage = ToWire(options.coverage);
+  if (task.water != nullptr && !response.has_water()) {
+    return absl::FailedPreconditionError(
+        "computes no water (it is of an earlier version); give the water's columns, or ask a later server");
+  }
+  const v1::Coverage coverage = ToWire(task.query.coverage);
   if (response.coverage() != coverage)
     return absl::InternalError(absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
   const auto at = [begin](std::uint8_t* column) { return column == nullptr ? nullptr : column + begin; };
@@ -105,6 +111,7 @@ absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOpti
     status.Update(CopyFloats(response.budget(), quantity, begin, count, answers));
   }
   if (!status.ok()) return status;
+  if (task.summary != nullptr) *task.summary = FromWire(response.water());
   return response.table().digest();
 }
 
@@ -124,6 +131,7 @@ class Calls {
  public:
   Calls(grpc::GenericStub& stub, const BudgetTask& task, std::size_t begin)
       : stub_(stub), task_(task), most_(MaxPulses(task.pulses, task.answers)), sent_(begin), answered_(begin) {
+    if (task.water != nullptr) *request_without_pulses_.mutable_water() = *task.water;
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;
     ToWire(task.query, task.pulses, task.answers, request_without_pulses_);
     request_without_pulses_.mutable_options()->set_table(task.table);
@@ -164,8 +172,7 @@ class Calls {
 
   // Reads an answer into its place among the answers.
   void TakeAnswer(BudgetCall& call) {
-    const absl::StatusOr<std::string> digest =
-        ReadBudget(call.response, task_.query, call.begin, call.count, task_.answers);
+    const absl::StatusOr<std::string> digest = ReadBudget(call.response, task_, call.begin, call.count);
     if (!digest.ok()) return Fail(digest.status());
     absl::Status status = CheckDigest(task_.table, task_.sea != nullptr, task_.digest, *digest);
     if (!status.ok()) return Fail(std::move(status));

@@ -6,12 +6,17 @@
 #include <cstddef>
 
 #include "absl/status/status.h"
+#include "albtpu/v1/water.pb.h"
 #include "budget/query/budget_query.h"
 #include "service/client/column_exchange.h"
+#include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
 
-using BudgetTask = Task<BudgetOptions, BudgetPulses, BudgetAnswers>;
+struct BudgetTask : Task<BudgetOptions, BudgetPulses, BudgetAnswers> {
+  const albtpu::v1::WaterState* water = nullptr;  // Null: none, or its columns.
+  WaterSummary* summary = nullptr;                // Of the water, if not null.
+};
 
 // Queries the pulses from index `begin` on, a few calls at a time, until all are answered or something fails. Sets
 // `begin` and fails as QueryByStream() does.

@@ -39,6 +39,13 @@ class LocalSeaSources final : public SeaSources {
 
 }  // namespace
 
+absl::Status UncertaintySource::AnswerBudgetInWater(const BudgetOptions& /*options*/, const KnownWater& /*water*/,
+                                                    const BudgetPulses& /*pulses*/, const BudgetAnswers& /*answers*/,
+                                                    WaterSummary* /*summary*/) {
+  return absl::UnimplementedError(
+      "this source compiles no water; compile it, and give its columns in the pulses (water_columns.h)");
+}
+
 std::unique_ptr<SeaSources> LocalSeas(double index) { return std::make_unique<LocalSeaSources>(index); }
 
 TableSummary Summarize(std::string name, const UncertaintyTable& table, double index) {

@@ -93,15 +93,27 @@ class ServerSource final : public UncertaintySource {
 
   absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& all_pulses,
                             const BudgetAnswers& answers) override {
+    return AskBudget(options, nullptr, all_pulses, answers, nullptr);
+  }
+
+  absl::Status AnswerBudgetInWater(const BudgetOptions& options, const KnownWater& water, const BudgetPulses& pulses,
+                                   const BudgetAnswers& answers, WaterSummary* summary) override {
+    const albtpu::v1::WaterState state = ToWire(water);
+    return AskBudget(options, &state, pulses, answers, summary);
+  }
+
+ private:
+  absl::Status AskBudget(const BudgetOptions& options, const albtpu::v1::WaterState* water,
+                         const BudgetPulses& all_pulses, const BudgetAnswers& answers, WaterSummary* summary) {
     BudgetPulses pulses = all_pulses;
     if (table_.sea) pulses.pulses = OnOneSea(all_pulses.pulses);
     RETURN_IF_ERROR(CheckQuery(table_.sea ? kOneSea : kSeaSurface, pulses, options));
     RETURN_IF_ERROR(CheckIndex(options, table_));
-    const BudgetTask task{table_.name, table_.digest, sea_.get(), table_.refractive_index, options, pulses, answers};
+    const BudgetTask task{
+        {table_.name, table_.digest, sea_.get(), table_.refractive_index, options, pulses, answers}, water, summary};
     return AnswerAll(pulses.pulses.size, [&](std::size_t& answered) { return QueryByCalls(stub_, task, answered); });
   }
 
- private:
   // Calls `exchange(answered)`, which answers pulses from `answered` on, until all are answered; with retries.
   template <typename Exchange>
   absl::Status AnswerAll(std::size_t size, const Exchange& exchange) {

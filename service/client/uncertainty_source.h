@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "budget/query/budget_query.h"
+#include "budget/water/known_water.h"
 #include "sea/water_index.h"
 #include "service/seas/sea_summary.h"
 #include "tables/query/column_query.h"
@@ -36,6 +38,16 @@ struct TableSummary {
   std::optional<SeaSummary> sea;  // If it is the table of one sea.
 };
 
+// A water as it was computed, to albtpu.v1.WaterSummary.
+struct WaterSummary {
+  std::string table_id, table_version, table_digest;  // Of the water column; empty where its share is left out.
+  double attenuation = 0, attenuation_log_sigma = 0;  // 1/m: the median of K; 1 sigma of its logarithm
+  std::string derivation;                             // How the attenuation follows from what was given.
+  double greatest_depth = 0, greatest_incidence = 0, greatest_footprint = 0;  // m, degree, m: out of domain beyond
+  double green_surface_range = 0;                                             // m
+  std::vector<std::string> assumptions;                                       // one sentence each
+};
+
 class UncertaintySource {
  public:
   virtual ~UncertaintySource() = default;
@@ -53,6 +65,16 @@ class UncertaintySource {
   // also if a number of `options` is out of its range, or their index is not that of the source.
   virtual absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
                                     const BudgetAnswers& answers) = 0;
+
+  // The same in a water that the server compiles, half a second at first: the columns of a water in `pulses` must be
+  // empty. The index is that of `options`, also where the water has a temperature and a salinity. Pulses beyond the
+  // water are out of domain. Sets `summary`, if it is not null. InvalidArgument also if the server refuses the water
+  // (water.proto); FailedPrecondition if it has no table of the water column, or is of a version without waters.
+  // Unimplemented by sources in this process: compile the water and give its columns (budget/water/water_columns.h),
+  // which have the same bits.
+  virtual absl::Status AnswerBudgetInWater(const BudgetOptions& options, const KnownWater& water,
+                                           const BudgetPulses& pulses, const BudgetAnswers& answers,
+                                           WaterSummary* summary = nullptr);
 };
 
 }  // namespace albtpu::client

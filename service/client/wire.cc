@@ -206,6 +206,61 @@ v1::SeaState ToWire(const KnownSea& sea) {
   return state;
 }
 
+v1::WaterState ToWire(const KnownWater& water) {
+  v1::WaterState state;
+  const OpticsInput& optics = water.optics;
+  const auto set = [&state](const std::optional<double>& number, void (v1::WaterState::*setter)(double)) {
+    if (number.has_value()) (state.*setter)(*number);
+  };
+  set(optics.kd, &v1::WaterState::set_kd);
+  state.set_kd_kind(ToWire(optics.kd_kind));
+  set(optics.secchi, &v1::WaterState::set_secchi);
+  if (optics.jerlov.has_value()) {
+    const auto type = std::find(kJerlovTypes.begin(), kJerlovTypes.end(), *optics.jerlov) - kJerlovTypes.begin();
+    state.set_jerlov(static_cast<v1::JerlovType>(type + 1));
+  }
+  set(optics.absorption, &v1::WaterState::set_absorption);
+  set(optics.scattering, &v1::WaterState::set_scattering);
+  set(optics.kd_sigma, &v1::WaterState::set_kd_sigma);
+  set(optics.omega0, &v1::WaterState::set_omega0);
+  set(optics.omega0_sigma, &v1::WaterState::set_omega0_sigma);
+  set(optics.backscatter_fraction, &v1::WaterState::set_backscatter_fraction);
+  state.set_detector(ToWire(water.detector));
+  if (water.field_of_view != 0) state.set_field_of_view(water.field_of_view);
+  if (water.pulse_length != 0) state.set_pulse_length(water.pulse_length);
+  state.set_without_column(!water.bias.has_value());
+  if (water.bias.has_value()) {
+    const BiasTreatment& bias = *water.bias;
+    state.set_bias(ToWire(bias.handling));
+    if (bias.handling == BiasHandling::kVendor) state.set_residual_fraction(bias.residual_fraction);
+    if (bias.handling == BiasHandling::kCalibrated) {
+      state.mutable_calibration()->set_depth(bias.calibration_depth);
+      state.mutable_calibration()->set_offset(bias.calibration_offset);
+      state.mutable_calibration()->set_sigma(bias.calibration_sigma);
+    }
+  }
+  set(water.photons, &v1::WaterState::set_photons);
+  set(water.temperature, &v1::WaterState::set_temperature);
+  set(water.salinity, &v1::WaterState::set_salinity);
+  set(water.processed_with, &v1::WaterState::set_processed_with);
+  state.set_green_surface(water.green_surface);
+  return state;
+}
+
+WaterSummary FromWire(const v1::WaterSummary& water) {
+  return {.table_id = water.table().id(),
+          .table_version = water.table().version(),
+          .table_digest = water.table().digest(),
+          .attenuation = water.attenuation(),
+          .attenuation_log_sigma = water.attenuation_log_sigma(),
+          .derivation = water.derivation(),
+          .greatest_depth = water.greatest_depth(),
+          .greatest_incidence = water.greatest_incidence(),
+          .greatest_footprint = water.greatest_footprint(),
+          .green_surface_range = water.green_surface_range(),
+          .assumptions = {water.assumptions().begin(), water.assumptions().end()}};
+}
+
 SeaSummary FromWire(const v1::SeaSummary& sea) {
   return {.x_azimuth = sea.x_azimuth(),
           .significant_wave_height = sea.significant_wave_height(),

@@ -4,7 +4,9 @@
 
 #include "albtpu/v1/sea.pb.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "albtpu/v1/water.pb.h"
 #include "budget/query/budget_query.h"
+#include "budget/water/known_water.h"
 #include "service/client/uncertainty_source.h"
 #include "service/column_message.h"
 #include "service/seas/known_sea.h"
@@ -29,11 +31,15 @@ void AddPulses(const BudgetPulses& pulses, ColumnMessage& request);
 
 TableSummary FromWire(const albtpu::v1::Table& table);
 
-// Seas as messages, and their summaries from a server.
+// Seas and waters as messages, and their summaries from a server.
 
 // Every number of the sea, bit for bit. The server checks the limits of sea.proto.
 albtpu::v1::SeaState ToWire(const KnownSea& sea);
 
+// Every number of the water, bit for bit. The server checks the limits of water.proto.
+albtpu::v1::WaterState ToWire(const KnownWater& water);
+
 SeaSummary FromWire(const albtpu::v1::SeaSummary& sea);
+WaterSummary FromWire(const albtpu::v1::WaterSummary& water);
 
 }  // namespace albtpu::client

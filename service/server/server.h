@@ -16,8 +16,15 @@
 #include "service/server/ground/listening_sockets.h"
 #include "service/server/observe/log.h"
 #include "service/server/tables/table_catalog.h"
+#include "tables/water/water_column_table.h"
 
 namespace albtpu::server {
+
+// What the server answers from.
+struct Sources {
+  LiveTables& tables;
+  std::shared_ptr<const WaterColumnTable> water = nullptr;  // Null: it computes no waters.
+};
 
 // The access to the server.
 struct Access {
@@ -27,9 +34,9 @@ struct Access {
 
 class Server {
  public:
-  // Listens and serves `tables`. These and the objects that `recorders` refers to must outlive the server. Unavailable,
-  // with the reason, if it cannot listen.
-  static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const Recorders& recorders,
+  // Listens and serves `sources`. Its tables and the objects that `recorders` refers to must outlive the server.
+  // Unavailable, with the reason, if it cannot listen.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(const Sources& sources, const Recorders& recorders,
                                                        const ListenAddress& address, Access access = {},
                                                        std::chrono::seconds max_stream_idle = kMaxStreamIdle);
 
@@ -41,7 +48,7 @@ class Server {
   void Drain();
 
  private:
-  Server(LiveTables& tables, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle);
+  Server(const Sources& sources, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle);
 
   std::shared_ptr<grpc::ServerCredentials> credentials_;  // Must outlive the listener.
   const Recorders recorders_;

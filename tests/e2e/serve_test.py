@@ -5,6 +5,8 @@ Usage: serve_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 
 import fcntl
 import os
+import pathlib
+import shutil
 import signal
 import socket
 import subprocess
@@ -13,12 +15,14 @@ import threading
 import unittest
 
 import grpc
+import numpy as np
 
+import albtpu
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 from commands import run
 from served import SERVE, TablesTest, budget, columns, make_table
-from serving import PATIENCE, READY, connect
+from serving import PATIENCE, READY, Server, connect
 
 PULSES = 65536
 QUERIES = {"QueryColumns": columns([5] * PULSES), "QueryBudget": budget([5] * PULSES)}
@@ -83,6 +87,41 @@ class Tables(TablesTest):
         self.assert_does_not_start(1, ["'slow'"], "--default-table", "slow")
         os.truncate(self.tables / "quick.h5", (self.tables / "quick.h5").stat().st_size - 1)
         self.assert_does_not_start(1, ["quick.h5"])
+
+    def test_of_the_water_column_is_read_when_the_server_starts(self):
+        def answer(server):
+            request = budget([4, 8], ["BUDGET_QUANTITY_TVU_WATER"])
+            request.water.CopyFrom(albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=2,
+                                                bias="correct").message())
+            return self.stub_of(server).QueryBudget(request)
+
+        installed = answer(self.serve())
+        self.assertTrue((np.frombuffer(installed.budget.tvu_water, "<f4") > 0).all())
+        # As a table of another place would be, and in place of one that the environment names in vain.
+        shipped = pathlib.Path(SERVE).parent.parent / "share/albtpu/water/water_column.h5"
+        copy = shutil.copy(shipped.resolve(), self.folder / "water.h5")
+        nowhere = {"ALBTPU_WATER_TABLE": str(self.folder / "none.h5")}
+        self.assertEqual(answer(self.serve("--water-table", copy, environment=nowhere)), installed)
+        self.assert_refused(run(SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0", environment=nowhere), 1,
+                            "no --water-table given", "none.h5")
+        self.assert_does_not_start(1, ["--water-table", "quick.h5"], "--water-table", self.tables / "quick.h5")
+
+    def test_of_the_water_column_may_be_missing(self):
+        program = self.folder / "bin/albtpu-serve"
+        program.parent.mkdir()
+        shutil.copy(SERVE, program)  # Beside it is no share/albtpu.
+        server = Server(program, "--tables", self.tables)
+        self.addCleanup(server.__exit__)
+        server.wait_for("no table of the water column")
+        request = budget([4])
+        request.water.CopyFrom(albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=2,
+                                            bias="correct").message())
+        with self.assertRaises(grpc.RpcError) as failed:
+            self.stub_of(server).QueryBudget(request)
+        self.assertEqual(failed.exception.code(), grpc.StatusCode.FAILED_PRECONDITION)
+        self.assertIn("--water-table", failed.exception.details())
+        request.ClearField("water")
+        self.assertEqual(self.stub_of(server).QueryBudget(request).pulse_count, 1)
 
 
 class Signals(TablesTest):

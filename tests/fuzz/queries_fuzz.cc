@@ -31,7 +31,7 @@ class Tables {
     for (const auto& entry : catalog_.entries()) twins_.try_emplace(entry.get(), entry->table);
   }
   const TableCatalog& catalog() const { return catalog_; }
-  AnswerSources Sources() { return AnswerSources(catalog_, seas_); }
+  AnswerSources Sources() { return AnswerSources(catalog_, seas_, &waters_); }
   const Twin& TwinOf(const TableCatalog::Entry* entry) const { return twins_.at(entry); }
 
  private:
@@ -52,6 +52,7 @@ class Tables {
   ServerMetrics metrics_;
   CallLog log_;
   SeaTables seas_;
+  WaterShares waters_{nullptr, metrics_.waters, log_};
   std::map<const TableCatalog::Entry*, Twin> twins_;
 };
 

@@ -1,6 +1,7 @@
 #include "service/server/calls/column_stream.h"
 
 #include <utility>
+#include <variant>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
@@ -76,9 +77,9 @@ grpc::Status ColumnStream::RunHandler(AnswerSources& sources) {
 
 void ColumnStream::HandleRequest(std::shared_ptr<const ServedTable> compiled) {
   if (context_.IsCancelled()) return Fail(grpc::Status::CANCELLED);
-  AnswerSources sources(*catalog_, seas_, std::move(compiled));
+  AnswerSources sources(*catalog_, seas_, nullptr, {.table = std::move(compiled), .water = nullptr});
   const grpc::Status status = RunHandler(sources);
-  if (sources.wanted()) return AwaitTable(*sources.wanted());
+  if (sources.wanted()) return AwaitTable(std::get<WantedTable>(*sources.wanted()));
   if (!status.ok()) return Fail(status);
   current_.Clear();
   StartWrite(&answer_);

@@ -2,12 +2,16 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "budget/query/query_check.h"
+#include "budget/water/water_columns.h"
 #include "service/error_message.h"
 #include "service/seas/sea_summary.h"
+#include "service/server/calls/water_request.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/wire_enums.h"
@@ -128,20 +132,103 @@ BudgetAnswers AddColumns(const BudgetSelection& selection, std::size_t count, Co
   return answers;
 }
 
+// The index of a water, where the options or the state of the water give it.
+std::optional<double> IndexOf(const v1::QueryBudgetRequest& request, const std::optional<KnownWater>& water) {
+  if (request.options().has_refractive_index()) return request.options().refractive_index();
+  const std::optional<WaterIndex> index = water.has_value() ? water->index() : std::nullopt;
+  return index.has_value() ? std::optional(index->phase) : std::nullopt;
+}
+
+// The columns of a water belong to a request without one, and a level is not found by a laser.
+absl::StatusOr<std::optional<KnownWater>> ReadWaterOf(const v1::QueryBudgetRequest& request) {
+  if (!request.has_water()) return std::nullopt;
+  for (const RequestColumn& column : ColumnsOf(request.aircraft())) {
+    if (column.bytes->empty() || !absl::StartsWith(std::string(column.name), "water_")) continue;
+    return FieldViolation("water", absl::StrCat("water and aircraft.", std::string(column.name),
+                                                " are both given (the server computes all columns of the water); give "
+                                                "one of them"));
+  }
+  if (request.water().green_surface() && request.options().located() == v1::SURFACE_LOCATION_LEVEL)
+    return FieldViolation("water.green_surface",
+                          "water.green_surface has no effect with SURFACE_LOCATION_LEVEL; leave it out");
+  ASSIGN_OR_RETURN(KnownWater water, ReadWater(request.water()));
+  return water;
+}
+
+// The water of a request, with its columns at the pulses.
+struct WaterOfRequest {
+  const ServedWater* served = nullptr;
+  WaterBatch batch;
+
+  // The first axis on which a pulse is beyond the water; nullopt of others.
+  std::optional<AxisId> Beyond(const PulseColumns& pulses, std::size_t i) const {
+    if (served == nullptr || !batch.is_beyond(i)) return std::nullopt;
+    const WaterContribution& share = *served->water.share;
+    const auto at = [&](AxisId axis) { return pulses[axis][pulses[axis].size() == 1 ? 0 : i]; };
+    if (at(AxisId::kIncidence) > share.greatest_incidence()) return AxisId::kIncidence;
+    return at(AxisId::kFootprint) > share.greatest_footprint() ? AxisId::kFootprint : AxisId::kDepth;
+  }
+};
+
+// The columns of `pulses` refer to the result.
+WaterOfRequest TakeWater(const ServedWater& served, BudgetOptions& options, BudgetPulses& pulses) {
+  WaterOfRequest water{.served = &served, .batch = {}};
+  ComputeWater(served.water, options.index,
+               {.size = pulses.pulses.size,
+                .incidence = pulses.pulses[AxisId::kIncidence],
+                .depth = pulses.pulses[AxisId::kDepth],
+                .footprint = pulses.pulses[AxisId::kFootprint]},
+               water.batch);
+  pulses.aircraft[BudgetInput::kWaterSigmaAlong] = water.batch.sigma_along;
+  pulses.aircraft[BudgetInput::kWaterSigmaVertical] = water.batch.sigma_vertical;
+  pulses.aircraft[BudgetInput::kWaterCorrelation] = water.batch.correlation;
+  pulses.aircraft[BudgetInput::kWaterNoise] = water.batch.noise;
+  pulses.aircraft[BudgetInput::kWaterBiasAlong] = water.batch.bias_along;
+  pulses.aircraft[BudgetInput::kWaterBiasVertical] = water.batch.bias_vertical;
+  if (served.water.surface.has_value()) AddGreenSpread(*served.water.surface, options.located, options.errors);
+  return water;
+}
+
+// Pulses beyond the water, whose columns have no number, are not invalid: they are out of its domain.
+void StateBeyond(const WaterOfRequest& water, const PulseColumns& pulses, const BudgetAnswers& answers) {
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    if (answers.outcomes[i] != v1::OUTCOME_INVALID || answers.outcome_axes[i] != 0) continue;
+    const std::optional<AxisId> axis = water.Beyond(pulses, i);
+    if (!axis.has_value()) continue;
+    answers.outcomes[i] = v1::OUTCOME_OUT_OF_DOMAIN;
+    answers.outcome_axes[i] = static_cast<std::uint8_t>(ToWire(*axis));
+  }
+}
+
+v1::WaterSummary WriteWater(const ServedWater& served, SurfaceLocation located) {
+  v1::WaterSummary summary = served.summary;
+  if (!served.water.surface.has_value() && located != SurfaceLocation::kLevel)
+    summary.add_assumptions("The returns that located the surface lie on it, as those of an infrared laser.");
+  return summary;
+}
+
 }  // namespace
 
 absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request, ColumnMessage& response,
                          OutcomeTally& tally) {
+  ASSIGN_OR_RETURN(const std::optional<KnownWater> known_water, ReadWaterOf(request));
+  const std::optional<double> index = IndexOf(request, known_water);
   v1::QueryOptions query;
   query.set_table(request.options().table());
-  if (request.options().has_refractive_index()) query.set_refractive_index(request.options().refractive_index());
+  if (index.has_value()) query.set_refractive_index(*index);
   ASSIGN_OR_RETURN(const QueryPlan plan, PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources));
-  ASSIGN_OR_RETURN(const BudgetOptions options, ReadBudgetOptions(request.options()));
+  ASSIGN_OR_RETURN(BudgetOptions options, ReadBudgetOptions(request.options()));
+  options.index = index.value_or(options.index);
   ASSIGN_OR_RETURN(const BudgetSelection selection, ReadBudgetQuantities(request));
   const ServedTable& source = *plan.source;
   ASSIGN_OR_RETURN(BudgetPulses pulses, ReadPulses(request, source.table.schema()));
   const std::size_t count = pulses.pulses.size;
   RETURN_IF_ERROR(CheckAnswerSize(selection, count));
+  WaterOfRequest water;
+  if (known_water.has_value()) {
+    ASSIGN_OR_RETURN(const ServedWater* const served, sources.Find(request.water(), *known_water));
+    water = TakeWater(*served, options, pulses);
+  }
   v1::QueryBudgetResponse head;
   *head.mutable_table() = WriteReference(source);
   head.set_coverage(ToWire(options.coverage));
@@ -149,6 +236,7 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
   head.set_azimuth_absent(pulses.pulses[AxisId::kAzimuth].empty());
   if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
   head.set_refractive_index(source.refractive_index);
+  if (water.served != nullptr) *head.mutable_water() = WriteWater(*water.served, options.located);
   response.Add(head);
   if (source.sea) pulses.pulses = OnOneSea(pulses.pulses);
   if (source.sea)
@@ -157,6 +245,7 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
     pulses.sea_axis = request.options().sea_axis();
   const BudgetAnswers answers = AddColumns(selection, count, response);
   QueryBudgetOnAllCores(source.interpolator, pulses, options, answers);
+  StateBeyond(water, pulses.pulses, answers);
   tally.Add({answers.outcomes, count}, {answers.outcome_axes, count});
   return absl::OkStatus();
 }

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "sea/files/sea_csv.h"
+#include "service/server/calls/water_request.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 #include "status/status_macros.h"
@@ -256,23 +257,33 @@ absl::StatusOr<double> ReadIndex(bool given, double index, std::string_view path
 absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table, double index) {
   ASSIGN_OR_RETURN(const TableCatalog::Entry* const entry, catalog_.Find(table));
   if (entry->refractive_index == index) return entry;
-  if (made_ != nullptr) return made_.get();
+  if (made_.table != nullptr) return made_.table.get();
   const Sha256Digest key = KeyOf(*entry, index);
-  made_ = seas_.Find(key);
-  if (made_ != nullptr) return made_.get();
+  made_.table = seas_.Find(key);
+  if (made_.table != nullptr) return made_.table.get();
   wanted_ = WantedTable{key, entry->shared_from_this(), index};
   return absl::UnavailableError("the table is not scaled yet");
 }
 
 absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea, double index) {
-  if (made_ != nullptr) return made_.get();
+  if (made_.table != nullptr) return made_.table.get();
   const Sha256Digest key = KeyOf(sea, index);
-  made_ = seas_.Find(key);
-  if (made_ != nullptr) return made_.get();
+  made_.table = seas_.Find(key);
+  if (made_.table != nullptr) return made_.table.get();
   absl::StatusOr<KnownSea> known = ReadSea(sea);
   if (!known.ok()) return Within("sea", known.status());
   wanted_ = WantedTable{key, *std::move(known), index};
   return absl::UnavailableError("the sea is not compiled yet");
+}
+
+absl::StatusOr<const ServedWater*> AnswerSources::Find(const v1::WaterState& water, const KnownWater& known) {
+  if (made_.water != nullptr) return made_.water.get();
+  const Sha256Digest key = KeyOf(water);
+  made_.water = waters_->Find(key);
+  if (made_.water != nullptr) return made_.water.get();
+  RETURN_IF_ERROR(waters_->Check(known));
+  wanted_ = WantedWater{key, known};
+  return absl::UnavailableError("the water is not compiled yet");
 }
 
 }  // namespace albtpu::server

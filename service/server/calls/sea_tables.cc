@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -29,78 +29,19 @@ std::size_t BytesOf(const UncertaintyTable& table) {
 }  // namespace
 
 SeaTables::SeaTables(SeaMetrics& metrics, CallLog& log, const Limits& limits)
-    : limits_(limits), metrics_(metrics), log_(log) {
-  for (std::size_t i = 0; i < ThreadCount(); ++i) threads_.emplace_back([this] { Run(); });
-}
+    : metrics_(metrics),
+      log_(log),
+      queue_(
+          metrics,
+          {.threads = ThreadCount(), .values = limits.tables, .bytes = limits.bytes, .waiting = limits.waiting},
+          "the server cannot take another sea (too many wait to be computed); try again later",
+          [this](const WantedTable& wanted) { return Make(wanted); },
+          [](const ServedTable& table) { return BytesOf(table.table); }) {}
 
-SeaTables::~SeaTables() {
-  Asked left;
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    for (const WantedTable& wanted : std::exchange(waiting_, {})) left.insert(asked_.extract(wanted.key));
-  }
-  changed_.notify_all();
-  for (const auto& [key, listeners] : left)
-    for (const Listener& done : listeners) done(absl::CancelledError("the server is shutting down"));
-  for (std::thread& thread : threads_) thread.join();
-}
-
-std::shared_ptr<const ServedTable> SeaTables::Find(const Sha256Digest& key) {
-  const std::lock_guard lock(mutex_);
-  return FindKept(key);
-}
-
-void SeaTables::Compile(const WantedTable& wanted, Listener done) {
-  const Sha256Digest& key = wanted.key;
-  Result result = absl::ResourceExhaustedError(
-      "the server cannot take another sea (too many wait to be computed); try again later");
-  {
-    const std::lock_guard lock(mutex_);
-    if (std::shared_ptr<const ServedTable> kept = FindKept(key)) {
-      result = std::move(kept);
-    } else if (const auto asked = asked_.find(key); asked != asked_.end()) {
-      metrics_.CountJoined();
-      return asked->second.push_back(std::move(done));
-    } else if (waiting_.size() < limits_.waiting) {
-      asked_[key].push_back(std::move(done));
-      waiting_.push_back(wanted);
-      return changed_.notify_one();
-    } else {
-      metrics_.CountRefused();
-    }
-  }
-  done(result);
-}
-
-void SeaTables::Run() {
-  while (true) {
-    WantedTable next;
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-      if (stopping_) return;
-      next = std::move(waiting_.front());
-      waiting_.pop_front();
-    }
-    const Result result = Make(next);
-    std::vector<Listener> listeners;
-    {
-      const std::lock_guard lock(mutex_);
-      if (result.ok()) Keep(next.key, *result);
-      listeners = std::move(asked_.extract(next.key).mapped());
-    }
-    for (const Listener& done : listeners) done(result);
-  }
-}
-
-SeaTables::Result SeaTables::Make(const WantedTable& wanted) try {
+SeaTables::Result SeaTables::Make(const WantedTable& wanted) {
   if (const KnownSea* const sea = std::get_if<KnownSea>(&wanted.of)) return CompileNow(*sea, wanted.refractive_index);
   const ServedTable& served = *std::get<std::shared_ptr<const ServedTable>>(wanted.of);
   return std::make_shared<const ServedTable>(served.name, served.table, wanted.refractive_index);
-} catch (const std::exception& error) {
-  metrics_.CountFailed();
-  return absl::InternalError(error.what());
 }
 
 SeaTables::Result SeaTables::CompileNow(const KnownSea& sea, double index) {
@@ -121,27 +62,6 @@ SeaTables::Result SeaTables::CompileNow(const KnownSea& sea, double index) {
               {"share_measured", compiled->sea->share_measured},
               {"seconds", took.count()}});
   return compiled;
-}
-
-std::shared_ptr<const ServedTable> SeaTables::FindKept(const Sha256Digest& key) {
-  const auto place = places_.find(key);
-  if (place == places_.end()) return nullptr;
-  metrics_.CountFound();
-  kept_.splice(kept_.begin(), kept_, place->second);
-  return place->second->table;
-}
-
-void SeaTables::Keep(const Sha256Digest& key, const std::shared_ptr<const ServedTable>& table) {
-  kept_.push_front({key, table, BytesOf(table->table)});
-  places_[key] = kept_.begin();
-  kept_bytes_ += kept_.front().bytes;
-  while (kept_.size() > 1 && (kept_.size() > limits_.tables || kept_bytes_ > limits_.bytes)) {
-    kept_bytes_ -= kept_.back().bytes;
-    places_.erase(kept_.back().key);
-    kept_.pop_back();
-    metrics_.CountEvicted();
-  }
-  metrics_.SetKept(kept_.size(), kept_bytes_);
 }
 
 }  // namespace albtpu::server

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "service/server/calls/column_stream.h"
@@ -121,14 +122,16 @@ class RefusedStream final : public ByteStream {
 
 }  // namespace
 
-// A request that waits for a worker, or first for its table. The workers must have admitted it; its place is released
-// at the end.
+// A request that waits for a worker, or first for its table and its water. The workers must have admitted it; its place
+// is released at the end.
 class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
  public:
-  // `wanted` is the table to be made first, if any.
+  using Wanted = std::optional<std::variant<WantedTable, WantedWater>>;
+
+  // `wanted` is to be made first, if there is one.
   LongCall(UncertaintyService& service, const CallRecord& record, grpc::CallbackServerContext& context,
            MessageHandler handler, std::shared_ptr<const TableCatalog> catalog, const grpc::ByteBuffer& request,
-           grpc::ByteBuffer& response, const std::optional<WantedTable>& wanted)
+           grpc::ByteBuffer& response, const Wanted& wanted)
       : service_(service),
         record_(record),
         context_(context),
@@ -137,24 +140,32 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
         request_(request),
         response_(response) {
     if (wanted)
-      AwaitTable(*wanted);
+      Await(*wanted);
     else
-      service_.workers_.Run([this] { HandleRequest(nullptr); });
+      service_.workers_.Run([this] { HandleRequest(); });
   }
 
  private:
-  void AwaitTable(const WantedTable& wanted) {
-    service_.seas_.Compile(wanted, [this](const SeaTables::Result& table) {
-      if (!table.ok()) return End(ToGrpcStatus(table.status()));
-      service_.workers_.Run([this, table = *table] { HandleRequest(table); });
-    });
+  void Await(const std::variant<WantedTable, WantedWater>& wanted) {
+    if (const WantedTable* const table = std::get_if<WantedTable>(&wanted))
+      service_.seas_.Compile(*table, [this](const SeaTables::Result& result) { Take(result, made_.table); });
+    else
+      service_.waters_.Compile(std::get<WantedWater>(wanted),
+                               [this](const WaterShares::Result& result) { Take(result, made_.water); });
   }
 
-  void HandleRequest(std::shared_ptr<const ServedTable> compiled) {
+  template <typename Value>
+  void Take(const absl::StatusOr<std::shared_ptr<const Value>>& result, std::shared_ptr<const Value>& made) {
+    if (!result.ok()) return End(ToGrpcStatus(result.status()));
+    made = *result;
+    service_.workers_.Run([this] { HandleRequest(); });
+  }
+
+  void HandleRequest() {
     if (context_.IsCancelled()) return End(grpc::Status::CANCELLED);
-    AnswerSources sources(*catalog_, service_.seas_, std::move(compiled));
+    AnswerSources sources(*catalog_, service_.seas_, &service_.waters_, made_);
     const grpc::Status status = RunHandler(record_, handler_, sources, request_, response_);
-    if (sources.wanted()) return AwaitTable(*sources.wanted());
+    if (sources.wanted()) return Await(*sources.wanted());
     End(status);
   }
 
@@ -177,6 +188,7 @@ class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
   const std::shared_ptr<const TableCatalog> catalog_;
   const grpc::ByteBuffer& request_;
   grpc::ByteBuffer& response_;
+  MadeForRequest made_;
   std::optional<UnreadAnswers::Entry> unread_;
 };
 
@@ -187,10 +199,10 @@ grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandl
   if (!request.Valid()) return Fail(context, record, NotReceived(context));
   const std::shared_ptr<const TableCatalog> catalog = tables_.current();
   const std::size_t length = request.Length();
-  std::optional<WantedTable> wanted;
+  LongCall::Wanted wanted;
   if (length <= inline_bytes) {
     if (!unread_.HasRoomFor(length)) return Fail(context, record, TooManyUnread());
-    AnswerSources sources(*catalog, seas_);
+    AnswerSources sources(*catalog, seas_, &waters_);
     const grpc::Status status = RunHandler(record, handler, sources, request, response);
     wanted = sources.wanted();
     if (!wanted && !status.ok()) return Fail(context, record, status);

@@ -8,11 +8,14 @@
 #include <chrono>
 #include <cstddef>
 #include <list>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/server/calls/query_rows.h"
 #include "service/server/calls/sea_tables.h"
+#include "service/server/calls/water_shares.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/periodic_task.h"
 #include "service/server/observe/log.h"
@@ -81,14 +84,16 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // `tables` and `recorders` must outlive the service. Streams without activity and unread answers end after
-  // `max_stream_idle`.
-  UncertaintyService(const LiveTables& tables, const Recorders& recorders, std::chrono::seconds max_stream_idle)
+  // `tables` and `recorders` must outlive the service. `water` is null if it has no table of the water column. Streams
+  // without activity and unread answers end after `max_stream_idle`.
+  UncertaintyService(const LiveTables& tables, std::shared_ptr<const WaterColumnTable> water,
+                     const Recorders& recorders, std::chrono::seconds max_stream_idle)
       : tables_(tables),
         recorders_(recorders),
         max_stream_idle_(max_stream_idle),
         unread_(recorders.metrics, max_stream_idle),
-        seas_(recorders.seas, recorders.log) {}
+        seas_(recorders.seas, recorders.log),
+        waters_(std::move(water), recorders.waters, recorders.log) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
@@ -108,7 +113,8 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
  private:
   class LongCall;
 
-  // Handles requests up to `inline_bytes` at once, unless their sea is to be compiled first; others on a worker.
+  // Handles requests up to `inline_bytes` at once, unless their sea or water is to be compiled first; others on a
+  // worker.
   grpc::ServerUnaryReactor* Handle(Method method, MessageHandler handler, std::size_t inline_bytes,
                                    grpc::CallbackServerContext& context, const grpc::ByteBuffer& request,
                                    grpc::ByteBuffer& response);
@@ -119,6 +125,7 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
   Workers workers_;
   UnreadAnswers unread_;
   SeaTables seas_;
+  WaterShares waters_;
 };
 
 }  // namespace albtpu::server

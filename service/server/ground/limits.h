@@ -63,6 +63,14 @@ inline constexpr std::size_t kMaxWaitingSeas = 16;
 inline constexpr std::size_t kMaxSeaTables = 512;
 inline constexpr std::size_t kMaxSeaTableBytes = std::size_t{256} << 20;
 
+// Waters that may wait to be compiled; requests with further ones fail with RESOURCE_EXHAUSTED. A water takes half a
+// second of a processor, so none waits for longer than five seconds. Callers count as those of seas.
+inline constexpr std::size_t kMaxWaitingWaters = 8;
+
+// Waters that are kept for later requests, 66 KiB each: those of a few hundred surveys.
+inline constexpr std::size_t kMaxWaters = 256;
+inline constexpr std::size_t kMaxWaterBytes = std::size_t{32} << 20;
+
 // Calls in progress on one connection; further ones wait in the client. A connection that sends more after it has
 // acknowledged this limit is closed; before the acknowledgement gRPC 1.51 enforces no limit.
 inline constexpr int kMaxCallsPerConnection = 64;

@@ -91,6 +91,7 @@ struct Recorders {
   CallMetrics& metrics;
   AccessMetrics& access;
   SeaMetrics& seas;
+  WaterMetrics& waters;
   CallLog& log;
 };
 

@@ -14,37 +14,49 @@
 namespace albtpu::server {
 namespace {
 
-// From a sea on an idle machine, some milliseconds, to one on a busy machine.
-const prometheus::Histogram::BucketBoundaries kCompileSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3,
-                                                                 0.1,    0.25, 0.5,   1,     2.5};
+// From a sea on an idle machine, some milliseconds, to a water on a busy machine.
+const prometheus::Histogram::BucketBoundaries kCompileSeconds = {2.5e-3, 5e-3, 10e-3, 25e-3, 50e-3, 0.1,
+                                                                 0.25,   0.5,  1,     2.5,   5};
 
 }  // namespace
 
-SeaMetrics::SeaMetrics(prometheus::Registry& registry) {
-  auto& requests = Counters(registry, "albtpu_sea_requests_total", "Requests with a sea, by how they got its table.");
-  found_ = &requests.Add({{"result", "found"}});
-  joined_ = &requests.Add({{"result", "joined"}});
-  compiled_ = &requests.Add({{"result", "compiled"}});
-  failed_ = &requests.Add({{"result", "failed"}});
-  refused_ = &requests.Add({{"result", "refused"}});
-  evicted_ =
-      &Counters(registry, "albtpu_sea_evictions_total", "Tables of seas that were dropped to make room for others.")
-           .Add({});
-  seconds_ = &Histograms(registry, "albtpu_sea_compile_seconds", "Time to compute the table of a sea, without waiting.")
-                  .Add({}, kCompileSeconds);
-  tables_ = &Gauges(registry, "albtpu_sea_tables", "Tables of seas that are kept.").Add({});
-  bytes_ = &Gauges(registry, "albtpu_sea_table_bytes", "Memory of the tables of seas that are kept.").Add({});
+CompileMetrics::CompileMetrics(prometheus::Registry& registry, Metric requests, Metric evictions, Metric seconds,
+                               Metric number, Metric bytes) {
+  auto& by_result = Counters(registry, requests.name, requests.help);
+  found_ = &by_result.Add({{"result", "found"}});
+  joined_ = &by_result.Add({{"result", "joined"}});
+  compiled_ = &by_result.Add({{"result", "compiled"}});
+  failed_ = &by_result.Add({{"result", "failed"}});
+  refused_ = &by_result.Add({{"result", "refused"}});
+  evicted_ = &Counters(registry, evictions.name, evictions.help).Add({});
+  seconds_ = &Histograms(registry, seconds.name, seconds.help).Add({}, kCompileSeconds);
+  number_ = &Gauges(registry, number.name, number.help).Add({});
+  bytes_ = &Gauges(registry, bytes.name, bytes.help).Add({});
 }
 
-void SeaMetrics::CountCompiled(std::chrono::duration<double> took) {
+void CompileMetrics::CountCompiled(std::chrono::duration<double> took) {
   compiled_->Increment();
   seconds_->Observe(took.count());
 }
 
-void SeaMetrics::SetKept(std::size_t tables, std::size_t bytes) {
-  tables_->Set(static_cast<double>(tables));
+void CompileMetrics::SetKept(std::size_t number, std::size_t bytes) {
+  number_->Set(static_cast<double>(number));
   bytes_->Set(static_cast<double>(bytes));
 }
+
+SeaMetrics::SeaMetrics(prometheus::Registry& registry)
+    : CompileMetrics(registry, {"albtpu_sea_requests_total", "Requests with a sea, by how they got its table."},
+                     {"albtpu_sea_evictions_total", "Tables of seas that were dropped to make room for others."},
+                     {"albtpu_sea_compile_seconds", "Time to compute the table of a sea, without waiting."},
+                     {"albtpu_sea_tables", "Tables of seas that are kept."},
+                     {"albtpu_sea_table_bytes", "Memory of the tables of seas that are kept."}) {}
+
+WaterMetrics::WaterMetrics(prometheus::Registry& registry)
+    : CompileMetrics(registry, {"albtpu_water_requests_total", "Requests with a water, by how they got its share."},
+                     {"albtpu_water_evictions_total", "Waters that were dropped to make room for others."},
+                     {"albtpu_water_compile_seconds", "Time to compute a water, without waiting."},
+                     {"albtpu_waters", "Waters that are kept."},
+                     {"albtpu_water_bytes", "Memory of the waters that are kept."}) {}
 
 std::vector<prometheus::MetricFamily> TableMetrics::Collect() const {
   const std::shared_ptr<const TableCatalog> catalog = tables_.current();

@@ -1,4 +1,4 @@
-// The metrics of seas and of tables, the count of outcomes, and the endpoint that Prometheus scrapes.
+// The metrics of seas, waters and tables, the count of outcomes, and the endpoint that Prometheus scrapes.
 // docs/monitoring/README.md lists the metrics and explains their meaning.
 #pragma once
 
@@ -39,20 +39,25 @@ inline prometheus::Family<prometheus::Histogram>& Histograms(prometheus::Registr
   return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
-// The metrics of the seas that requests carry.
-class SeaMetrics {
+// The metrics of what is compiled for requests and kept: of the seas that they carry, or of the waters.
+class CompileMetrics {
  public:
-  explicit SeaMetrics(prometheus::Registry& registry);
-
-  // How a request got the table of its sea.
+  // How a request got what it needed.
   void CountFound() { found_->Increment(); }    // It was kept.
-  void CountJoined() { joined_->Increment(); }  // The sea was already asked for, and not yet compiled.
+  void CountJoined() { joined_->Increment(); }  // It was already asked for, and not yet compiled.
   void CountCompiled(std::chrono::duration<double> took);
-  void CountFailed() { failed_->Increment(); }    // The sea has no table.
+  void CountFailed() { failed_->Increment(); }    // It cannot be compiled.
   void CountRefused() { refused_->Increment(); }  // There was no place to wait.
 
   void CountEvicted() { evicted_->Increment(); }
-  void SetKept(std::size_t tables, std::size_t bytes);
+  void SetKept(std::size_t number, std::size_t bytes);
+
+ protected:
+  struct Metric {
+    const char *name, *help;
+  };
+  CompileMetrics(prometheus::Registry& registry, Metric requests, Metric evictions, Metric seconds, Metric number,
+                 Metric bytes);
 
  private:
   prometheus::Counter* found_;
@@ -62,8 +67,18 @@ class SeaMetrics {
   prometheus::Counter* refused_;
   prometheus::Counter* evicted_;
   prometheus::Histogram* seconds_;
-  prometheus::Gauge* tables_;
+  prometheus::Gauge* number_;
   prometheus::Gauge* bytes_;
+};
+
+class SeaMetrics : public CompileMetrics {
+ public:
+  explicit SeaMetrics(prometheus::Registry& registry);
+};
+
+class WaterMetrics : public CompileMetrics {
+ public:
+  explicit WaterMetrics(prometheus::Registry& registry);
 };
 
 // The metrics of the tables in use, taken from the current catalog at every scrape.

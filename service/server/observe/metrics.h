@@ -151,6 +151,7 @@ struct ServerMetrics {
   AccessMetrics access{*registry};
   ReloadMetrics reloads{*registry};
   SeaMetrics seas{*registry};
+  WaterMetrics waters{*registry};
 };
 
 }  // namespace albtpu::server

@@ -22,12 +22,14 @@ namespace albtpu::client {
 class RunningServer {
  public:
   explicit RunningServer(const albtpu::testing::SyntheticOptions& options = {},
-                         const std::string& listen = "127.0.0.1:0") {
+                         const std::string& listen = "127.0.0.1:0",
+                         const std::shared_ptr<const WaterColumnTable>& water = nullptr) {
     const absl::Status written =
         WriteTable(albtpu::testing::SyntheticTable(options), folder_ / "quick.h5", Existing::kReplace);
     EXPECT_TRUE(written.ok()) << written;
     tables_.emplace(server::TableCatalog::Load(folder_ / "", "").value());
-    server_ = server::Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, log_},
+    server_ = server::Server::Start({*tables_, water},
+                                    {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
                                     server::ListenAddress::Parse(listen).value())
                   .value();
   }

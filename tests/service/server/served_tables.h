@@ -52,7 +52,11 @@ inline std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
 // (all values times 2 and 3).
 class ServedTables : public ::testing::Test {
  protected:
-  ServedTables() : survey_(testing::SyntheticTable()), published_(testing::SyntheticTable({.published = true})) {
+  // `water` is null for a server without a table of the water column.
+  explicit ServedTables(std::shared_ptr<const WaterColumnTable> water = nullptr)
+      : survey_(testing::SyntheticTable()),
+        published_(testing::SyntheticTable({.published = true})),
+        water_(std::move(water)) {
     WriteOrDie(survey_, folder_ / "survey.h5");
     WriteOrDie(published_, folder_ / "published.h5");
     WriteOrDie(testing::SyntheticTable({.version = "first", .factor = 2}), folder_.path() / "twice" / "1.h5");
@@ -64,7 +68,7 @@ class ServedTables : public ::testing::Test {
   }
 
   absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
-    return Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, log_},
+    return Server::Start({*tables_, water_}, {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
                          OrDie(ListenAddress::Parse(address)));
   }
 
@@ -115,6 +119,7 @@ class ServedTables : public ::testing::Test {
   testing::TemporaryFolder folder_;
   UncertaintyTable survey_;
   UncertaintyTable published_;
+  std::shared_ptr<const WaterColumnTable> water_;
   ServerMetrics metrics_;
   CallLog log_;
   std::optional<LiveTables> tables_;

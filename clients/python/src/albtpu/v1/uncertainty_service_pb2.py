@@ -16,45 +16,46 @@ from albtpu.v1 import pulse_pb2 as albtpu_dot_v1_dot_pulse__pb2
 from albtpu.v1 import sea_pb2 as albtpu_dot_v1_dot_sea__pb2
 from albtpu.v1 import table_pb2 as albtpu_dot_v1_dot_table__pb2
 from albtpu.v1 import uncertainty_pb2 as albtpu_dot_v1_dot_uncertainty__pb2
+from albtpu.v1 import water_pb2 as albtpu_dot_v1_dot_water__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n#albtpu/v1/uncertainty_service.proto\x12\talbtpu.v1\x1a\x16\x61lbtpu/v1/budget.proto\x1a\x15\x61lbtpu/v1/pulse.proto\x1a\x13\x61lbtpu/v1/sea.proto\x1a\x15\x61lbtpu/v1/table.proto\x1a\x1b\x61lbtpu/v1/uncertainty.proto\"\xd1\x01\n\x0cQueryOptions\x12\r\n\x05table\x18\x01 \x01(\t\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x17\n\x0fstandard_errors\x18\x03 \x01(\x08\x12\x16\n\x0e\x62\x65st_s44_order\x18\x04 \x01(\x08\x12&\n\ts44_order\x18\x05 \x01(\x0e\x32\x13.albtpu.v1.S44Order\x12\x1d\n\x10refractive_index\x18\x06 \x01(\x01H\x00\x88\x01\x01\x42\x13\n\x11_refractive_index\"\x82\x01\n\x12QueryPulsesRequest\x12(\n\x07options\x18\x01 \x01(\x0b\x32\x17.albtpu.v1.QueryOptions\x12 \n\x06pulses\x18\x02 \x03(\x0b\x32\x10.albtpu.v1.Pulse\x12 \n\x03sea\x18\x03 \x01(\x0b\x32\x13.albtpu.v1.SeaState\"\xd8\x01\n\x13QueryPulsesResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x32\n\runcertainties\x18\x03 \x03(\x0b\x32\x1b.albtpu.v1.PulseUncertainty\x12\"\n\x03sea\x18\x04 \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\x05 \x01(\x01\"\xb3\x01\n\x13QueryColumnsRequest\x12(\n\x07options\x18\x01 \x01(\x0b\x32\x17.albtpu.v1.QueryOptions\x12\'\n\x06pulses\x18\x02 \x01(\x0b\x32\x17.albtpu.v1.PulseColumns\x12\'\n\nquantities\x18\x03 \x03(\x0e\x32\x13.albtpu.v1.Quantity\x12 \n\x03sea\x18\x04 \x01(\x0b\x32\x13.albtpu.v1.SeaState\"\x93\x03\n\x14QueryColumnsResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x13\n\x0bpulse_count\x18\x03 \x01(\x05\x12\x10\n\x08outcomes\x18\x04 \x01(\x0c\x12\x14\n\x0coutcome_axes\x18\x05 \x01(\x0c\x12\x16\n\x0e\x61zimuth_absent\x18\x06 \x01(\x08\x12\x31\n\x0bsea_surface\x18\x07 \x01(\x0b\x32\x1c.albtpu.v1.SeaSurfaceColumns\x12@\n\x1asea_surface_standard_error\x18\x08 \x01(\x0b\x32\x1c.albtpu.v1.SeaSurfaceColumns\x12\"\n\x03s44\x18\t \x01(\x0b\x32\x15.albtpu.v1.S44Columns\x12\"\n\x03sea\x18\n \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\x0b \x01(\x01\"E\n\x14StreamColumnsRequest\x12-\n\x05query\x18\x01 \x01(\x0b\x32\x1e.albtpu.v1.QueryColumnsRequest\"H\n\x15StreamColumnsResponse\x12/\n\x06\x61nswer\x18\x01 \x01(\x0b\x32\x1f.albtpu.v1.QueryColumnsResponse\"\xe7\x01\n\x12QueryBudgetRequest\x12)\n\x07options\x18\x01 \x01(\x0b\x32\x18.albtpu.v1.BudgetOptions\x12\'\n\x06pulses\x18\x02 \x01(\x0b\x32\x17.albtpu.v1.PulseColumns\x12,\n\x08\x61ircraft\x18\x03 \x01(\x0b\x32\x1a.albtpu.v1.AircraftColumns\x12-\n\nquantities\x18\x04 \x03(\x0e\x32\x19.albtpu.v1.BudgetQuantity\x12 \n\x03sea\x18\x05 \x01(\x0b\x32\x13.albtpu.v1.SeaState\"\xa3\x02\n\x13QueryBudgetResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x13\n\x0bpulse_count\x18\x03 \x01(\x05\x12\x10\n\x08outcomes\x18\x04 \x01(\x0c\x12\x14\n\x0coutcome_axes\x18\x05 \x01(\x0c\x12\x16\n\x0e\x61zimuth_absent\x18\x06 \x01(\x08\x12(\n\x06\x62udget\x18\x07 \x01(\x0b\x32\x18.albtpu.v1.BudgetColumns\x12\"\n\x03sea\x18\x08 \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\t \x01(\x01\"\x13\n\x11ListTablesRequest\"T\n\x12ListTablesResponse\x12\'\n\x06tables\x18\x01 \x03(\x0b\x32\x17.albtpu.v1.TableSummary\x12\x15\n\rdefault_table\x18\x02 \x01(\t\" \n\x0fGetTableRequest\x12\r\n\x05table\x18\x01 \x01(\t\"3\n\x10GetTableResponse\x12\x1f\n\x05table\x18\x01 \x01(\x0b\x32\x10.albtpu.v1.Table\"\xae\x01\n\x11\x43ompileSeaRequest\x12 \n\x03sea\x18\x01 \x01(\x0b\x32\x13.albtpu.v1.SeaState\x12\x11\n\twith_file\x18\x02 \x01(\x08\x12\x30\n\x0b\x63orrelation\x18\x03 \x01(\x0b\x32\x1b.albtpu.v1.CorrelationQuery\x12\x1d\n\x10refractive_index\x18\x04 \x01(\x01H\x00\x88\x01\x01\x42\x13\n\x11_refractive_index\"s\n\x12\x43ompileSeaResponse\x12\x1f\n\x05table\x18\x01 \x01(\x0b\x32\x10.albtpu.v1.Table\x12\x0c\n\x04\x66ile\x18\x02 \x01(\x0c\x12.\n\x0b\x63orrelation\x18\x03 \x01(\x0b\x32\x19.albtpu.v1.SeaCorrelation2\xb4\x04\n\x12UncertaintyService\x12L\n\x0bQueryPulses\x12\x1d.albtpu.v1.QueryPulsesRequest\x1a\x1e.albtpu.v1.QueryPulsesResponse\x12O\n\x0cQueryColumns\x12\x1e.albtpu.v1.QueryColumnsRequest\x1a\x1f.albtpu.v1.QueryColumnsResponse\x12V\n\rStreamColumns\x12\x1f.albtpu.v1.StreamColumnsRequest\x1a .albtpu.v1.StreamColumnsResponse(\x01\x30\x01\x12L\n\x0bQueryBudget\x12\x1d.albtpu.v1.QueryBudgetRequest\x1a\x1e.albtpu.v1.QueryBudgetResponse\x12I\n\nListTables\x12\x1c.albtpu.v1.ListTablesRequest\x1a\x1d.albtpu.v1.ListTablesResponse\x12\x43\n\x08GetTable\x12\x1a.albtpu.v1.GetTableRequest\x1a\x1b.albtpu.v1.GetTableResponse\x12I\n\nCompileSea\x12\x1c.albtpu.v1.CompileSeaRequest\x1a\x1d.albtpu.v1.CompileSeaResponseb\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n#albtpu/v1/uncertainty_service.proto\x12\talbtpu.v1\x1a\x16\x61lbtpu/v1/budget.proto\x1a\x15\x61lbtpu/v1/pulse.proto\x1a\x13\x61lbtpu/v1/sea.proto\x1a\x15\x61lbtpu/v1/table.proto\x1a\x1b\x61lbtpu/v1/uncertainty.proto\x1a\x15\x61lbtpu/v1/water.proto\"\xd1\x01\n\x0cQueryOptions\x12\r\n\x05table\x18\x01 \x01(\t\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x17\n\x0fstandard_errors\x18\x03 \x01(\x08\x12\x16\n\x0e\x62\x65st_s44_order\x18\x04 \x01(\x08\x12&\n\ts44_order\x18\x05 \x01(\x0e\x32\x13.albtpu.v1.S44Order\x12\x1d\n\x10refractive_index\x18\x06 \x01(\x01H\x00\x88\x01\x01\x42\x13\n\x11_refractive_index\"\x82\x01\n\x12QueryPulsesRequest\x12(\n\x07options\x18\x01 \x01(\x0b\x32\x17.albtpu.v1.QueryOptions\x12 \n\x06pulses\x18\x02 \x03(\x0b\x32\x10.albtpu.v1.Pulse\x12 \n\x03sea\x18\x03 \x01(\x0b\x32\x13.albtpu.v1.SeaState\"\xd8\x01\n\x13QueryPulsesResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x32\n\runcertainties\x18\x03 \x03(\x0b\x32\x1b.albtpu.v1.PulseUncertainty\x12\"\n\x03sea\x18\x04 \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\x05 \x01(\x01\"\xb3\x01\n\x13QueryColumnsRequest\x12(\n\x07options\x18\x01 \x01(\x0b\x32\x17.albtpu.v1.QueryOptions\x12\'\n\x06pulses\x18\x02 \x01(\x0b\x32\x17.albtpu.v1.PulseColumns\x12\'\n\nquantities\x18\x03 \x03(\x0e\x32\x13.albtpu.v1.Quantity\x12 \n\x03sea\x18\x04 \x01(\x0b\x32\x13.albtpu.v1.SeaState\"\x93\x03\n\x14QueryColumnsResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x13\n\x0bpulse_count\x18\x03 \x01(\x05\x12\x10\n\x08outcomes\x18\x04 \x01(\x0c\x12\x14\n\x0coutcome_axes\x18\x05 \x01(\x0c\x12\x16\n\x0e\x61zimuth_absent\x18\x06 \x01(\x08\x12\x31\n\x0bsea_surface\x18\x07 \x01(\x0b\x32\x1c.albtpu.v1.SeaSurfaceColumns\x12@\n\x1asea_surface_standard_error\x18\x08 \x01(\x0b\x32\x1c.albtpu.v1.SeaSurfaceColumns\x12\"\n\x03s44\x18\t \x01(\x0b\x32\x15.albtpu.v1.S44Columns\x12\"\n\x03sea\x18\n \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\x0b \x01(\x01\"E\n\x14StreamColumnsRequest\x12-\n\x05query\x18\x01 \x01(\x0b\x32\x1e.albtpu.v1.QueryColumnsRequest\"H\n\x15StreamColumnsResponse\x12/\n\x06\x61nswer\x18\x01 \x01(\x0b\x32\x1f.albtpu.v1.QueryColumnsResponse\"\x8d\x02\n\x12QueryBudgetRequest\x12)\n\x07options\x18\x01 \x01(\x0b\x32\x18.albtpu.v1.BudgetOptions\x12\'\n\x06pulses\x18\x02 \x01(\x0b\x32\x17.albtpu.v1.PulseColumns\x12,\n\x08\x61ircraft\x18\x03 \x01(\x0b\x32\x1a.albtpu.v1.AircraftColumns\x12-\n\nquantities\x18\x04 \x03(\x0e\x32\x19.albtpu.v1.BudgetQuantity\x12 \n\x03sea\x18\x05 \x01(\x0b\x32\x13.albtpu.v1.SeaState\x12$\n\x05water\x18\x06 \x01(\x0b\x32\x15.albtpu.v1.WaterState\"\xcb\x02\n\x13QueryBudgetResponse\x12(\n\x05table\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12%\n\x08\x63overage\x18\x02 \x01(\x0e\x32\x13.albtpu.v1.Coverage\x12\x13\n\x0bpulse_count\x18\x03 \x01(\x05\x12\x10\n\x08outcomes\x18\x04 \x01(\x0c\x12\x14\n\x0coutcome_axes\x18\x05 \x01(\x0c\x12\x16\n\x0e\x61zimuth_absent\x18\x06 \x01(\x08\x12(\n\x06\x62udget\x18\x07 \x01(\x0b\x32\x18.albtpu.v1.BudgetColumns\x12\"\n\x03sea\x18\x08 \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x12\x18\n\x10refractive_index\x18\t \x01(\x01\x12&\n\x05water\x18\n \x01(\x0b\x32\x17.albtpu.v1.WaterSummary\"\x13\n\x11ListTablesRequest\"T\n\x12ListTablesResponse\x12\'\n\x06tables\x18\x01 \x03(\x0b\x32\x17.albtpu.v1.TableSummary\x12\x15\n\rdefault_table\x18\x02 \x01(\t\" \n\x0fGetTableRequest\x12\r\n\x05table\x18\x01 \x01(\t\"3\n\x10GetTableResponse\x12\x1f\n\x05table\x18\x01 \x01(\x0b\x32\x10.albtpu.v1.Table\"\xae\x01\n\x11\x43ompileSeaRequest\x12 \n\x03sea\x18\x01 \x01(\x0b\x32\x13.albtpu.v1.SeaState\x12\x11\n\twith_file\x18\x02 \x01(\x08\x12\x30\n\x0b\x63orrelation\x18\x03 \x01(\x0b\x32\x1b.albtpu.v1.CorrelationQuery\x12\x1d\n\x10refractive_index\x18\x04 \x01(\x01H\x00\x88\x01\x01\x42\x13\n\x11_refractive_index\"s\n\x12\x43ompileSeaResponse\x12\x1f\n\x05table\x18\x01 \x01(\x0b\x32\x10.albtpu.v1.Table\x12\x0c\n\x04\x66ile\x18\x02 \x01(\x0c\x12.\n\x0b\x63orrelation\x18\x03 \x01(\x0b\x32\x19.albtpu.v1.SeaCorrelation2\xb4\x04\n\x12UncertaintyService\x12L\n\x0bQueryPulses\x12\x1d.albtpu.v1.QueryPulsesRequest\x1a\x1e.albtpu.v1.QueryPulsesResponse\x12O\n\x0cQueryColumns\x12\x1e.albtpu.v1.QueryColumnsRequest\x1a\x1f.albtpu.v1.QueryColumnsResponse\x12V\n\rStreamColumns\x12\x1f.albtpu.v1.StreamColumnsRequest\x1a .albtpu.v1.StreamColumnsResponse(\x01\x30\x01\x12L\n\x0bQueryBudget\x12\x1d.albtpu.v1.QueryBudgetRequest\x1a\x1e.albtpu.v1.QueryBudgetResponse\x12I\n\nListTables\x12\x1c.albtpu.v1.ListTablesRequest\x1a\x1d.albtpu.v1.ListTablesResponse\x12\x43\n\x08GetTable\x12\x1a.albtpu.v1.GetTableRequest\x1a\x1b.albtpu.v1.GetTableResponse\x12I\n\nCompileSea\x12\x1c.albtpu.v1.CompileSeaRequest\x1a\x1d.albtpu.v1.CompileSeaResponseb\x06proto3')
 
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, globals())
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'albtpu.v1.uncertainty_service_pb2', globals())
 if _descriptor._USE_C_DESCRIPTORS == False:
 
   DESCRIPTOR._options = None
-  _QUERYOPTIONS._serialized_start=171
-  _QUERYOPTIONS._serialized_end=380
-  _QUERYPULSESREQUEST._serialized_start=383
-  _QUERYPULSESREQUEST._serialized_end=513
-  _QUERYPULSESRESPONSE._serialized_start=516
-  _QUERYPULSESRESPONSE._serialized_end=732
-  _QUERYCOLUMNSREQUEST._serialized_start=735
-  _QUERYCOLUMNSREQUEST._serialized_end=914
-  _QUERYCOLUMNSRESPONSE._serialized_start=917
-  _QUERYCOLUMNSRESPONSE._serialized_end=1320
-  _STREAMCOLUMNSREQUEST._serialized_start=1322
-  _STREAMCOLUMNSREQUEST._serialized_end=1391
-  _STREAMCOLUMNSRESPONSE._serialized_start=1393
-  _STREAMCOLUMNSRESPONSE._serialized_end=1465
-  _QUERYBUDGETREQUEST._serialized_start=1468
-  _QUERYBUDGETREQUEST._serialized_end=1699
-  _QUERYBUDGETRESPONSE._serialized_start=1702
-  _QUERYBUDGETRESPONSE._serialized_end=1993
-  _LISTTABLESREQUEST._serialized_start=1995
-  _LISTTABLESREQUEST._serialized_end=2014
-  _LISTTABLESRESPONSE._serialized_start=2016
-  _LISTTABLESRESPONSE._serialized_end=2100
-  _GETTABLEREQUEST._serialized_start=2102
-  _GETTABLEREQUEST._serialized_end=2134
-  _GETTABLERESPONSE._serialized_start=2136
-  _GETTABLERESPONSE._serialized_end=2187
-  _COMPILESEAREQUEST._serialized_start=2190
-  _COMPILESEAREQUEST._serialized_end=2364
-  _COMPILESEARESPONSE._serialized_start=2366
-  _COMPILESEARESPONSE._serialized_end=2481
-  _UNCERTAINTYSERVICE._serialized_start=2484
-  _UNCERTAINTYSERVICE._serialized_end=3048
+  _QUERYOPTIONS._serialized_start=194
+  _QUERYOPTIONS._serialized_end=403
+  _QUERYPULSESREQUEST._serialized_start=406
+  _QUERYPULSESREQUEST._serialized_end=536
+  _QUERYPULSESRESPONSE._serialized_start=539
+  _QUERYPULSESRESPONSE._serialized_end=755
+  _QUERYCOLUMNSREQUEST._serialized_start=758
+  _QUERYCOLUMNSREQUEST._serialized_end=937
+  _QUERYCOLUMNSRESPONSE._serialized_start=940
+  _QUERYCOLUMNSRESPONSE._serialized_end=1343
+  _STREAMCOLUMNSREQUEST._serialized_start=1345
+  _STREAMCOLUMNSREQUEST._serialized_end=1414
+  _STREAMCOLUMNSRESPONSE._serialized_start=1416
+  _STREAMCOLUMNSRESPONSE._serialized_end=1488
+  _QUERYBUDGETREQUEST._serialized_start=1491
+  _QUERYBUDGETREQUEST._serialized_end=1760
+  _QUERYBUDGETRESPONSE._serialized_start=1763
+  _QUERYBUDGETRESPONSE._serialized_end=2094
+  _LISTTABLESREQUEST._serialized_start=2096
+  _LISTTABLESREQUEST._serialized_end=2115
+  _LISTTABLESRESPONSE._serialized_start=2117
+  _LISTTABLESRESPONSE._serialized_end=2201
+  _GETTABLEREQUEST._serialized_start=2203
+  _GETTABLEREQUEST._serialized_end=2235
+  _GETTABLERESPONSE._serialized_start=2237
+  _GETTABLERESPONSE._serialized_end=2288
+  _COMPILESEAREQUEST._serialized_start=2291
+  _COMPILESEAREQUEST._serialized_end=2465
+  _COMPILESEARESPONSE._serialized_start=2467
+  _COMPILESEARESPONSE._serialized_end=2582
+  _UNCERTAINTYSERVICE._serialized_start=2585
+  _UNCERTAINTYSERVICE._serialized_end=3149
 # @@protoc_insertion_point(module_scope)

@@ -3,6 +3,7 @@ from albtpu.v1 import pulse_pb2 as _pulse_pb2
 from albtpu.v1 import sea_pb2 as _sea_pb2
 from albtpu.v1 import table_pb2 as _table_pb2
 from albtpu.v1 import uncertainty_pb2 as _uncertainty_pb2
+from albtpu.v1 import water_pb2 as _water_pb2
 from google.protobuf.internal import containers as _containers
 from google.protobuf import descriptor as _descriptor
 from google.protobuf import message as _message
@@ -57,21 +58,23 @@ class ListTablesResponse(_message.Message):
     def __init__(self, tables: _Optional[_Iterable[_Union[_table_pb2.TableSummary, _Mapping]]] = ..., default_table: _Optional[str] = ...) -> None: ...
 
 class QueryBudgetRequest(_message.Message):
-    __slots__ = ["aircraft", "options", "pulses", "quantities", "sea"]
+    __slots__ = ["aircraft", "options", "pulses", "quantities", "sea", "water"]
     AIRCRAFT_FIELD_NUMBER: _ClassVar[int]
     OPTIONS_FIELD_NUMBER: _ClassVar[int]
     PULSES_FIELD_NUMBER: _ClassVar[int]
     QUANTITIES_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
+    WATER_FIELD_NUMBER: _ClassVar[int]
     aircraft: _budget_pb2.AircraftColumns
     options: _budget_pb2.BudgetOptions
     pulses: _pulse_pb2.PulseColumns
     quantities: _containers.RepeatedScalarFieldContainer[_budget_pb2.BudgetQuantity]
     sea: _sea_pb2.SeaState
-    def __init__(self, options: _Optional[_Union[_budget_pb2.BudgetOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., aircraft: _Optional[_Union[_budget_pb2.AircraftColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_budget_pb2.BudgetQuantity, str]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
+    water: _water_pb2.WaterState
+    def __init__(self, options: _Optional[_Union[_budget_pb2.BudgetOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., aircraft: _Optional[_Union[_budget_pb2.AircraftColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_budget_pb2.BudgetQuantity, str]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., water: _Optional[_Union[_water_pb2.WaterState, _Mapping]] = ...) -> None: ...
 
 class QueryBudgetResponse(_message.Message):
-    __slots__ = ["azimuth_absent", "budget", "coverage", "outcome_axes", "outcomes", "pulse_count", "refractive_index", "sea", "table"]
+    __slots__ = ["azimuth_absent", "budget", "coverage", "outcome_axes", "outcomes", "pulse_count", "refractive_index", "sea", "table", "water"]
     AZIMUTH_ABSENT_FIELD_NUMBER: _ClassVar[int]
     BUDGET_FIELD_NUMBER: _ClassVar[int]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
@@ -81,6 +84,7 @@ class QueryBudgetResponse(_message.Message):
     REFRACTIVE_INDEX_FIELD_NUMBER: _ClassVar[int]
     SEA_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
+    WATER_FIELD_NUMBER: _ClassVar[int]
     azimuth_absent: bool
     budget: _budget_pb2.BudgetColumns
     coverage: _uncertainty_pb2.Coverage
@@ -90,7 +94,8 @@ class QueryBudgetResponse(_message.Message):
     refractive_index: float
     sea: _sea_pb2.SeaSummary
     table: _table_pb2.TableReference
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., budget: _Optional[_Union[_budget_pb2.BudgetColumns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ..., refractive_index: _Optional[float] = ...) -> None: ...
+    water: _water_pb2.WaterSummary
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., budget: _Optional[_Union[_budget_pb2.BudgetColumns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ..., refractive_index: _Optional[float] = ..., water: _Optional[_Union[_water_pb2.WaterSummary, _Mapping]] = ...) -> None: ...
 
 class QueryColumnsRequest(_message.Message):
     __slots__ = ["options", "pulses", "quantities", "sea"]

@@ -143,12 +143,18 @@ class UncertaintyServiceServicer(object):
         `QueryColumns`, and those of air side, water column and vertical datum. Every request carries all uncertainties of
         sensor and trajectory.
 
+        The water column is given by its columns, or by a `WaterState`, from which the server computes them, about half a
+        second at first. It keeps the last waters, but no state of its callers: every request carries its water.
+
         Errors:
         * INVALID_ARGUMENT: no pulses; more than 65 536 pulses, or so many that the response would exceed 4 MiB; a required
         column that is empty; a column whose length in bytes is not a multiple of 4; columns of different lengths; a
         number that is not a value of its enum; no `BudgetOptions.located`; a field of `BudgetOptions` or `AirErrors`
         that is out of its range or not finite.
         * NOT_FOUND, FAILED_PRECONDITION, and the errors of a sea: as for `QueryPulses`.
+        * With a water, INVALID_ARGUMENT: a field of the water is missing, out of its range or contradicts another, with a
+        path such as `water.secchi`; or a column of the water is given, too. FAILED_PRECONDITION: the server has no table
+        of the water column. RESOURCE_EXHAUSTED: too many other waters are waiting to be computed; wait and try again.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
