@@ -1,19 +1,22 @@
 """The package asks albtpu-serve for the whole budget of pulses.
 
-Usage: budget_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
+Usage: budget_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
 
+import json
 import sys
 import unittest
 
 import numpy as np
 
 import albtpu
+from commands import run
 from served import Served
 
 ERRORS = dict(position=(0.03, 0.03, 0.05), attitude=(0.0025, 0.0025, 0.005), boresight=(0.001, 0.001, 0.004),
               lever_arm=0.02, scan=0.001, time=1e-5, range_offset=0.01, bottom_range=0.025, surface_height=0.05,
               index=0.001)
+QUERY = sys.argv[3]
 PULSES = 150_000  # More than four batches.
 
 
@@ -88,6 +91,48 @@ class Budget(Served):
         budget = self.service.query_budget(**pulses(wind_speed=None, sea=sea))
         self.assertEqual(budget.table.digest, self.service.sea_table(sea).reference.digest)
         self.assertIsNotNone(budget.sea)
+
+    def test_is_answered_in_a_water(self):
+        water = albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=1.5, bias="correct")
+        query = pulses(1000, quantities=("tvu_air", "tvu_sea", "tvu_water", "total_tvu"), datum=0, extra_vertical=0)
+        budget, without = self.service.query_budget(**query, water=water), self.service.query_budget(**query)
+        answered = budget.outcomes == 1
+        self.assertGreater(answered.sum(), 500)
+        self.assertEqual(set(budget.outcome[~answered]), {"OUT_OF_DOMAIN:depth"})
+        self.assertTrue((query["depth"][~answered] > budget.water.greatest_depth).all())
+        self.assertGreater(budget.tvu_water[answered].min(), 0)
+        np.testing.assert_allclose((budget.total_tvu**2 - without.total_tvu**2)[answered],
+                                   (budget.tvu_water**2)[answered], atol=1e-6)
+        self.assertIn("Secchi depth Z = 5 m", budget.water.derivation)
+        self.assertIn("as that of natural particles", " ".join(budget.water.assumptions))
+        self.assertEqual(len(budget.water.table.digest), 64)
+        self.assertIsNone(without.water)
+        with self.assertRaisesRegex(albtpu.ServiceError, "water.secchi is 500 m"):
+            self.service.query_budget(**query, water=albtpu.Water(secchi=500, without_column=True))
+
+    def test_has_the_bits_of_the_water_of_albtpu_query(self):
+        """Which computes the columns itself, from a survey file in the same words."""
+        receiver = dict(detector="half", field_of_view=6, pulse_length=1.5, bias="none")
+        for words in (dict(kd=0.15, kd_kind="satellite490", bias="vendor", residual_fraction=0.3),
+                      dict(jerlov="3C", detector="peak", photons=200),
+                      dict(absorption=0.1, scattering=0.4, detector="centroid", bias="correct"),
+                      dict(secchi=6, temperature=12, salinity=33, processed_with=1.33, green_surface=True)):
+            words = receiver | words
+            lines = [f"{key} = {json.dumps(value)}" for key, value in words.items() if key != "green_surface"]
+            channel = "green" if "green_surface" in words else "infrared"
+            survey = self.folder / "survey.toml"
+            survey.write_text("\n".join(("[sensor]", 'name = "riegl-vq-880-g"', "[datum]", "sigma = 0", "[surface]",
+                                         'located = "local"', f'channel = "{channel}"', "[water]", *lines, "")))
+            made = run(QUERY, "pulse", "--survey", survey, "--table", self.folder / "synthetic.h5", "--wind-speed", 6.5,
+                       "--incidence", 15, "--beam-azimuth", 90, "--altitude", 400, "--depth", 7.5, "--footprint", 0.5,
+                       "--coverage", "2sigma", "--json")
+            self.assertEqual(made.returncode, 0, made.stderr)
+            names = ("thu_water", "tvu_water", "bias_vertical", "bias_along_beam")
+            budget = self.service.query_budget(
+                wind_speed=6.5, incidence=15, depth=7.5, footprint=0.5, altitude=400, beam_azimuth=90, located="local",
+                quantities=names, water=albtpu.Water(**words))
+            for name in names:
+                self.assertEqual(np.float32(json.loads(made.stdout)[name]), budget.values[name], (words, name))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 Usage: query_test.py TABLE.h5
 """
 
+import dataclasses
 import sys
 import unittest
 import warnings
@@ -10,8 +11,8 @@ import warnings
 import numpy as np
 
 import albtpu
-from albtpu import AXES, BUDGET_QUANTITIES, QUANTITIES, budget, schema, sea
-from albtpu.v1 import budget_pb2, pulse_pb2, sea_pb2, table_pb2, uncertainty_pb2
+from albtpu import AXES, BUDGET_QUANTITIES, QUANTITIES, budget, schema, sea, water
+from albtpu.v1 import budget_pb2, pulse_pb2, sea_pb2, table_pb2, uncertainty_pb2, water_pb2
 
 TABLE = sys.argv[1]
 PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5, depth=8)
@@ -109,10 +110,26 @@ class Names(unittest.TestCase):
                 (schema.OUTCOMES, uncertainty_pb2.Outcome), (["unspecified", *schema.SCALES[1:]], table_pb2.Scale),
                 (["unspecified", *schema.S44_ORDERS[1:]], uncertainty_pb2.S44Order),
                 (["unspecified", *sea.TAILS], sea_pb2.TailRule),
+                (["unspecified", *water.KD_KINDS], water_pb2.KdKind),
+                (["unspecified", *water.JERLOV_TYPES], water_pb2.JerlovType),
+                (["unspecified", *water.DETECTORS], water_pb2.EchoDetector),
+                (["unspecified", *water.BIASES], water_pb2.BiasHandling),
                 (["unspecified", *(name.removesuffix("s") if name == "best_s44_orders" else name
                                    for name in BUDGET_QUANTITIES)], budget_pb2.BudgetQuantity)):
             beginning = enum.keys()[0].removesuffix("UNSPECIFIED")
             self.assertEqual([beginning + name.upper() for name in ours], enum.keys())
+
+    def test_of_a_water_are_those_of_its_message(self):
+        self.assertEqual({field.name for field in dataclasses.fields(albtpu.Water)},
+                         {field.name for field in water_pb2.WaterState.DESCRIPTOR.fields})
+        self.assertEqual(list(albtpu.WaterSummary._fields),
+                         [field.name for field in water_pb2.WaterSummary.DESCRIPTOR.fields])
+        message = albtpu.Water(kd=0.12, kd_kind="diffuse532", jerlov="1C", detector="half", bias="calibrated",
+                               calibration=(5, -0.04, 0.01), green_surface=True).message()
+        self.assertEqual(message, water_pb2.WaterState(
+            kd=0.12, kd_kind=water_pb2.KD_KIND_DIFFUSE532, jerlov=water_pb2.JERLOV_TYPE_1C,
+            detector=water_pb2.ECHO_DETECTOR_HALF, bias=water_pb2.BIAS_HANDLING_CALIBRATED,
+            calibration=dict(depth=5, offset=-0.04, sigma=0.01), green_surface=True))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 import albtpu
-from albtpu import Sea, geometry
+from albtpu import Sea, Water, geometry
 
 TABLE = albtpu.open_table(sys.argv[1])
 SERVICE = albtpu.connect("localhost:1", patience=0)  # Nothing is there.
@@ -87,6 +87,15 @@ ARGUMENTS = {
         (SERVICE.query, PULSE | dict(sea="calm"), "it should be an albtpu.Sea"),
         (SERVICE.query, PULSE | dict(sea=CALM, table="synthetic"), "omit one of them"),
         (TABLE.query, PULSE | dict(sea=CALM), "sea.compile")],
+    "waters": [
+        (Water, dict(detector="halve"), r"detector is 'halve' \(did you mean 'half'\?\)"),
+        (Water, dict(kd=0.1, kd_kind="diffuse"), "kd_kind is 'diffuse'.*did you mean 'diffuse532'"),
+        (Water, dict(jerlov="1c"), "jerlov is '1c'"),
+        (Water, dict(secchi="deep"), "secchi is 'deep': it should be a number"),
+        (Water, dict(calibration=5), "three numbers: depth, offset, sigma"),
+        (SERVICE.query_budget, FLOWN | dict(water="murky"), "it should be an albtpu.Water"),
+        (SERVICE.query_budget, FLOWN | dict(water=Water(secchi=5), aircraft=dict(water_noise=0.01)),
+         r"water and aircraft\['water_noise'\] are both given")],
     "servers": [
         *((albtpu.connect, dict(target=target), "it should be HOST:PORT")
           for target in ("", "localhost", "two words:1", None, 50051)),

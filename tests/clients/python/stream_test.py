@@ -17,6 +17,7 @@ import numpy as np
 import albtpu
 from albtpu.query import Query
 from albtpu.uncertainties import AnswerColumns
+from albtpu.v1 import uncertainty_service_pb2 as pb
 from fake_service import FakeService, Running
 
 TABLE = sys.argv[1]
@@ -54,6 +55,21 @@ class Stream(unittest.TestCase):
             with albtpu.connect(target, patience=5) as client:
                 self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
                 self.assertTrue(client.tables()[0].is_default)
+
+    def test_takes_no_totals_without_the_water_from_a_server_of_an_earlier_version(self):
+        class Earlier(FakeService):
+            def QueryBudget(self, request, context):
+                number = np.float32(0.1).tobytes()
+                return pb.QueryBudgetResponse(table=self.reference(), coverage=1, pulse_count=1, outcomes=b"\1",
+                                              outcome_axes=b"\0", budget=dict(total_thu=number, total_tvu=number))
+
+        running = Running(Earlier(TABLE))
+        self.addCleanup(running.stop)
+        query = dict(**PULSE, depth=5, altitude=400, beam_azimuth=90, located="local")
+        client = self.connect(running)
+        self.assertEqual(client.query_budget(**query).total_thu, np.float32(0.1))
+        with self.assertRaisesRegex(albtpu.ServiceError, "computes no water: .* of an earlier version"):
+            client.query_budget(**query, water=albtpu.Water(secchi=5))
 
     def test_puts_the_answers_to_all_batches_into_their_places(self):
         service, running = self.run_service()

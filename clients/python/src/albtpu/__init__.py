@@ -17,8 +17,9 @@ from .errors import (ArgumentError, Error, ServiceError, TableChangedError, Tabl
 from .schema import AXES, QUANTITIES
 from .sea import Correlation, Sea
 from .source import UncertaintySource
-from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary
+from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary, WaterSummary
 from .uncertainties import Uncertainties
+from .water import Water
 
 if TYPE_CHECKING:
     from . import geometry
@@ -30,8 +31,8 @@ __version__ = "1.0.0rc1"
 __all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Correlation", "Error",
            "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
            "ServiceError", "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
-           "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
-           "connect", "geometry", "open_table"]
+           "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError", "Water",
+           "WaterSummary", "connect", "geometry", "open_table"]
 
 # Imported on first use: table files do not need gRPC and protobuf, and services do not need HDF5. pip installs neither
 # unless asked.

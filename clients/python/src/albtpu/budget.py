@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arguments import check_name, read_number, read_optional, read_vector
 from .errors import ArgumentError
+from .geometry import SEA_WATER_INDEX
 from .query import Query, read_query
 from .schema import AXES, COVERAGES, Numbers
 from .sea import Sea
-from .tables import SeaSummary, TableReference
+from .tables import SeaSummary, TableReference, WaterSummary
 from .uncertainties import order_names, outcome_words
 from .v1.budget_pb2 import AirErrors, BudgetColumns, SurfaceLocation
+from .water import Water
 
 # The columns of the aircraft in a query of the whole budget, with their units, in the order of the wire.
 AIRCRAFT: dict[str, str] = {
@@ -43,6 +45,7 @@ class BudgetQuery:
 
     query: Query  # Its columns are those of the table and of the aircraft.
     options: dict[str, Any]  # The fields of albtpu.v1.BudgetOptions.
+    water: Water | None  # In place of its columns.
 
     def batch(self, begin: int, end: int) -> tuple[dict[str, bytes], dict[str, bytes], int]:
         """The columns of the table and of the aircraft from `begin` to `end`, and the length of the longest."""
@@ -60,25 +63,33 @@ class BudgetQuery:
 
 def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[str, ArrayLike], *,
                       located: str, errors: Mapping[str, Any] | None, lever_arm: Sequence[float],
-                      refractive_index: float, datum: float, extra_horizontal: float, extra_vertical: float,
+                      refractive_index: float | None, datum: float, extra_horizontal: float, extra_vertical: float,
                       sea_axis: float | None,
-                      quantities: Iterable[str], coverage: str, table: str | None, sea: Sea | None) -> BudgetQuery:
+                      quantities: Iterable[str], coverage: str, table: str | None, sea: Sea | None,
+                      water: Water | None) -> BudgetQuery:
     """Checks the arguments of a query of the budget. Raises ArgumentError."""
     for name in aircraft:
         check_name("aircraft", name, AIRCRAFT)
+        if water is not None and name.startswith("water_"):
+            raise ArgumentError(f"water and aircraft[{name!r}] are both given (the service computes all columns of the "
+                                "water): give one of them")
+    if water is not None and not isinstance(water, Water):
+        raise ArgumentError(f"water is {water!r}: it should be an albtpu.Water")
     query = read_query({**pulses, **aircraft}, quantities=quantities, known=BUDGET_QUANTITIES, units=AIRCRAFT,
                        coverage=coverage, table=table, sea=sea, on_one_sea=sea is not None)
     check_name("located", located, LOCATIONS)
+    if refractive_index is None and (water is None or water.temperature is None):
+        refractive_index = SEA_WATER_INDEX
     options: dict[str, Any] = dict(
         table=table, coverage=COVERAGES[coverage], errors=_read_errors(errors or {}),
         located=LOCATIONS.index(located) + 1, lever_arm=read_vector("lever_arm", lever_arm, _ERRORS["boresight"]),
-        refractive_index=read_number("refractive_index", refractive_index), datum=read_number("datum", datum),
+        refractive_index=read_optional("refractive_index", refractive_index), datum=read_number("datum", datum),
         extra_horizontal=read_number("extra_horizontal", extra_horizontal),
         extra_vertical=read_number("extra_vertical", extra_vertical),
         sea_axis=read_optional("sea_axis", sea_axis))
     if query.size == 0:
         raise ArgumentError("there are no pulses: give at least one")
-    return BudgetQuery(query, options)
+    return BudgetQuery(query, options, water)
 
 
 def _read_errors(errors: Mapping[str, Any]) -> dict[str, Any]:
@@ -100,6 +111,7 @@ class Budget:
     table, sea, coverage, outcomes: as in Uncertainties.
     outcome_axes:    as in Uncertainties; 0 also if a number of the aircraft made the pulse INVALID.
     values:          the quantities by name.
+    water:           what the service computed of the `Water` of the query; None without one.
     """
 
     table: TableReference
@@ -108,6 +120,7 @@ class Budget:
     outcomes: Numbers
     outcome_axes: Numbers
     values: Mapping[str, NDArray[Any]] = field(repr=False)
+    water: WaterSummary | None = None
 
     def __getattr__(self, name: str) -> Any:
         if name != "values" and name in self.values:

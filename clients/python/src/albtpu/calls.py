@@ -18,7 +18,7 @@ from .errors import ServiceError, TableChangedError, UnreachableError
 from .progress import Progress
 from .query import Query
 from .schema import COVERAGES, QUANTITIES, S44_ORDERS
-from .tables import Answered, SeaSummary, TableReference
+from .tables import Answered, SeaSummary, TableReference, WaterSummary
 from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
@@ -180,6 +180,7 @@ class BudgetCalls(_Calls):
                  timeout: float) -> None:
         super().__init__(target, stub, asked.query, progress, timeout)
         self._asked = asked
+        self._water: WaterSummary | None = None
         size = asked.query.size
         self._outcomes, self._axes = np.empty(size, np.uint8), np.empty(size, np.uint8)
         self._values: dict[str, NDArray[Any]] = {
@@ -191,12 +192,20 @@ class BudgetCalls(_Calls):
         table, sea = self.run(retries)
         shape = self._query.shape
         return Budget(table, sea, self._query.coverage, self._outcomes.reshape(shape), self._axes.reshape(shape),
-                      {name: column.reshape(column.shape[:-1] + shape) for name, column in self._values.items()})
+                      {name: column.reshape(column.shape[:-1] + shape) for name, column in self._values.items()},
+                      self._water)
+
+    def _store(self, answer: Any, end: int, length: int) -> None:
+        if self._asked.water is not None and not answer.HasField("water"):
+            raise ServiceError(f"server {self._target} computes no water: it is an albtpu-serve of an earlier version")
+        super()._store(answer, end, length)
+        self._water = WaterSummary.of(answer.water) if answer.HasField("water") else None
 
     def _run_once(self) -> None:
         calls: deque[tuple[Any, int, int]] = deque()  # Each with the end of its pulses, and the length of its columns.
         sent, most = self._answered, self._asked.most_pulses()
         sea = self._query.sea.message() if self._query.sea else None
+        water = self._asked.water.message() if self._asked.water else None
         quantities: list[Any] = _wire_numbers(self._query.quantities, BUDGET_QUANTITIES)
         try:
             while self._answered < self._query.size:
@@ -204,7 +213,7 @@ class BudgetCalls(_Calls):
                     end = min(sent + most, self._query.size)
                     pulses, aircraft, length = self._asked.batch(sent, end)
                     request = wire.QueryBudgetRequest(options=self._asked.options, pulses=pulses, aircraft=aircraft,
-                                                      quantities=quantities, sea=sea)
+                                                      quantities=quantities, sea=sea, water=water)
                     calls.append((self._stub.QueryBudget.future(request, timeout=self._timeout), end, length))
                     sent = end
                 call, end, length = calls[0]

@@ -14,7 +14,6 @@ from .budget import Budget, read_budget_query
 from .calls import BudgetCalls, ColumnStream
 from .connection import File, Retries, open_channel
 from .errors import ArgumentError
-from .geometry import SEA_WATER_INDEX
 from .progress import Progress, show_progress
 from .query import Query, check_table
 from .schema import ONE_SEA, SCALES, SEA_SURFACE
@@ -25,6 +24,7 @@ from .uncertainties import AnswerColumns
 from .v1 import sea_pb2 as sea_wire
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from .water import Water
 
 if TYPE_CHECKING:
     from .table_file import TableFile
@@ -142,9 +142,9 @@ class Service(UncertaintySource):
                      beam_azimuth: ArrayLike, located: str, wind_speed: ArrayLike | None = None,
                      fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None, sea: Sea | None = None,
                      aircraft: Mapping[str, ArrayLike] | None = None, errors: Mapping[str, Any] | None = None,
-                     lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float = SEA_WATER_INDEX,
+                     lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float | None = None,
                      datum: float = 0.0, extra_horizontal: float = 0.0, extra_vertical: float = 0.0,
-                     sea_axis: float | None = None, table: str | None = None,
+                     sea_axis: float | None = None, water: Water | None = None, table: str | None = None,
                      coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
                      progress: bool = False) -> Budget:
         """The whole uncertainty of each pulse: of air side, sea surface, water column and vertical datum.
@@ -159,18 +159,19 @@ class Service(UncertaintySource):
                       position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
                       heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
                       of the elevation that the location of the surface does not see; and the contribution of the water
-                      column, which `albtpu-query pulse` states: water_sigma_along, water_sigma_vertical and
-                      water_noise in m, water_correlation, water_bias_along and water_bias_vertical in m (omitted: left
-                      out).
+                      column in place of `water`: water_sigma_along, water_sigma_vertical and water_noise in m,
+                      water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
         errors:       standard deviations by source, three numbers or one: position=(north, east, down) in m, scan in
                       degrees; docs/budget.md lists all sources with their units. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
-        refractive_index: of the water, for the air side and the contribution of the sea.
+        refractive_index: of the water, for the air side and the contribution of the sea. Omitted: by temperature and
+                      salinity of `water`, or 1.34, sea water.
         datum:        m, standard deviation of the height of the vertical datum.
         extra_horizontal, extra_vertical: m, standard deviations that are added to all points, the horizontal one
                       radial: the root of the sum of the variances along north and east.
         sea_axis:     degrees clockwise from true north, where the wind blows to. Omitted: not known. Not used with the
                       table of a sea, which has its own axis.
+        water:        the water in words, of which the service computes the contribution of the water column.
         coverage:     "2sigma", "1sigma" or "p95".
         quantities:   names from albtpu.BUDGET_QUANTITIES.
 
@@ -186,7 +187,7 @@ class Service(UncertaintySource):
                  depth=depth), {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth},
             located=located, errors=errors, lever_arm=lever_arm, refractive_index=refractive_index, datum=datum,
             extra_horizontal=extra_horizontal, extra_vertical=extra_vertical, sea_axis=sea_axis, quantities=quantities,
-            coverage=coverage, table=table, sea=sea)
+            coverage=coverage, table=table, sea=sea, water=water)
         with show_progress(asked.query.size if progress else 0) as shown:
             calls = BudgetCalls(self._target, self._stub, asked, shown, self._timeout)
             return calls.budget(self._retries())

@@ -53,6 +53,28 @@ class SeaSummary(NamedTuple):
                    tuple(str(attributes.get("assumptions", "")).split("\n")) if "assumptions" in attributes else ())
 
 
+class WaterSummary(NamedTuple):
+    """A water as the service computed it, with what it assumed."""
+
+    table: TableReference | None  # The table of the water column; None if its contribution was left out.
+    attenuation: float  # 1/m, of the lidar's light: the median; 0 if no optics were needed
+    attenuation_log_sigma: float  # Standard deviation of its logarithm.
+    derivation: str  # What was given, and how the attenuation follows from it.
+    greatest_depth: float  # m: pulses beyond are out of domain; so are those beyond the next two.
+    greatest_incidence: float  # degrees
+    greatest_footprint: float  # m
+    green_surface_range: float  # m, the range in air by which the surface is found too far
+    assumptions: tuple[str, ...]  # What was assumed: one sentence each.
+
+    @classmethod
+    def of(cls, message: Any) -> WaterSummary:
+        """From albtpu.v1.WaterSummary."""
+        return cls(TableReference.of(message.table) if message.HasField("table") else None, message.attenuation,
+                   message.attenuation_log_sigma, message.derivation, message.greatest_depth,
+                   message.greatest_incidence, message.greatest_footprint, message.green_surface_range,
+                   tuple(message.assumptions))
+
+
 class Answered(NamedTuple):
     """What answered a query."""
 
