@@ -18,7 +18,7 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr double kFoot = 0.3048;          // m, exact.
+constexpr double kMetresOfFoot = 0.3048;  // m, exact.
 constexpr double kLargestReading = 1000;  // In m or feet above any datum of a gauge, the Great Lakes included.
 constexpr char kAdvice[] = "; get another copy of the file";
 
@@ -156,7 +156,7 @@ Columns ColumnsOf(const CsvRecord& header, CoopsLevels& found) {
   columns.count = header.cell_count();
   const auto take_unit = [&](const std::string& name) {
     if (absl::EndsWith(name, "(m)")) found.metres = 1;
-    if (absl::EndsWith(name, "(ft)")) found.metres = kFoot;
+    if (absl::EndsWith(name, "(ft)")) found.metres = kMetresOfFoot;
   };
   for (std::size_t i = 0; i < columns.count; ++i) {
     const std::string name = TextOfCell(header, i);

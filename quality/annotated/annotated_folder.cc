@@ -1,6 +1,7 @@
 #include "quality/annotated/annotated_folder.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "annotate/run/file_progress.h"
 #include "formats/files/file_access.h"
 #include "formats/las/las_points.h"
+#include "formats/las/point_sample.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -92,6 +94,8 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vec
     if (last.table_digest() != first.table_digest())
       return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
   }
+  const auto sampled = files.size() > 1 ? std::make_shared<formats::SampledFiles>() : nullptr;
+  for (AnnotatedLasFile& file : files) file.CompareWith(sampled);
   return files;
 }
 

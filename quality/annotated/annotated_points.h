@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -19,6 +20,10 @@
 #include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
 #include "tables/coverage.h"
+
+namespace albtpu::formats {
+class SampledFiles;
+}
 
 namespace albtpu::quality {
 
@@ -92,6 +97,9 @@ class AnnotatedLasFile {
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
+  // ForEach fails where most points are those of another file.
+  void CompareWith(std::shared_ptr<formats::SampledFiles> files) { files_ = std::move(files); }
+
   using Visit = std::function<void(std::span<const AnnotatedPoint>)>;
 
   using VisitDry = std::function<void(const DryPoint&)>;
@@ -124,6 +132,7 @@ class AnnotatedLasFile {
   std::optional<std::size_t> share_of_;           // In a record; absent: annotated without dry points.
   std::string crs_name_ = "not stated", crs_wkt_, vertical_name_, vertical_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
+  std::shared_ptr<formats::SampledFiles> files_;  // Null: there is no other one.
 };
 
 }  // namespace albtpu::quality

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
+#include "formats/las/point_sample.h"
 #include "laz/coding/little_endian.h"
 #include "quality/annotated/annotated_points.h"
 #include "status/status_macros.h"
@@ -182,7 +184,9 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
   struct Chunk {
     formats::LasRun run;
     MadePoints made;
+    std::vector<formats::PointSample::Point> sample;
   };
+  const auto sample = std::make_shared<formats::PointSample>(header);
   LeftOutPoints left_out;
   RETURN_IF_ERROR(formats::RunOrderedPipeline(
       [] { return Chunk(); },
@@ -195,17 +199,20 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         for (std::size_t i = 0; i < chunk.run.own; ++i)
           maker.Add(std::string_view(chunk.run.records).substr(i * header.record_length, header.record_length),
                     static_cast<bool>(visit_dry), chunk.made);
+        if (files_ != nullptr) chunk.sample = sample->Choose(chunk.run.records);
         return absl::OkStatus();
       },
       [&](Chunk& chunk) {
         for (const DryPoint& dry : chunk.made.dry) visit_dry(dry);
         visit(chunk.made.points);
         left_out.Add(chunk.made.left_out);
+        sample->Add(chunk.sample);
         const std::uint64_t done = chunk.run.first + chunk.run.own;
         shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
         return absl::OkStatus();
       }));
   RETURN_IF_ERROR(reader_.CheckUnchanged());
+  if (files_ != nullptr) RETURN_IF_ERROR(files_->Add(path_, sample));
   return left_out;
 }
 

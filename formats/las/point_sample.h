@@ -1,0 +1,62 @@
+// Samples of points, by which files with the same points are noticed: copies of a flight line.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "formats/las/las_header.h"
+#include "formats/las/las_points.h"
+
+namespace albtpu::formats {
+
+// Points of a file that are chosen by their times alone, or by x where they have none: two files with the same points
+// have the same sample, whatever the order of their points, their classes, flags and heights and their format are, and
+// the samples of a file and of a part of it have points in common.
+class PointSample {
+ public:
+  struct Point {
+    std::uint64_t rank;  // Random, but a function of the time.
+    double x, y;
+  };
+
+  explicit PointSample(const LasHeader& header)
+      : fields_(header), record_length_(header.record_length), x_step_(header.scale[0]), y_step_(header.scale[1]) {}
+
+  // Those of some records that may be in the sample. By any thread.
+  std::vector<Point> Choose(std::string_view records) const;
+  // Adds them. By one thread at a time.
+  void Add(const std::vector<Point>& chosen);
+
+  // Of the points that both samples could have, the share that both have: of the file with fewer of them. 0 if there
+  // are too few to judge.
+  static double CommonShare(const PointSample& a, const PointSample& b);
+
+ private:
+  std::uint64_t Rank(std::string_view record) const;
+
+  LasPointFields fields_;
+  std::size_t record_length_;
+  double x_step_, y_step_;
+  std::atomic<std::uint64_t> limit_ = UINT64_MAX;  // All points of lower rank are in the sample.
+  std::vector<Point> points_;
+};
+
+// The files of a run.
+class SampledFiles {
+ public:
+  // Fails where most points of a file are those of another one. By any thread, and again for the same file.
+  absl::Status Add(const std::filesystem::path& path, std::shared_ptr<const PointSample> sample);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::filesystem::path, std::shared_ptr<const PointSample>> samples_;
+};
+
+}  // namespace albtpu::formats
