@@ -28,4 +28,11 @@ std::string PrintableText(std::string_view text) {
   return printable;
 }
 
+std::string PrintableLines(std::string_view text) {
+  std::string lines;
+  for (std::size_t end; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+    lines += PrintableText(text.substr(0, end)) + '\n';
+  return lines + PrintableText(text);
+}
+
 }  // namespace albtpu

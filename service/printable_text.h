@@ -10,4 +10,7 @@ namespace albtpu {
 // not UTF-8 become U+FFFD.
 std::string PrintableText(std::string_view text);
 
+// The same of each line of `text`.
+std::string PrintableLines(std::string_view text);
+
 }  // namespace albtpu

@@ -17,6 +17,7 @@
 #include "programs/query/survey_flags.h"
 #include "quality/annotated/annotated_folder.h"
 #include "quality/checkpoints/point_check.h"
+#include "service/printable_text.h"
 #include "status/status_macros.h"
 #include "tables/file/atomic_file.h"
 
@@ -57,7 +58,8 @@ absl::Status RunCheckPoints(const CheckPointsOptions& options) {
                    quality::CheckPointsOf(files, points, options.sigma,
                                           {.radius = options.radius, .seas = seas.has_value() ? &*seas : nullptr}));
   if (output.has_value()) RETURN_IF_ERROR(WritePoints(check, *std::move(output)));
-  std::cout << (options.json ? quality::PointCheckJson(check).dump(2) + "\n" : quality::PointCheckText(check));
+  std::cout << (options.json ? quality::PointCheckJson(check).dump(2) + "\n"
+                             : PrintableLines(quality::PointCheckText(check)));
   return FlushStandardOutput();
 }
 

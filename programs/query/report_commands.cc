@@ -21,6 +21,7 @@
 #include "quality/annotated/annotated_folder.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/report_folder.h"
+#include "service/printable_text.h"
 #include "status/status_macros.h"
 #include "tables/s44.h"
 
@@ -39,7 +40,8 @@ absl::Status RunCrossCheck(const CrossCheckOptions& options) {
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
   ASSIGN_OR_RETURN(const quality::CrossCheck check,
                    quality::CrossCheckOf(files, options.patch, seas.has_value() ? &*seas : nullptr));
-  std::cout << (options.json ? quality::CrossCheckJson(check).dump(2) + "\n" : quality::CrossCheckText(check));
+  std::cout << (options.json ? quality::CrossCheckJson(check).dump(2) + "\n"
+                             : PrintableLines(quality::CrossCheckText(check)));
   return FlushStandardOutput();
 }
 
@@ -122,7 +124,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   ASSIGN_OR_RETURN(quality::SurveyReport report, quality::MakeReport(files, options));
   const std::string verdict = quality::ReportText(*report.json);
   RETURN_IF_ERROR(quality::WriteReport(std::move(report), !flags.no_page, flags.output));
-  std::cout << flags.output << "\n  " << verdict;
+  std::cout << flags.output << "\n  " << PrintableLines(verdict);
   return FlushStandardOutput();
 }
 

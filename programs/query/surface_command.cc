@@ -25,6 +25,7 @@
 #include "quality/surface/surface_part.h"
 #include "quality/surface/surface_rasters.h"
 #include "quality/surface/survey_surface.h"
+#include "service/printable_text.h"
 #include "status/status_macros.h"
 #include "tables/file/output_folder.h"
 
@@ -152,7 +153,7 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
     if (std::ranges::count(formats, other) == 0)
       fs::remove(fs::path(options.output) / quality::FileOf(other), not_there);
   RETURN_IF_ERROR(hidden.Publish(names));
-  std::cout << options.output << "\n" << quality::SurfaceText(*surface.json);
+  std::cout << options.output << "\n" << PrintableLines(quality::SurfaceText(*surface.json));
   return FlushStandardOutput();
 }
 

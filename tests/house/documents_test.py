@@ -4,7 +4,8 @@ In a ```console block, the lines after "$ " are commands, and all others are the
 compared with what a run prints. A line of "..." stands for lines that are left out, "..." in a line for text. A command
 that ends with "# exit code N" exits with N, every other with 0. A ```toml or ```csv block that begins with "# NAME" is
 the file NAME of the commands that follow. A ```python block runs by itself; a ```text block after it is what it prints.
-A ```sh block is not run; document_names_test.py has the reason for each of its commands.
+A ```bash block runs as a whole, and must succeed. A ```sh block is not run; document_names_test.py has the reason for
+each of its commands.
 
 The commands of a page run in a folder with simulated surveys, whose files document_inputs.py names, and with links to
 folders of the source. 127.0.0.1:50051 is a server that runs for the page.
@@ -109,7 +110,7 @@ class Page:
 
 def checked(page, text, fail):
     """Runs all of a page's blocks; calls `fail` with what differs; returns the page with what is printed now."""
-    printed = None  # By the last ```python block.
+    printed = None  # By the last ```python or ```bash block.
 
     def check(command, expected_code, result, expected):
         code, lines = result
@@ -130,8 +131,9 @@ def checked(page, text, fail):
                 code = int((re.search(r"# exit code (\d+)$", command) or [0, 0])[1])
                 lines += [f"$ {command}", *check(command, code, page.run(command), output)]
             content = "".join(line + "\n" for line in lines)
-        elif kind == "python":
-            printed = page.execute([sys.executable, "-c", content], content)
+        elif kind in ("python", "bash"):
+            printed = page.execute([sys.executable, "-c", content] if kind == "python" else ["bash", "-euc", content],
+                                   content)
             if printed[0] != 0:
                 fail("\n".join([content, *printed[1]]))
         elif kind == "text":

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <thread>
 
+#include "formats/crs/proj_crs.h"
+
 namespace albtpu::formats {
 namespace {
 
@@ -36,6 +38,13 @@ std::string Refusal(const CrsDescription& description) {
   return std::string(MapFrame::Create("in.las", description).status().message());
 }
 GeographicPosition At(double latitude, double longitude) { return {latitude * kDegree, longitude * kDegree}; }
+
+TEST(ProjContext, HasNoNetwork) {
+  setenv("PROJ_NETWORK", "ON", 1);
+  const ProjContext context;
+  unsetenv("PROJ_NETWORK");
+  EXPECT_EQ(proj_context_is_network_enabled(context.get()), 0);
+}
 
 // The azimuth of a short step on the map, plus the convergence, is the azimuth of the step on the ground; its length in
 // metres is that of the step.
