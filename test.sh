@@ -2,13 +2,15 @@
 # Installs missing packages, builds everything and runs every test. The closing lines name what was not built and which
 # tests were skipped, and why; CTest's summary comes last.
 #
-# Usage: test.sh [--aarch64] [--bench] [--containers] [--fuzz] [--packages] [--portable] [--sanitizers] [--soak]
+# Usage: test.sh [--aarch64] [--bench] [--containers] [--fuzz] [--packages] [--portable] [--reproducible]
+#                [--sanitizers] [--soak]
 #   --aarch64      also run the kernels' tests on that architecture, emulated
 #   --bench        also run each benchmark once and briefly; they are built in any case
 #   --containers   also test the images with podman or docker, and the Slurm and Kubernetes jobs
 #   --fuzz         also run every fuzz target for one minute (installs clang, 400 MB); tests/fuzz/run.sh runs longer
 #   --packages     also make the Debian packages of both Debians, in bare roots, and install them in such roots
 #   --portable     also make the archive and the wheel for any Linux, and test them on bare Debian 12 and 13, as root
+#   --reproducible also make packages, archive and wheel of the commit twice and compare their bytes; takes an hour
 #   --sanitizers   also run the tests under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer
 #   --soak         also run half an hour of mixed load and faults against one server
 set -euo pipefail
@@ -18,7 +20,7 @@ source ./packages.sh
 declare -A optional_runs=(
   [aarch64]=tests/generator/aarch64.sh [bench]="ctest --preset release --label-regex ^bench$"
   [containers]=tests/e2e/containers.sh [fuzz]="tests/fuzz/run.sh 60" [packages]=tests/e2e/packages.sh
-  [portable]=tests/e2e/portable.sh
+  [portable]=tests/e2e/portable.sh [reproducible]=tests/e2e/reproducible.sh
   [sanitizers]=tests/sanitizers/run.sh [soak]=tests/faults/soak.sh)
 requested=()
 for flag in "$@"; do

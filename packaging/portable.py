@@ -157,11 +157,27 @@ def without_gpl(tree, target):
     return used
 
 
+def set_usual_modes(tree):
+    """Those of this user's umask and of the checkout would be in the archive and in the wheel."""
+    for path in (tree, *tree.rglob("*")):
+        if not path.is_symlink():
+            path.chmod(0o755 if path.is_dir() or path.stat().st_mode & 0o100 else 0o644)
+
+
 def pack_archive(tree, file):
     time = os.environ.get("SOURCE_DATE_EPOCH", "0")
+    set_usual_modes(tree)
+    # One thread would make other blocks than two or more.
+    threads = f"--threads={max(2, os.cpu_count() or 0)}"
     subprocess.run(["tar", "--create", "--xz", "--sort=name", "--owner=0", "--group=0", "--numeric-owner",
                     f"--mtime=@{time}", f"--file={file}", f"--directory={tree.parent}", tree.name],
-                   check=True, env={"XZ_OPT": "--threads=0", **os.environ})
+                   check=True, env={"XZ_OPT": threads, **os.environ})
+
+
+def pack_tree_as_wheel(tree, folder):
+    set_usual_modes(tree)
+    subprocess.run([sys.executable, "-B", "-m", "wheel", "pack", "--dest-dir", folder, tree], check=True,
+                   stdout=subprocess.DEVNULL)
 
 
 def pack_wheel(tree, copied, work, folder):
@@ -190,7 +206,7 @@ def pack_wheel(tree, copied, work, folder):
     metadata = information / "METADATA"
     metadata.write_text(metadata.read_text().replace(
         "License: Apache-2.0\n", "License: Apache-2.0; the libraries of Debian as licenses/README.md says, none GPL\n"))
-    subprocess.run([*python, "wheel", "pack", "--dest-dir", folder, content], check=True, stdout=subprocess.DEVNULL)
+    pack_tree_as_wheel(content, folder)
 
 
 def main(installed, folder, version):

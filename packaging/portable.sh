@@ -46,7 +46,7 @@ in_root() {
     exec chroot "$root" env -C "$folder" "$@"' \
     bash "$root" "$PWD" "$cache" -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 CCACHE_DIR=/ccache \
     CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1 SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" \
-    XZ_OPT="${XZ_OPT:---threads=0}" ALBTPU_COMMIT="$ALBTPU_COMMIT" "$@"
+    ${XZ_OPT+XZ_OPT="$XZ_OPT"} ALBTPU_COMMIT="$ALBTPU_COMMIT" "$@"
 }
 
 if [[ $# == 1 && $1 == --here ]]; then
