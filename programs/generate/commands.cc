@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -19,6 +20,7 @@
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
 #include "status/status_macros.h"
+#include "tables/axis.h"
 #include "tables/default_tables.h"
 #include "tables/file/output_folder.h"
 #include "tables/uncertainty_table.h"
@@ -152,13 +154,13 @@ void PrintText(const WaterColumnBias& bias, const WaterPointOptions& options) {
               bias.energy.standard_error);
 }
 
-// The time that `work` takes on one thread.
+// The time of the processor that `work` takes on one thread: other programs do not prolong it.
 template <typename Work>
 double SecondsOf(const Work& work) {
   tbb::task_arena one_thread(1);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   one_thread.execute(work);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 double SecondsOf(const SeaCase& sea_case, int realizations, Estimator estimator) {
@@ -208,19 +210,54 @@ void PrintTimes(double least, double most, int cores) {
   if (cores > 0) PrintLine("on so many cores", absl::StrFormat("%d: %s", cores, clock(cores)));
 }
 
-// The same for the water column, whose cases take a time in proportion to their scatterings.
-void PlanWater(const Campaign& campaign, int cores) {
+constexpr std::uint32_t kFewPhotons = 500, kMorePhotons = 2000;
+
+// The time of `work` on a campaign: what does not depend on the number of photons, and what each of them adds.
+template <typename Work>
+std::pair<double, double> SecondsByPhotons(Campaign campaign, const Work& work) {
+  campaign.water->photons = kFewPhotons;
+  const double few = SecondsOf([&] { work(campaign); });
+  campaign.water->photons = kMorePhotons;
+  const double photon = std::max(0.0, SecondsOf([&] { work(campaign); }) - few) / (kMorePhotons - kFewPhotons);
+  return {std::max(0.0, few - kFewPhotons * photon), photon};
+}
+
+Campaign With(Campaign campaign, WaterAxis axis, double node) {
+  Axis& changed = campaign.axes[Index(axis)];
+  changed = *Axis::Create(changed.schema(), {node}, changed.scale());  // A node of the same axis is valid.
+  return campaign;
+}
+
+// The time of a water case, from parts of it. Walks and pairs take a time in proportion to the photons, measured with
+// the longest pulse, whose echoes have few steps. All else finds the bottom in echoes, of each optical depth alike: it
+// is measured at one.
+double SecondsOfWaterCase(const Campaign& campaign, std::size_t index) {
+  const auto compute = [index](const Campaign& part) { ComputeWaterCase(part, index); };
+  const std::vector<double>& depths = campaign.axes[Index(WaterAxis::kOpticalDepth)].nodes();
+  const double longest = campaign.axes[Index(WaterAxis::kPulseLength)].nodes().back();
+  const double photon = SecondsByPhotons(With(campaign, WaterAxis::kPulseLength, longest), compute).second;
+  Campaign one_depth = With(campaign, WaterAxis::kOpticalDepth, depths[depths.size() / 2]);
+  one_depth.water->photons = kFewPhotons;  // Of hardly any time.
+  return campaign.water->photons * photon + static_cast<double>(depths.size()) * SecondsOf([&] { compute(one_depth); });
+}
+
+// Of all cases and checked beams, by a few of them.
+double SecondsOfWater(const Campaign& campaign) {
   constexpr std::size_t kProbes = 2;
   const std::size_t cases = WaterCaseCount(campaign), probes = std::min(kProbes, cases);
   double seconds = 0;
-  for (std::size_t p = 0; p < probes; ++p)
-    seconds += SecondsOf([&] { ComputeWaterCase(campaign, (2 * p + 1) * cases / (2 * probes)); });
-  seconds *= static_cast<double>(cases) / static_cast<double>(probes);
-  seconds += static_cast<double>(campaign.checked_pulses) *
-             SecondsOf([&] { ComputeDirectly(campaign, CheckedBeamOf(campaign, 0)); });
+  for (std::size_t p = 0; p < probes; ++p) seconds += SecondsOfWaterCase(campaign, (2 * p + 1) * cases / (2 * probes));
+  const auto [fixed, photon] =
+      SecondsByPhotons(campaign, [](const Campaign& part) { ComputeDirectly(part, CheckedBeamOf(part, 0)); });
+  return seconds * static_cast<double>(cases) / static_cast<double>(probes) +
+         static_cast<double>(campaign.checked_pulses) * (fixed + campaign.water->photons * photon);
+}
+
+void PlanWater(const Campaign& campaign, int cores) {
+  const double seconds = SecondsOfWater(campaign);
   std::size_t values = 0;
   for (const QuantitySchema& quantity : kWaterColumn.quantities) values += ValueCount(campaign.axes, quantity);
-  PrintLine("waters and incidences", std::to_string(cases));
+  PrintLine("waters and incidences", std::to_string(WaterCaseCount(campaign)));
   PrintLine("cells", std::to_string(ValueCount(campaign.axes, kWaterColumn.quantities.front())));
   PrintLine("checked beams", std::to_string(campaign.checked_pulses));
   PrintLine("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));

@@ -5,12 +5,16 @@ Usage: water_table_test.py ALBTPU_GENERATE
 
 import functools
 import json
+import pathlib
+import resource
 import sys
 import unittest
 
 from commands import FolderTest, run
+from serving import ALLOWANCE
 
 GENERATE = sys.argv[1]
+SHIPPED = pathlib.Path(__file__).resolve().parents[3] / "generator/campaigns/water.toml"
 CAMPAIGN = """
 id = "few_waters"
 kind = "water_column"
@@ -62,6 +66,12 @@ class WaterTableTest(FolderTest):
         plan = self.assert_succeeds(generate("plan", "--campaign", self.campaign))
         self.assertRegex(plan, r"waters and incidences +4\n")
         self.assertRegex(plan, r"cells +108\n")
+
+    def test_plan_of_many_cases_takes_seconds(self):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        plan = self.assert_succeeds(generate("plan", "--campaign", SHIPPED))
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 5 * ALLOWANCE)
+        self.assertRegex(plan, r"time of one core +\d{3,5} s|time of one core +\d+\.\d h")
 
     def test_refuses_what_is_no_water(self):
         for old, new, *parts in (
