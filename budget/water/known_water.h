@@ -36,7 +36,7 @@ struct KnownWater {
   std::optional<WaterIndex> index() const;
 };
 
-// What a program may be told of a water. Pure water attenuates by more than 0.001 1/m at all wavelengths that pass.
+// The numbers that a water can have. Pure water attenuates by more than 0.001 1/m at all wavelengths that pass.
 // Natural water is no warmer than 40 degrees and the salt of the ocean 45 at most; it freezes above -2. The offset of a
 // calibration may be negative; none that a survey had was beyond metres.
 struct WaterRange {

@@ -12,7 +12,7 @@
 namespace albtpu::server {
 namespace {
 
-// Not a value of `Enum` on the wire gives `otherwise`.
+// Values on the wire begin at 1, those of `Enum` at 0. None where `number` is not on the wire.
 template <typename Enum>
 std::optional<Enum> ValueOf(int number, int greatest) {
   if (number < 1 || number > greatest) return std::nullopt;
