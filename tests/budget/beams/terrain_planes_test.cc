@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace albtpu {
@@ -104,17 +105,23 @@ TEST(TerrainPlanes, AreMissingWhereReturnsAreFewOrOnALine) {
 // 1 by 1 km in cells of 2 m would be 250 000; 2 by 2 km are a million.
 TEST(TerrainPlanes, OfLargeAreasHaveWiderCells) {
   TerrainReturns whole, first, second;
-  for (int i = 0; i < 1000; ++i) {
-    for (int k = 0; k < 1000; ++k) {
-      const double x = 2.0 * i + 0.6 * (k % 3) - 999, y = 2.0 * k + 0.7 * (i % 3) - 999;
-      whole.Add(x, y, HeightAt(x, y));
-      (i % 2 == 0 ? first : second).Add(x, y, HeightAt(x, y));
-    }
-  }
+  int count = 0;
+  const auto add = [&](double x, double y) {
+    whole.Add(x, y, HeightAt(x, y));
+    (count++ % 2 == 0 ? first : second).Add(x, y, HeightAt(x, y));
+  };
+  // Four cells side by side, far from the next four: too few returns for planes, so that Finish() is quick.
+  for (int i = 0; i < 421; ++i)
+    for (int k = 0; k < 421; ++k)
+      for (const auto& [x, y] : {std::pair(1, 1), {1, 3}, {3, 1}, {3, 3}}) add(12 * i - 2400 + x, 12 * k - 2400 + y);
+  for (const double at : {-900.0, 0.0, 700.0})
+    for (int i = -10; i < 10; ++i)
+      for (int k = -10; k < 10; ++k) add(at + 2 * i + 0.6 * (k & 1), 2 * k + 0.7 * (i & 1));
   first.Merge(second);
   const TerrainPlanes planes = whole.Finish(), parts = first.Finish();
   EXPECT_EQ(planes.cell(), 4);
   EXPECT_EQ(parts.cell(), 4);
+  EXPECT_FALSE(planes.GradientAt(2000, 2000).has_value());
   for (const double at : {-900.0, 0.5, 700.0}) {
     EXPECT_NEAR(planes.GradientAt(at, 3)->x, 0.3, 1e-4);
     EXPECT_EQ(planes.GradientAt(at, 3)->y, parts.GradientAt(at, 3)->y);
