@@ -18,7 +18,7 @@ constexpr double kFigure8Incidence = 15;  // degree
 }  // namespace
 
 PaperMonteCarloSize SizeOfPaperMonteCarlo(bool quick) {
-  if (quick) return {{100, std::nullopt, Estimator::kPlain}, {100, std::nullopt, Estimator::kControlVariate}};
+  if (quick) return {{70, std::nullopt, Estimator::kPlain}, {70, std::nullopt, Estimator::kControlVariate}};
   return {{500, 10'000, Estimator::kPlain}, {2000, std::nullopt, Estimator::kControlVariate}};
 }
 

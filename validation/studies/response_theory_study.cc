@@ -204,9 +204,9 @@ DataTable EachSea(const std::vector<ComparedBeam>& beams) {
 
 absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options) {
   const std::vector<ComparedBeam> many =
-      CompareRandomBeams(ResponseSeas(), options.quick, {.realizations = options.quick ? 150 : 300}, options.seed);
+      CompareRandomBeams(ResponseSeas(), options.quick, {.realizations = options.quick ? 100 : 300}, options.seed);
   const std::vector<ComparedBeam> resolved = CompareRandomBeams(
-      ResolvedSeas(), options.quick, {.realizations = options.quick ? 250 : 500, .finer = 2}, options.seed);
+      ResolvedSeas(), options.quick, {.realizations = options.quick ? 160 : 500, .finer = 2}, options.seed);
   Study study;
   study.id = "response_theory";
   study.title = "The response theory: any sea without a table";

@@ -105,7 +105,7 @@ Estimate MeanOver(const std::vector<float>& excesses, std::uint32_t photons, con
 
 void AddSlab(const StudyOptions& options, Study& study) {
   const double depths[] = {1.8};
-  const std::uint32_t photons = options.quick ? 100'000 : 2'000'000;
+  const std::uint32_t photons = options.quick ? 50'000 : 2'000'000;
   const auto slab =
       WalkPhotons(PhaseFunction::HenyeyGreenstein(0.75), {.refractive_index = 1}, depths, photons, options.seed, 0, 0);
   const Estimate energy =
@@ -119,7 +119,7 @@ void AddSlab(const StudyOptions& options, Study& study) {
 void AddSmallAngles(const StudyOptions& options, Study& study) {
   const double sigma = 0.002, depths[] = {200};
   const PhaseFunction gaussian([sigma](double psi) { return -std::expm1(-psi * psi / (2 * sigma * sigma)); });
-  const std::uint32_t photons = options.quick ? 15'000 : 300'000;
+  const std::uint32_t photons = options.quick ? 8'000 : 300'000;
   const auto planes = WalkPhotons(gaussian, {}, depths, photons, options.seed, 1, 0);
   const double absorption = 1 / std::pow(depths[0] * sigma, 2);
   const Estimate energy =
@@ -143,7 +143,7 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
                        .field_of_view = kWide.field_of_view,
                        .footprint = kWide.footprint};
   const WaterColumnBias trips = BiasOfEchoes(
-      TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 50'000 : 1'000'000, options.seed), column,
+      TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 25'000 : 1'000'000, options.seed), column,
       pulses);
   const WalkSetup beam{.refracted = RefractedAngle(column.incidence, kSeaWaterIndex),
                        .longest_excess = 14 / column.absorption};
@@ -183,7 +183,7 @@ void AddSystems(const StudyOptions& options, Study& study) {
                   .columns = {"system", "attenuation_per_m", "depth_m", "peak_cm", "peak_error_cm",
                               "peak_found_apart_cm", "half_cm", "half_error_cm", "half_found_apart_cm", "centroid_cm",
                               "peak_along_cm", "half_along_cm", "spot_m", "spot_found_apart_m", "energy"}};
-  const WaterEffort effort{.photons = options.quick ? 20'000u : 200'000u, .seed = options.seed, .cell = 4};
+  const WaterEffort effort{.photons = options.quick ? 10'000u : 200'000u, .seed = options.seed, .cell = 4};
   for (const Found& found : FoundApart()) {
     const WaterColumn column = ColumnOf(found.lidar, OfAttenuation(found.attenuation), 12, found.depth);
     const std::array pulses = {PulseLength(found.lidar, found.depth)};
