@@ -1,5 +1,6 @@
 #include "annotate/run/file_progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,8 +46,20 @@ void Note(std::string_view message, const std::string& below) {
 namespace {
 
 constexpr std::chrono::milliseconds kRedrawInterval{200};
-constexpr std::chrono::seconds kLineInterval{10};
-constexpr int kBarWidth = 30;
+constexpr std::chrono::minutes kLineInterval{1};
+constexpr int kBarWidth = 20;
+
+// As much of `line` as one line of the terminal has room for: a longer one would be wrapped, and not be redrawn in
+// place. No character takes more columns than bytes.
+std::string CutToTerminal(std::string line) {
+  winsize size = {};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  const std::size_t room = known ? size.ws_col - 1 : 79;
+  if (line.size() <= room) return line;
+  std::size_t end = room;
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;  // Within a character of UTF-8.
+  return line.substr(0, end);
+}
 
 }  // namespace
 
@@ -80,15 +93,15 @@ void FileProgress::Show(const std::string& label, std::uint64_t bytes, std::uint
   if (terminal_) {
     const int filled = static_cast<int>(fraction * kBarWidth);
     const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
-    std::fprintf(stderr, "\r%s [%s] %s \033[K", label.c_str(), bar.c_str(), state.c_str());
+    std::fprintf(stderr, "\r%s\033[K", CutToTerminal(absl::StrCat("[", bar, "] ", state, ", ", label)).c_str());
     drawn_ = true;
   } else {
-    std::fprintf(stderr, "albtpu-query: %s: %s\n", label.c_str(), state.c_str());
+    Note(absl::StrCat(label, ": ", state));
   }
 }
 
-FileProgress::File::File(FileProgress& run, std::string name) : run_(run), label_(std::move(name)) {
-  if (run_.file_count_ > 1) absl::StrAppend(&label_, " (", run_.file_, " of ", run_.file_count_, ")");
+FileProgress::File::File(FileProgress& run, std::string name) : run_(run), label_(PrintableText(name)) {
+  if (run_.file_count_ > 1) label_ = absl::StrCat("file ", run_.file_, " of ", run_.file_count_, ", ", label_);
 }
 
 void FileProgress::File::Reach(std::uint64_t bytes, std::uint64_t records) {

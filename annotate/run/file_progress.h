@@ -34,9 +34,9 @@ void Note(std::string_view message, const std::string& below = "");
 
 // Reports on standard error how far a long run over files has come.
 
-// Covers all files of one run. On a terminal it shows a bar with the rate and the time left, which is redrawn in place
-// and erased after each file. Elsewhere it prints a line every ten seconds, so that short runs print nothing and logs
-// stay short.
+// Covers all files of one run. On a terminal it shows a bar with the rate and the time left on one line, which is
+// redrawn in place and erased after each file. Elsewhere it prints a line every minute, so that short runs print
+// nothing and logs stay short.
 class FileProgress {
  public:
   // `records` names what the files contain: "points". `total_bytes` is the size of all files, or 0 if it is not known;

@@ -8,6 +8,20 @@ POINT_SIZES = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 TYPE_SIZES = (1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
 
 
+def repeat(source, target, times):
+    """Writes a LAS 1.4 file with the points of `source` repeated `times` times and nothing after them."""
+    data = bytearray(source.read_bytes())
+    offset, = struct.unpack_from("<I", data, 96)
+    length, = struct.unpack_from("<H", data, 105)
+    count, = struct.unpack_from("<Q", data, 247)
+    struct.pack_into("<QIQ", data, 235, 0, 0, times * count)
+    with open(target, "wb") as file:
+        file.write(data[:offset])
+        for _ in range(times):
+            file.write(data[offset:offset + count * length])
+    return target
+
+
 class LasFile:
     def __init__(self, path):
         self.bytes = path.read_bytes()

@@ -5,30 +5,15 @@ import json
 import os
 import shutil
 import signal
-import struct
 import subprocess
 
 import numpy as np
 
 import programs
 import short_files
-from las_file import LasFile
+from las_file import LasFile, repeat
 from programs import FLAGS, make_flight, make_table, query
 from simulated_survey import SimulatedSurvey
-
-
-def repeat(source, target, times):
-    """Writes a LAS 1.4 file with the points of `source` repeated `times` times and nothing after them."""
-    data = bytearray(source.read_bytes())
-    offset, = struct.unpack_from("<I", data, 96)
-    length, = struct.unpack_from("<H", data, 105)
-    count, = struct.unpack_from("<Q", data, 247)
-    struct.pack_into("<QIQ", data, 235, 0, 0, times * count)
-    with open(target, "wb") as file:
-        file.write(data[:offset])
-        for _ in range(times):
-            file.write(data[offset:offset + count * length])
-    return target
 
 
 def start(*arguments):
