@@ -141,8 +141,8 @@ inline constexpr Number kWaterIndex = In(kWaterIndexRange);
 // clang-format off
 inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
     {{"name", "--sensor", Text{"the name of a sensor, or the path of its file", "NAME|FILE.toml"}, "",
-      "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the location "
-      "of the surface, the water column and the datum, instead of the contribution of the sea surface alone"},
+      "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with sensor and trajectory, the "
+      "location of the surface, the water column and the datum, instead of the contribution of the sea surface alone"},
      &SensorSettings::name},
     {{"lever_arm", "--lever-arm", kLeverArm, "none",
       "From the trajectory's reference point to the laser, in body axes: forward, right, down"},

@@ -1,4 +1,4 @@
-"""The whole uncertainty of pulses, of air side, sea surface and vertical datum: its names, a query, and the answer."""
+"""The whole uncertainty of pulses, of sensor and trajectory, sea surface and vertical datum: names, query, answer."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LOCATIONS = tuple(name.rpartition("_")[2].lower() for name in SurfaceLocation.ke
 BUDGET_QUANTITIES: tuple[str, ...] = tuple(column.name for column in BudgetColumns.DESCRIPTOR.fields)
 COVARIANCES = tuple(name for name in BUDGET_QUANTITIES if name.startswith("covariance_"))
 
-# The sources of error of the air side: three numbers of these names, or a single one.
+# The sources of error of sensor and trajectory: three numbers of these names, or a single one.
 _ERRORS = {source.name: tuple(part.name for part in source.message_type.fields) if source.message_type else ()
            for source in AirErrors.DESCRIPTOR.fields}
 

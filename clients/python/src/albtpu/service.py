@@ -147,7 +147,7 @@ class Service(UncertaintySource):
                      sea_axis: float | None = None, water: Water | None = None, table: str | None = None,
                      coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
                      progress: bool = False) -> Budget:
-        """The whole uncertainty of each pulse: of air side, sea surface, water column and vertical datum.
+        """The whole uncertainty of each pulse: of sensor and trajectory, sea surface, water column and vertical datum.
 
         wind_speed, fetch, incidence, azimuth, footprint, depth, sea, table, progress: as in `query`.
         altitude:     m, of the sensor above the water.
@@ -164,8 +164,8 @@ class Service(UncertaintySource):
         errors:       standard deviations by source, three numbers or one: position=(north, east, down) in m, scan in
                       degrees; docs/budget.md lists all sources with their units. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
-        refractive_index: of the water, for the air side and the contribution of the sea. Omitted: by temperature and
-                      salinity of `water`, or 1.34, sea water.
+        refractive_index: of the water, for sensor and trajectory and the contribution of the sea. Omitted: by
+                      temperature and salinity of `water`, or 1.34, sea water.
         datum:        m, standard deviation of the height of the vertical datum.
         extra_horizontal, extra_vertical: m, standard deviations that are added to all points, the horizontal one
                       radial: the root of the sum of the variances along north and east.
