@@ -26,7 +26,7 @@ FLAGS = ("--wind-speed", "6.5", "--fetch", "30000", "--divergence", "1.5", "--wi
 def run(command):
     """Elapsed seconds, processor seconds and peak MiB of a command."""
     start = time.monotonic()
-    process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE)
+    process = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     peak = 0.0
 
     def watch():  # The memory that `wait4` reports includes that of this process before exec.

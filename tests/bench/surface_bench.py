@@ -1,15 +1,18 @@
-"""`albtpu-query surface` of a survey of many points: minutes, memory and what reading takes.
+"""`albtpu-query surface` and `report` of a survey of many points: time, memory and what reading takes.
 
 Usage: surface_bench.py BUILD [--millions N] [--format netcdf,geotiff,bag] [--folder DIR]
 
 Five lines of a simulated survey, 4.4 million points of the bottom, are annotated and then copied, each time 1.5 km
-further, until there are enough. `surface --partial` reads as much and makes no nodes. Prints a Markdown table.
+further, until there are enough. `surface --partial` reads as much and makes no nodes; `report` has the verdict of the
+nodes, too, with and without its page. Prints a Markdown table.
 """
 
+import os
 import pathlib
 import shutil
 import struct
 import subprocess
+import sys
 import tempfile
 
 import bench
@@ -30,6 +33,10 @@ classes = [41]
 [sea]
 wind_speed = 5
 wind_from = 250
+[water]
+column = "none"
+[datum]
+sigma = 0.05
 [output]
 classes = [40]
 coverage = "p95"
@@ -71,11 +78,16 @@ def rows(options, folder):
         for file in sorted(one.glob("*.las")):
             move(file, survey / f"{block:02}_{file.name}", block % COLUMNS * STEP, block // COLUMNS * STEP)
     command = (options.build / "bin/albtpu-query", "surface", survey)
-    part, output = folder / "survey.part", folder / "surface"
-    for what, run in (("read alone (`--partial`)", (*command, "--partial", part)),
-                      ("surface", (*command, "--output", output, "--format", options.format))):
+    part, output, made = folder / "survey.part", folder / "surface", folder / "report"
+    report = (command[0], "report", survey, "--output", made, "--surface", output, "--overwrite")
+    for what, run, files in (("read alone (`--partial`)", (*command, "--partial", part), ()),
+                             ("surface", (*command, "--output", output, "--format", options.format), (output,)),
+                             ("report with nodes, without page", (*report, "--no-page"), (made,)),
+                             ("report with nodes", report, (made,)),
+                             ("its page alone", (sys.executable, "-m", "albtpu.report", made), ())):
         elapsed, processor, peak = las_bench.run(run)
-        files = " ".join(f"{path.name} {path.stat().st_size / 1e6:.0f}" for path in sorted(output.glob("surface.*")))
+        files = " ".join(f"{path.name} {path.stat().st_size / 1e6:.0f}" for each in files
+                         for path in sorted(each.iterdir()))
         yield what, f"{elapsed:.0f}", f"{processor:.0f}", f"{peak:.0f}", files
         part.unlink(missing_ok=True)
 
@@ -85,6 +97,7 @@ def main():
     parser.add_argument("--format", default="netcdf")
     parser.add_argument("--folder", help="where to write the files, 320 bytes for each point")
     options = parser.parse_args()
+    os.environ["PYTHONPATH"] = str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/src")
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
         bench.print_table(("what", "s", "CPU s", "MB", "MB written"), rows(options, pathlib.Path(folder)))
 
