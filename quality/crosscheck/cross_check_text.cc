@@ -48,6 +48,7 @@ Json LinesJson(const std::vector<LineDifference>& lines) {
 std::string EstimateText(const Estimate& estimate) {
   if (!std::isfinite(estimate.value)) return "not known: too few pairs are close together";
   if (!std::isfinite(estimate.high)) return absl::StrFormat("%.2f (one place gives no interval)", estimate.value);
+  if (estimate.value < 0.005) return absl::StrFormat("0: no such error shows (95 %%: at most %.2f)", estimate.high);
   return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", estimate.value, estimate.low, estimate.high);
 }
 

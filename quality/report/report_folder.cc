@@ -29,12 +29,10 @@ constexpr const char* kPage = "report.html";
 constexpr const char* kPlanJson = "plan.json";
 constexpr const char* kPlanPage = "plan.html";
 
-std::string TextOf(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
 // Writes the JSON, the last of `names`, draws the page, and gives all files their names, the page last.
 absl::Status Finish(const HiddenFolder& hidden, const Json& json, std::vector<std::string> names, bool with_page,
                     const char* page, const fs::path& folder) {
-  absl::Status status = WriteFileAtomically(hidden.path() / names.back(), TextOf(json), Existing::kReplace);
+  absl::Status status = WriteFileAtomically(hidden.path() / names.back(), JsonText(json), Existing::kReplace);
   if (status.ok() && with_page) status = DrawPage(hidden.path());
   if (with_page) names.emplace_back(page);
   if (status.ok()) status = hidden.Publish(names);
@@ -51,7 +49,8 @@ std::string OverlapText(const nlohmann::ordered_json& check) {
   for (const auto& [name, key] : {std::pair{"pulses", "factor_pulse"}, {"lines", "factor_line"}}) {
     const auto& factor = check[key];
     if (factor.is_null() || !factor["value"].is_number()) continue;
-    absl::StrAppendFormat(&text, "; factor of %s %.2f", name, factor["value"].get<double>());
+    const double value = factor["value"].get<double>();
+    absl::StrAppendFormat(&text, value < 0.005 ? "; no error of %s shows" : "; factor of %s %.2f", name, value);
     if (factor["low"].is_number())
       absl::StrAppendFormat(&text, ", 95 %% interval %.2f to %.2f", factor["low"].get<double>(),
                             factor["high"].get<double>());
@@ -143,6 +142,8 @@ std::string AlsoOf(const Json& report) {
 
 }  // namespace
 
+std::string JsonText(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files, const ReportOptions& options,
                bool with_page) {
   std::ifstream stream(folder / kJson, std::ios::binary);
@@ -194,13 +195,14 @@ absl::Status DrawPage(const std::filesystem::path& folder) {
 }
 
 std::string ReportText(const nlohmann::ordered_json& report) {
-  const auto& wanted = report["wanted"];
+  const auto &wanted = report["wanted"], &check = report["crosscheck"];
   const auto points = wanted["points"].get<std::uint64_t>(), numbers = wanted["with_number"].get<std::uint64_t>();
-  std::string text =
-      absl::StrFormat("%s %s: THU and TVU %s %.2f %% of %d points (at least %g %% required)\n",
-                      wanted["specification"].get<std::string>(), wanted["class"].get<std::string>(),
-                      wanted["passes"].get<bool>() ? "are within the limits at" : "are NOT within the limits: at",
-                      100 * wanted["fraction"].get<double>(), points, wanted["pass_share"].get<double>());
+  std::string text = absl::StrFormat(
+      "%s %s: THU and TVU %s %.2f %% of %d points (at least %g %% required)%s\n",
+      wanted["specification"].get<std::string>(), wanted["class"].get<std::string>(),
+      wanted["passes"].get<bool>() ? "are within the limits at" : "are NOT within the limits: at",
+      100 * wanted["fraction"].get<double>(), points, wanted["pass_share"].get<double>(),
+      check.is_object() && check["agrees"] == false ? "; overlapping lines contradict the prediction" : "");
   if (numbers < points) {
     std::vector<std::string> why;
     for (const auto& [outcome, count] : wanted["without_number"].items())
@@ -208,6 +210,11 @@ std::string ReportText(const nlohmann::ordered_json& report) {
     absl::StrAppend(&text, "  ", points - numbers, " points: uncertainty not computed (", absl::StrJoin(why, ", "),
                     ")\n");
   }
+  if (check.is_null())
+    absl::StrAppend(&text, "  ", report["nothing_to_compare"].get<std::string>(),
+                    ", so that the files cannot show whether the prediction is true\n");
+  else
+    absl::StrAppend(&text, "  ", OverlapText(check));
   absl::StrAppend(&text, BesideText(report));
   if (report.contains("left_out")) {
     const auto& left_out = report["left_out"];
@@ -225,12 +232,6 @@ std::string ReportText(const nlohmann::ordered_json& report) {
                           land["points"].get<std::uint64_t>(), land["rmse_horizontal"].get<double>(),
                           land["rmse_vertical"].get<double>(), met);
   }
-  const auto& check = report["crosscheck"];
-  if (check.is_null())
-    absl::StrAppend(&text, "  ", report["nothing_to_compare"].get<std::string>(),
-                    ", so that the files cannot show whether the prediction is true\n");
-  else
-    absl::StrAppend(&text, "  ", OverlapText(check));
   const std::string also = AlsoOf(report);
   absl::StrAppend(&text, "  not tested by these files: ",
                   also.empty() ? "coverage, features" : absl::StrCat("what the class also asks (", also, ")"),

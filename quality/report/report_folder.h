@@ -49,9 +49,12 @@ absl::Status CheckPageCanBeDrawn();
 // Makes report.html in `folder` from report.json and grid.nc in it, or plan.html from plan.json.
 absl::Status DrawPage(const std::filesystem::path& folder);
 
-// The verdict of a report in some lines, for the terminal.
+// What is printed of a report, SurveyReport::json.
 
-// `report` is SurveyReport::json.
+// The verdict in some lines, for the terminal.
 std::string ReportText(const nlohmann::ordered_json& report);
+
+// The text of report.json.
+std::string JsonText(const nlohmann::ordered_json& report);
 
 }  // namespace albtpu::quality

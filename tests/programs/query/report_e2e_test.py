@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+import struct
 import subprocess
 import unittest
 
@@ -230,6 +231,38 @@ class Page(Report):
                     cell = re.sub("<.*?>", "", cell)
                     points = of["with_number"] if what.startswith("depth") else of["points"]
                     self.assertAlmostEqual(float(cell.split()[0]), 100 * met / points, delta=1.01)
+
+
+class Raised(Report):
+    """The first screen of the same lines, one of which lies too high."""
+
+    def test_says_which_line_lies_too_high_and_what_was_assumed(self):
+        folder, made = self.folder / "raised", self.folder / "of_raised"
+        shutil.copytree(self.annotated, folder)
+        with (folder / "flight_2.las").open("r+b") as file:
+            for at in (171, 211, 219):  # Offset, maximum and minimum of z.
+                file.seek(at)
+                value, = struct.unpack("<d", file.read(8))
+                file.seek(at)
+                file.write(struct.pack("<d", value + 0.5))
+        for path in folder.glob("*.las.json"):  # As if nothing of the trajectory had been stated.
+            summary = json.loads(path.read_text())
+            summary["parameters"]["total"]["numbers"]["position"]["assumed"] = True
+            summary["answers"]["total"]["sources"]["assumed"] = {"horizontal": 0.1, "vertical": 0.5}
+            path.write_text(json.dumps(summary))
+        said = query("report", folder, "--output", made, check=0).stdout
+        page, report = (made / "report.html").read_text(), json.loads((made / "report.json").read_text())
+        self.assertIs(report["crosscheck"]["agrees"], False)
+        self.assertIn("; overlapping lines contradict the prediction", said.splitlines()[1])
+        self.assertRegex(page, "(but|and) overlapping lines contradict the prediction</b>")
+        self.assertNotIn('class="verdict pass"', page)
+        above, lines = re.search(r"Line 2 lies above all (\d+) lines that it overlaps, by ([\d.]+) m", page).groups()
+        self.assertGreater(int(above), 1)
+        self.assertAlmostEqual(float(lines), 0.5, delta=0.15)
+        self.assertIn("More than a third of the variance, 50.0 %, rests on assumed numbers.", page)
+        share = 100 * report["assumed"]["sources"]["position"]["vertical"]
+        self.assertIn("state the uncertainty of the position of the trajectory; the assumed one makes"
+                      f" {share:.1f} % of the vertical variance.", page)
 
 
 class Named(Report):

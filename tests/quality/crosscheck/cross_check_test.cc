@@ -119,6 +119,22 @@ TEST(CrossCheck, TellsLinesFromPulses) {
   EXPECT_EQ(check.guilty, "trajectory");
 }
 
+TEST(CrossCheck, SaysThatNoErrorOfLinesShowsInsteadOfAFactorOfNothing) {
+  int without = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const CrossCheck check = CheckOf({.line = 0, .seed = seed});
+    const bool shows = check.line.factor->value >= 0.005;
+    without += shows ? 0 : 1;
+    const auto said = ::testing::ContainsRegex("of lines, .*0: no such error shows \\(95 %: at most 0\\.[0-9]+\\)");
+    if (shows)
+      EXPECT_THAT(CrossCheckText(check), ::testing::Not(said));
+    else
+      EXPECT_THAT(CrossCheckText(check), said);
+    EXPECT_THAT(CrossCheckText(check), ::testing::Not(::testing::HasSubstr(" 0.00 (")));
+  }
+  EXPECT_GT(without, 0);  // Of 8 surveys, all have one with a probability of 0.4 %.
+}
+
 TEST(CrossCheck, LeavesOutTheRoughnessOfTheBottom) {
   const CrossCheck check = CheckOf({.rough = 0.08});
   EXPECT_NEAR(std::sqrt(check.pulse.rough), 0.08, 0.02);

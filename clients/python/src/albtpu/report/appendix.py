@@ -3,13 +3,7 @@
 from __future__ import annotations
 
 from .markup import percent, table, text
-from .verdict import CONTRIBUTIONS, COVERAGES, Report, estimate_text
-
-SOURCES = {"position": "position of the trajectory", "attitude": "attitude of the trajectory", "boresight": "boresight",
-           "lever_arm": "lever arm", "scan": "scan angle", "time": "clock", "range_offset": "range offset",
-           "bottom_range": "range to the bottom", "surface_range": "range to the surface",
-           "surface_height": "height of the water surface", "index": "refractive index", "sea": "sea surface",
-           "water": "water column", "datum": "vertical datum", "extra": "added by the surveyor"}
+from .verdict import CONTRIBUTIONS, COVERAGES, SOURCES, Report, estimate_text
 
 
 def appendix(report: Report) -> str:
@@ -20,13 +14,14 @@ def appendix(report: Report) -> str:
 
 def _method(report: Report) -> str:
     table_of_sea = report["table"]
-    datum = report.get("vertical_datum") or "not stated by the files"
+    datum = report.get("vertical_datum")
+    elevations = f"in the vertical datum {text(datum)}" if datum else "in a vertical datum that the files do not state"
     return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and"
             " trajectory, sea surface, water column and datum, propagated along the refracted beam of its pulse. THU"
             f" and TVU are stated at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is"
             " added where limits are compared. Water-surface model used for refraction: table "
-            f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are in the vertical datum"
-            f" {text(datum)}; depths are below the water surface at the time of the flight.</p>")
+            f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are {elevations};"
+            " depths are below the water surface at the time of the flight.</p>")
 
 
 def _sources(report: Report) -> str:

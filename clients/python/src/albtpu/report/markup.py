@@ -25,7 +25,7 @@ h3 { font-size: 1rem; margin: 20px 0 4px; }
             align-items: start; }
 img { max-width: 100%; height: auto; display: block; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; margin-bottom: 8px; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 4px 7px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { white-space: normal; vertical-align: bottom; }
 .group { text-align: center; border-left: 1px solid var(--line); }
@@ -47,11 +47,12 @@ th:first-child, td:first-child, .words td, .words th { text-align: left; }
 .matrix { font-size: 0.8rem; } .matrix th, .matrix td { padding: 3px 4px; }
 .matrix td:first-child { white-space: normal; overflow-wrap: anywhere; min-width: 4.5em; }
 @media print {
+  html { font-size: 10pt; } .screen { display: none; } .soft { break-after: avoid; }
   body { max-width: none; padding: 0; font-size: 10pt; } h2, h3 { break-after: avoid; }
   img, tr { break-inside: avoid; } thead { display: table-header-group; }
   .wide { overflow: visible; } table { font-size: 7.5pt; max-width: 100%; } th, td { padding: 2px 4px; }
   .matrix { font-size: 6pt; table-layout: fixed; width: 100%; }
-  .matrix th, .matrix td { padding: 1px 2px; white-space: normal; overflow-wrap: anywhere; }
+  .matrix th, .matrix td { padding: 1px 2px; white-space: normal; overflow-wrap: anywhere; hyphens: auto; }
   .pictures { grid-template-columns: 1fr 1fr; } .tiles { grid-template-columns: 1fr 1fr 1fr; }
   .tile b, .verdict b { font-size: 1.2rem; }
 }
@@ -67,12 +68,13 @@ PAGES = """
 SCRIPT = """
 document.querySelectorAll('.sortable').forEach(table => {
   const body = table.tBodies[0];
-  table.querySelectorAll('th').forEach((head, column) => {
+  const heads = table.tHead.rows[table.tHead.rows.length - 1].querySelectorAll('th');
+  heads.forEach((head, column) => {
     head.tabIndex = 0;
     head.title = 'sort';
     const sort = () => {
       const up = head.getAttribute('aria-sort') !== 'ascending';
-      table.querySelectorAll('th').forEach(other => other.removeAttribute('aria-sort'));
+      heads.forEach(other => other.removeAttribute('aria-sort'));
       head.setAttribute('aria-sort', up ? 'ascending' : 'descending');
       const key = row => { const text = row.cells[column].dataset.value ?? row.cells[column].textContent;
                            const number = parseFloat(text.replace(/^[<>] /, ''));
@@ -151,6 +153,7 @@ def verdict_box(standing: str, sentence: str, points: list[str]) -> str:
 def numbers_table(numbers: list[dict[str, Any]]) -> str:
     """The numbers of a budget with their sources; those that were assumed first."""
     rows = [[text(each["name"].replace("_", " ")), text(each.get("value", "")),
-             "<span class='no'>assumed</span>" if each.get("assumed") else "", text(each.get("source", ""))]
+             "<span class='no'>assumed</span>" if each.get("assumed") else "",
+             text(str(each.get("source", "")).removeprefix("assumed: "))]
             for each in sorted(numbers, key=lambda each: not each.get("assumed"))]
     return table(["number", "value", "", "source"], rows, "words")

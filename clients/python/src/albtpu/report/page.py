@@ -23,7 +23,8 @@ def write_page(folder: pathlib.Path) -> None:
 
 
 def _first_screen(report: Report) -> str:
-    return (project.head(report) + verdict_box(verdict.standing(report), verdict.headline(report), [])
+    return (project.head(report) + verdict_box(verdict.standing(report), verdict.headline(report),
+                                               [text(each) for each in verdict.doubts(report)])
             + tiles(verdict.beside(report))
             + "<ul>" + "".join(f"<li>{text(each)}</li>" for each in verdict.sentences(report)) + "</ul>")
 
@@ -99,7 +100,7 @@ def _specifications(report: Report) -> str:
     rows = []
     for specification in report["specifications"]:
         for entry in specification["classes"]:
-            rows.append([text(specification["title"]), text(entry["name"]), _unbroken(COVERAGES[entry["coverage"]]),
+            rows.append([text(specification["title"]), _short(entry["name"]), _unbroken(COVERAGES[entry["coverage"]]),
                          _unbroken(limit_text(entry["horizontal"])), _unbroken(limit_text(entry["vertical"])),
                          text(entry.get("also") or "–"), _judged(entry["fraction"], report)])
     sources = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
@@ -113,6 +114,10 @@ def _specifications(report: Report) -> str:
             + "<h3>By depth</h3><p class='soft'>% of the points with an uncertainty that meet each class.</p>"
             + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
                                                   for band in report["depth_bands"]], "matrix"))
+
+
+def _short(name: str) -> str:
+    return _unbroken(text(name)) if len(name) <= 12 else text(name)
 
 
 def _unbroken(words: str) -> str:
@@ -190,11 +195,11 @@ def _band_name(band: dict[str, Any]) -> str:
 def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]],
                   kind: str = "sortable matrix") -> str:
     """The percentage of points that meet each class. A row is a name, the points that meet each class, all points."""
-    head = [what] + [f"{text(each['title'])}<br>{text(entry['name'])}" for each in report["specifications"]
-                     for entry in each["classes"]]
+    head = [what] + [text(entry["name"]) for each in report["specifications"] for entry in each["classes"]]
+    groups = [("", 1), *((text(each["title"]), len(each["classes"])) for each in report["specifications"])]
     return table(head, [[text(name)] + [_judged(met / points, report, 0).replace(" %", "") if points else "–"
                                         for met in meeting]
-                        for name, meeting, points in rows], kind)
+                        for name, meeting, points in rows], kind, groups)
 
 
 def _lines(report: Report) -> str:
@@ -211,7 +216,8 @@ def _lines(report: Report) -> str:
         rows.append(row)
     head = ["line", "points", "uncertainty not computed", "TVU median [m]", "TVU 95th [m]", "THU median [m]",
             "THU 95th [m]", "largest contribution", f"meet {text(verdict.asked(report))}"]
-    return ("<h2>Lines</h2><p class='soft'>Click the head of a column to sort.</p>" + table(head, rows, "sortable")
+    return ("<h2>Lines</h2><p class='soft screen'>Click the head of a column to sort.</p>"
+            + table(head, rows, "sortable")
             + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
             + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
                                              for each in report["lines"]]))

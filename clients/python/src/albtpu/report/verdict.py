@@ -24,6 +24,12 @@ OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
 CONTRIBUTIONS = {"air": "sensor and trajectory", "sea": "sea surface", "water": "water column", "datum": "datum",
                  "extra": "added by the surveyor"}
 
+SOURCES = {"position": "position of the trajectory", "attitude": "attitude of the trajectory", "boresight": "boresight",
+           "lever_arm": "lever arm", "scan": "scan angle", "time": "clock", "range_offset": "range offset",
+           "bottom_range": "range to the bottom", "surface_range": "range to the surface",
+           "surface_height": "height of the water surface", "index": "refractive index", "sea": "sea surface",
+           "water": "water column", "datum": "vertical datum", "extra": "added by the surveyor"}
+
 REMEDIES = {"air": "sensor and trajectory (scan angles, ranges, calibration): better numbers for the sensor, or a"
                    " lower flight",
             "sea": "the sea surface: a calmer sea, or smaller incidence",
@@ -40,27 +46,53 @@ def asked(report: Report) -> str:
 def headline(report: Report) -> str:
     """What was tested, and what was found: THU and TVU of points against limits."""
     wanted = report["wanted"]
-    where = "are within" if wanted["passes"] else "are not within"
-    return (f"THU and TVU {where} the limits of {asked(report)}: they are at {100 * wanted['fraction']:.2f} % of"
-            f" {wanted['points']:,} points of the bottom; {wanted['pass_share']:g} % are required")
+    share, of = percent(wanted["fraction"], 2), f"{wanted['points']:,} points of the bottom"
+    found = (f"THU and TVU are within the limits of {asked(report)} at {share} of {of} (at least"
+             f" {wanted['pass_share']:g} % required)" if wanted["passes"] else
+             f"THU and TVU are not within the limits of {asked(report)}: they are at only {share} of {of} (at least"
+             f" {wanted['pass_share']:g} % required)")
+    but = "but" if wanted["passes"] else "and"
+    return f"{found}, {but} overlapping lines contradict the prediction" if contradicted(report) else found
+
+
+def contradicted(report: Report) -> bool:
+    """Do overlapping lines differ from the prediction?"""
+    return report["crosscheck"] is not None and report["crosscheck"]["agrees"] is False
 
 
 def standing(report: Report) -> str:
     """ "fail" of limits, "open" where the numbers are not tested by overlap, or contradicted, or assumed; or "pass"."""
-    wanted = report["wanted"]
-    if not wanted["passes"]:
+    if not report["wanted"]["passes"]:
         return "fail"
-    check, assumed = report["crosscheck"], report.get("assumed")
-    factor, nodes = wanted.get("with_factor"), wanted.get("nodes")
-    if check is None or not check["agrees"] or assumed is None or assumed["share"] > assumed["greatest_for_green"]:
-        return "open"
-    return "open" if any(each is not None and not each["passes"] for each in (factor, nodes)) else "pass"
+    return "open" if doubts(report) else "pass"
+
+
+def doubts(report: Report) -> list[str]:
+    """Why limits that are met are not yet proof, or what else is wrong where they are not."""
+    check, assumed, wanted = report["crosscheck"], report.get("assumed"), report["wanted"]
+    found = []
+    if check is None:
+        found.append("No overlapping lines test the prediction.")
+    elif not check["agrees"]:
+        found.append(f"{_sentence(check['conclusion'])}.")
+    if assumed is None:
+        found.append("How much of the variance rests on assumed numbers is not known.")
+    elif assumed["share"] > assumed["greatest_for_green"]:
+        found.append(f"More than a third of the variance, {percent(assumed['share'])}, rests on assumed numbers.")
+    for key, what in (("with_factor", "points, with the factor of the overlap applied,"), ("nodes", "the nodes")):
+        if wanted.get(key) is not None and not wanted[key]["passes"]:
+            found.append(f"Only {percent(wanted[key]['fraction'])} of {what} are within the limits.")
+    return found
+
+
+def _sentence(words: str) -> str:
+    return words[:1].upper() + words[1:]
 
 
 def sentences(report: Report) -> list[str]:
     """Is the prediction right, where and why does a survey fail, what helps, what is untested."""
-    found = [_truth(report), *_with_factor(report), *_nodes(report), *_gaps(report), *_depths(report), *_lines(report),
-             _help(report), NOT_TESTED]
+    found = [_help(report), _assumption(report), _truth(report), *_with_factor(report), *_nodes(report),
+             *_gaps(report), *_depths(report), *_lines(report), NOT_TESTED]
     return [each for each in found if each]
 
 
@@ -89,15 +121,31 @@ def _differences(report: Report) -> tuple[str, str, str]:
     worst = max(lines, key=lambda each: abs(each["z"]))
     return ("Differences between lines", f"{mean:.3f} m",
             f"in the mean of {len(lines)} pairs of lines. The worst pair, {worst['a']} and {worst['b']}, differs by"
-            f" {abs(worst['mean_difference']):.3f} m, {difference_text(worst)}.")
+            f" {abs(worst['mean_difference']):.3f} m, {difference_text(worst)}.{_standing_out(lines)}")
+
+
+def _standing_out(lines: list[dict[str, Any]]) -> str:
+    """The line that lies above, or below, each of at least two others, and by the most in the mean."""
+    above: dict[object, list[float]] = {}
+    for each in lines:
+        above.setdefault(each["a"], []).append(each["mean_difference"])
+        above.setdefault(each["b"], []).append(-each["mean_difference"])
+    of_line = {line: sum(values) / len(values) for line, values in above.items()
+               if len(values) > 1 and (min(values) > 0 or max(values) < 0)}
+    if not of_line:
+        return ""
+    line = max(of_line, key=lambda each: abs(of_line[each]))
+    side = "above" if of_line[line] > 0 else "below"
+    return (f" Line {line} lies {side} all {len(above[line])} lines that it overlaps, by {abs(of_line[line]):.3f} m in"
+            " the mean.")
 
 
 def _density(report: Report) -> tuple[str, str, str]:
     bottom = report["bottom"]
     of_cell = bottom["points_of_covered_cells"]
     return ("Density of the bottom", f"{bottom['points_per_square_metre']:.2f} per m²",
-            f"a spacing of {bottom['spacing']:.2f} m; {of_cell['median']} points in a cell of {bottom['cell']:g} m that"
-            f" has any (median), at least {of_cell['p5']} in 95 % of them.")
+            f"a spacing of {bottom['spacing']:.2f} m. Cells of {bottom['cell']:g} m that have any have"
+            f" {of_cell['median']} in the median, at least {of_cell['p5']} in 95 % of them.")
 
 
 def _voids(report: Report) -> tuple[str, str, str]:
@@ -108,7 +156,7 @@ def _voids(report: Report) -> tuple[str, str, str]:
                 " bottom.")
     return ("Voids", percent(bottom["empty_share"]),
             f"of the surveyed cells of {bottom['cell']:g} m have no bottom. The largest void has"
-            f" {largest['area']:.0f} m², at {largest['x']:.1f}, {largest['y']:.1f};"
+            f" {largest['area']:,.0f} m², at {largest['x']:.1f}, {largest['y']:.1f};"
             f" {bottom['large_voids']:,} have {bottom['large_void_area']:.1f} m² or more (4 spacings squared).")
 
 
@@ -160,6 +208,8 @@ def estimate_text(estimate: dict[str, Any]) -> str:
     """ "1.02 (95 %: 0.96 to 1.08)" """
     if estimate["value"] is None:
         return "not known"
+    if estimate["value"] < 0.005:  # The differences are no larger than those of the other parts.
+        return "0: no such error shows" + (f" (95 %: at most {estimate['high']:.2f})" if estimate["high"] else "")
     if estimate["low"] is None:
         return f"{estimate['value']:.2f} (a single overlap gives no interval)"
     return f"{estimate['value']:.2f} (95 %: {estimate['low']:.2f} to {estimate['high']:.2f})"
@@ -207,12 +257,12 @@ def _depths(report: Report) -> list[str]:
     if not bad:
         failing = report["wanted"]["failing"]["points"]
         if failing == 0 and report["wanted"]["with_number"] > 0:
-            return ["Every point with an uncertainty meets it, at all depths."]
-        return [] if report["wanted"]["with_number"] == 0 else ["Of the points with an uncertainty, enough meet it at"
-                                                                " all depths."]
+            return [f"Every point with an uncertainty meets {asked(report)}, at all depths."]
+        return [] if report["wanted"]["with_number"] == 0 else ["Of the points with an uncertainty, enough meet"
+                                                                f" {asked(report)} at all depths."]
     text = ", ".join(f"{band['from']}{'–' + str(band['to']) if band['to'] is not None else ' and more'} m"
                      f" ({100 * band['meeting'][index] / band['with_number']:.0f} %)" for band in bad)
-    return [f"Too few points with an uncertainty meet it at depths of {text}."]
+    return [f"Too few points with an uncertainty meet {asked(report)} at depths of {text}."]
 
 
 def _lines(report: Report) -> list[str]:
@@ -248,7 +298,24 @@ def _help(report: Report) -> str:
         return (f"What would help most: {REMEDIES[share]}. It is the largest contribution to the vertical variance at"
                 f" {100 * count / failing['points']:.0f} % of the points that do not meet it.")
     share = max(shares, key=lambda each: shares[each])
-    return f"The largest contribution to the vertical variance, {100 * shares[share]:.0f} %, is {REMEDIES[share]}."
+    return (f"The largest contribution to the vertical variance, {100 * shares[share]:.0f} %, is that of"
+            f" {REMEDIES[share]}.")
+
+
+def _assumption(report: Report) -> str:
+    """What would help most where too much was assumed."""
+    assumed = report.get("assumed")
+    if assumed is None or assumed["share"] <= assumed["greatest_for_green"]:
+        return ""
+    axis = "vertical" if assumed["vertical"] >= assumed["horizontal"] else "horizontal"
+    names = {each["name"] for each in report["numbers"] if each.get("assumed")}
+    of_source = {name: of[axis] for name, of in assumed["sources"].items()
+                 if name in names or (name == "water" and any(each.startswith("water_") for each in names))}
+    if not of_source:
+        return ""
+    name = max(of_source, key=lambda each: of_source[each])
+    return (f"What would help most against assumptions: state the uncertainty of the {SOURCES.get(name, name)}; the"
+            f" assumed one makes {percent(of_source[name])} of the {axis} variance.")
 
 
 def nothing_to_compare(report: Report) -> str:
@@ -267,8 +334,8 @@ def _truth(report: Report) -> str:
     check = report["crosscheck"]
     if check is None:
         return nothing_to_compare(report)
-    text = check["conclusion"][:1].upper() + check["conclusion"][1:]
-    text += f". σ of pulses would have to be multiplied by {estimate_text(check['factor_pulse'])}"
+    text = "" if contradicted(report) else f"{_sentence(check['conclusion'])}. "  # A contradiction stands above.
+    text += f"σ of pulses would have to be multiplied by {estimate_text(check['factor_pulse'])}"
     if check["factor_line"] is not None:
         text += f", σ of lines by {estimate_text(check['factor_line'])}"
     if check["lines"]:
