@@ -49,7 +49,7 @@ struct ReportCommandOptions {
   std::string annotated, output, s44_order, specification, wanted_class, survey, surface;
   double cell = 1, patch = quality::kDefaultPatch, pass_share = quality::kDefaultPassShare;
   quality::CheckPointErrors check_points;
-  bool no_page = false, resume = false;
+  bool no_page = false, resume = false, json = false;
   Existing existing = Existing::kKeep;
 };
 
@@ -116,15 +116,17 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(flags.annotated));
   if (flags.resume && quality::HasReport(flags.output, files, options, !flags.no_page)) {
     annotate::Note(absl::StrCat(flags.output, ": has the report of these files already"));
-    return absl::OkStatus();
+    if (flags.json) std::cout << std::ifstream(std::filesystem::path(flags.output) / "report.json").rdbuf();
+    return FlushStandardOutput();
   }
   const Existing existing = flags.resume ? Existing::kReplace : flags.existing;
   const quality::NewFolder folder(flags.output);
   RETURN_IF_ERROR(PrepareFolder(flags.output, existing));
   ASSIGN_OR_RETURN(quality::SurveyReport report, quality::MakeReport(files, options));
-  const std::string verdict = quality::ReportText(*report.json);
+  const std::string said = flags.json ? quality::JsonText(*report.json)
+                                      : flags.output + "\n  " + PrintableLines(quality::ReportText(*report.json));
   RETURN_IF_ERROR(quality::WriteReport(std::move(report), !flags.no_page, flags.output));
-  std::cout << flags.output << "\n  " << PrintableLines(verdict);
+  std::cout << said;
   return FlushStandardOutput();
 }
 
@@ -197,6 +199,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
                    "Folder that albtpu-query surface wrote of the same files: the verdict of its nodes, too")
       ->check(NotEmpty("folder"));
   command->add_flag("--no-page", options->no_page, "Only report.json and grid.nc, which need no Python");
+  command->add_flag("--json", options->json, "Print what report.json has");
   command->add_flag("--resume", options->resume, "Do nothing if the folder has the report of these files already");
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier report");
@@ -204,7 +207,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
         {"--s44-order", "--spec", "--class", "--pass", "--check-points-horizontal", "--check-points-vertical"});
   Group(*command, "How points are gathered", {"--cell", "--patch"});
   Group(*command, "What is reported beside", {"--survey", "--surface"});
-  Group(*command, "Output", {"--output", "--no-page", "--resume", "--overwrite"});
+  Group(*command, "Output", {"--output", "--no-page", "--json", "--resume", "--overwrite"});
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"
           "Exit code: 0 if the report was made, whatever it says.",

@@ -44,6 +44,7 @@ struct SurfaceCommandOptions {
   std::vector<std::string> formats = {std::string(kNetcdf)};
   std::optional<double> cell;
   Existing existing = Existing::kKeep;
+  bool json = false;
 
   bool merges() const { return inputs.front() == kMerge; }
 };
@@ -56,6 +57,8 @@ absl::Status CheckUsage(const SurfaceCommandOptions& options) {
   if (options.output.empty() == options.partial.empty())
     return wrong(options.output.empty() ? "--output is missing; give a folder for the surface, or --partial for a part"
                                         : "--partial has no effect with --output; leave one out");
+  if (options.json && !options.partial.empty())
+    return wrong("--json has no effect with --partial, which makes no surface; leave it out");
   if (!options.merges()) return absl::OkStatus();
   if (options.inputs.size() == 1) return wrong("parts are missing; give files that --partial wrote after merge");
   if (!options.partial.empty()) return wrong("--partial has no effect with merge; give --output");
@@ -143,8 +146,9 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
   std::error_code not_there;
   fs::remove(points, not_there);
   RETURN_IF_ERROR(quality::WriteRasters(surface, formats, options.organisation));
+  const std::string text = surface.json->dump(2) + "\n";
   std::ofstream json(hidden.path() / "surface.json");
-  json << surface.json->dump(2) << "\n";
+  json << text;
   json.close();
   if (!json) return NotWritable(options.output);
   std::vector<std::string> names = {"surface.json"};
@@ -153,7 +157,7 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
     if (std::ranges::count(formats, other) == 0)
       fs::remove(fs::path(options.output) / quality::FileOf(other), not_there);
   RETURN_IF_ERROR(hidden.Publish(names));
-  std::cout << options.output << "\n" << PrintableLines(quality::SurfaceText(*surface.json));
+  std::cout << (options.json ? text : options.output + "\n" + PrintableLines(quality::SurfaceText(*surface.json)));
   return FlushStandardOutput();
 }
 
@@ -185,8 +189,9 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
       ->check(NumberIn(0.1, 20, "m"));
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier surface or part");
+  command->add_flag("--json", options->json, "Print what surface.json has");
   Group(*command, "How points are gathered", {"--cell"});
-  Group(*command, "Output", {"--output", "--format", "--organisation", "--partial", "--overwrite"});
+  Group(*command, "Output", {"--output", "--format", "--organisation", "--partial", "--json", "--overwrite"});
   AddSeaFlags(*command, options->flags, kStatedOfWinds);
   EndHelp(*command,
           "Neighbouring pulses share waves; how much follows from the sea. Where the files were annotated with waves,\n"

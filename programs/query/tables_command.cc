@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -37,16 +38,42 @@ std::string Text(const client::TableSummary& table) {
   return text;
 }
 
-absl::Status RunTables(const SourceOptions& options) {
+nlohmann::ordered_json JsonOf(const client::TableSummary& table) {
+  nlohmann::ordered_json json = {{"name", table.name},
+                                 {"default", table.is_default},
+                                 {"title", table.title},
+                                 {"id", table.id},
+                                 {"version", table.version},
+                                 {"digest", table.digest},
+                                 {"axes", nlohmann::json::array()},
+                                 {"attributes", table.attributes}};
+  for (const AxisId id : kAxes) {
+    const client::AxisRange& range = table.axes[Index(id)];
+    json["axes"].push_back({{"name", Describe(id).name},
+                            {"unit", Describe(id).units},
+                            {"first", range.first},
+                            {"last", range.last},
+                            {"nodes", range.nodes}});
+  }
+  return json;
+}
+
+absl::Status RunTables(const SourceOptions& options, bool as_json) {
   ASSIGN_OR_RETURN(const std::vector<client::TableSummary> tables, ListTables(options));
+  if (as_json) {
+    nlohmann::ordered_json json = {{"tables", nlohmann::json::array()}};
+    for (const client::TableSummary& table : tables) json["tables"].push_back(JsonOf(table));
+    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    return FlushStandardOutput();
+  }
   for (std::size_t i = 0; i < tables.size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text(tables[i]);
   if (tables.empty()) annotate::Note("there are no tables; make one with albtpu-generate, or name a file with --table");
   return FlushStandardOutput();
 }
 
-absl::Status RunHealth(const SourceOptions& options) {
+absl::Status RunHealth(const SourceOptions& options, bool as_json) {
   RETURN_IF_ERROR(client::CheckHealth(options.server, options.credentials));
-  std::cout << "SERVING\n";
+  std::cout << (as_json ? "{\n  \"status\": \"SERVING\"\n}\n" : "SERVING\n");
   return FlushStandardOutput();
 }
 
@@ -57,20 +84,24 @@ void AddTablesCommand(CLI::App& program, Run& run) {
   CLI::App* command =
       program.add_subcommand("tables", "List the tables with their names, ranges, digests and provenance");
   AddSourceOptions(*command, *options);
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "Print one JSON object with an array `tables`")->group(group::kOutput);
   EndHelp(*command,
           "Without --server and --table, lists the installed tables, or those in the folder that the\n"
           "environment variable ALBTPU_TABLES names.",
-          "--table-name survey", "--server 127.0.0.1:50051");
-  command->callback([options, &run] { run = [options] { return RunTables(*options); }; });
+          "--table-name survey", "--server 127.0.0.1:50051 --json");
+  command->callback([options, json, &run] { run = [options, json] { return RunTables(*options, *json); }; });
 }
 
 void AddHealthCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SourceOptions>();
   CLI::App* command = program.add_subcommand("health", "Check whether a service is serving");
   AddServerOptions(*command, *options)->required();
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "Print one JSON object")->group(group::kOutput);
   EndHelp(*command, "Exit code: 0 if the service is serving, 2 for bad usage, 1 otherwise.", "--server 127.0.0.1:50051",
           "--server lidar.example:50051 --tls-ca ca.pem --token-file token");
-  command->callback([options, &run] { run = [options] { return RunHealth(*options); }; });
+  command->callback([options, json, &run] { run = [options, json] { return RunHealth(*options, *json); }; });
 }
 
 }  // namespace albtpu::programs

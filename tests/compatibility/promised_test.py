@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[1] / "programs/query"))
-from runs import ANNOTATE, JUDGE, PRINT, VERSIONS, copy_input, make  # noqa: E402
+from runs import ANNOTATE, JUDGE, PRINT, VERSIONS, WATER, copy_input, make, write_check_points  # noqa: E402
 
 import albtpu  # noqa: E402
 from commands import run  # noqa: E402
@@ -26,13 +26,6 @@ QUERY = PROGRAMS["albtpu-query"]
 PROMISED = pathlib.Path(__file__).resolve().with_name("promised.txt")
 TYPES = {1: "uint8", 9: "float32"}
 LEVELS = 2  # Of members of JSON objects; the tests of recorded files compare all.
-WATER = """kd = 0.15
-kd_kind = "diffuse532"
-detector = "peak"
-field_of_view = 6
-pulse_length = 1.5
-bias = "none"
-"""
 
 
 def flags():
@@ -68,15 +61,6 @@ def members(value, where, levels=LEVELS):
     else:
         for key, each in value.items():
             yield from members(each, f"{where}.{key}", levels - 1)
-
-
-def write_check_points(folder):
-    """Some annotated points of the bottom, each with an elevation 1 cm off."""
-    las = LasFile(folder / "annotated/flight_1.las")
-    xyz = [las.field(4 * axis, "<i4") * las.scale[axis] + las.offset[axis] for axis in range(3)]
-    bottom = [i for i, each in enumerate(las.classes) if each == 40]
-    rows = [f"{xyz[0][i]:.3f},{xyz[1][i]:.3f},{xyz[2][i] + 0.01:.3f},NVA" for i in bottom[::len(bottom) // 20]]
-    (folder / "points.csv").write_text("\n".join(["x,y,elevation,class", *rows]) + "\n")
 
 
 def names_in_files():

@@ -9,8 +9,10 @@ import pathlib
 import shutil
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "e2e"))
+for folder in ("e2e", "programs/query"):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / folder))
 from commands import run  # noqa: E402
+from las_file import LasFile  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 VERSIONS = sorted(path.parent for path in HERE.glob("*/input"))
@@ -43,6 +45,14 @@ PRINT = (
 JUDGE = (
     ("", "report", "annotated", "--output", "report", "--no-page", "--s44-order", "1b"),
     ("crosscheck.json", "crosscheck", "annotated", "--json"))
+# What is in place of `column = "none"` where the water column counts.
+WATER = """kd = 0.15
+kd_kind = "diffuse532"
+detector = "peak"
+field_of_view = 6
+pulse_length = 1.5
+bias = "none"
+"""
 # Through a server, with the files and texts of the same runs without.
 SERVED = (ANNOTATE[1], ANNOTATE[2], ANNOTATE[3], *PRINT[:3])
 
@@ -55,6 +65,15 @@ def copy_input(version, folder):
     for path in folder.rglob("*"):
         os.utime(path, (1e9, 1e9))
     (folder / "annotated").mkdir()
+
+
+def write_check_points(folder):
+    """Some annotated points of the bottom, each with an elevation 1 cm off."""
+    las = LasFile(folder / "annotated/flight_1.las")
+    xyz = [las.field(4 * axis, "<i4") * las.scale[axis] + las.offset[axis] for axis in range(3)]
+    bottom = [i for i, each in enumerate(las.classes) if each == 40]
+    rows = [f"{xyz[0][i]:.3f},{xyz[1][i]:.3f},{xyz[2][i] + 0.01:.3f},NVA" for i in bottom[::len(bottom) // 20]]
+    (folder / "points.csv").write_text("\n".join(["x,y,elevation,class", *rows]) + "\n")
 
 
 def make(query, folder, runs, *flags):
