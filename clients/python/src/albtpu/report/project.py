@@ -22,8 +22,8 @@ def dates(report: Report) -> str:
         return str(project["dates"])
     if not surveyed:
         return "not known: the times of the points have no dates"
-    first, last = surveyed["first"], surveyed["last"]
-    return f"{_minutes(first)} to {_minutes(last)}"
+    first, last = _minutes(surveyed["first"]), _minutes(surveyed["last"])
+    return first if first == last else f"{first} to {last}"
 
 
 def head(report: Report) -> str:

@@ -332,8 +332,8 @@ NOT_TESTED = ("Not tested, because these files cannot show it: coverage and feat
 
 def _truth(report: Report) -> str:
     check = report["crosscheck"]
-    if check is None:
-        return nothing_to_compare(report)
+    if check is None:  # It stands above, beside the verdict.
+        return ""
     text = "" if contradicted(report) else f"{_sentence(check['conclusion'])}. "  # A contradiction stands above.
     text += f"σ of pulses would have to be multiplied by {estimate_text(check['factor_pulse'])}"
     if check["factor_line"] is not None:
