@@ -1,5 +1,7 @@
 #include "quality/report/report_folder.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -169,6 +171,7 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
     const SurveyGrid grid = std::move(report.grid);
     RETURN_IF_ERROR(WriteGrid(grid, report.facts, hidden.path() / kGrid));
   }
+  malloc_trim(0);  // Another process draws the page while this one waits.
   return Finish(hidden, *report.json, {kGrid, kJson}, with_page, kPage, folder);
 }
 
