@@ -162,12 +162,13 @@ WavesAtDistance FootprintWaves::AtDistance(double distance, double later) const 
   const HankelLattice& lattice = HankelLattice::Shared();
   const int size = lattice.size();
   constexpr int kCount = kLast + 1;
+  const bool whole = distance == 0 && later == 0;
   // J_n(z) cos(omega later), or sine where n is odd, integrated over each step of the lattice: by n and wavenumber.
   Eigen::ArrayXXd kernels = Eigen::ArrayXXd::Zero(kCount, size);
-  if (distance == 0 && later == 0) kernels.row(0).setOnes();
+  if (whole) kernels.row(0).setOnes();
   const double time = std::abs(later);
   Orders orders;
-  for (int i = 0; i + 1 < size && (distance != 0 || later != 0); ++i) {
+  for (int i = 0; i + 1 < size && !whole; ++i) {
     const double k = lattice.wavenumbers()[i];
     // Twice the frequency changes 3 times as fast as k at most.
     const double phase = lattice.step() * (k * distance + 1.5 * AngularFrequency(k, motion_.water_depth) * time);
@@ -186,7 +187,7 @@ WavesAtDistance FootprintWaves::AtDistance(double distance, double later) const 
     }
   }
   WavesAtDistance waves;
-  for (int n = 0; n < kCount; ++n) {
+  for (int n = 0; n < (whole ? 1 : kCount); ++n) {
     const double sign = n % 4 < 2 ? 1 : -1, factor = 2 * std::numbers::pi * (n == 0 ? 1 : 2) * sign;
     // A negative `later` turns the sine, which odd orders have.
     const Eigen::ArrayXd kernel = (n % 2 == 1 && later < 0 ? -factor : factor) * kernels.row(n).transpose();

@@ -45,7 +45,8 @@ class WavesAtDistance {
   friend class FootprintWaves;
   // By n, the factors of exp(i n direction), whose real part counts: real and imaginary of F, of F cos(2 psi) and of
   // F sin(2 psi), and of the heights.
-  Eigen::Array<double, WaveHarmonics::kLast + 1, 8> factors_;
+  Eigen::Array<double, WaveHarmonics::kLast + 1, 8> factors_ =
+      Eigen::Array<double, WaveHarmonics::kLast + 1, 8>::Zero();
 };
 
 // The waves of one sea under the footprint of one beam. Immutable.

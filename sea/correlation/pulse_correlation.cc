@@ -64,7 +64,8 @@ SharedWaves BeamCorrelation::Between(const Eigen::Vector2d& apart, double later)
   const LagDensity density(beam_);
   const WaveCovariance footprint = waves_.Between(apart, later);
   if (later == 0) return SharedBy(footprint, sea_.at_once().MeanPairs(density, apart));
-  return SharedBy(footprint, SlopeLags(sea_.points(), sea_.waves().motion(), later).MeanPairs(density, apart));
+  const SlopeLags lags(sea_.points(), sea_.waves().motion(), later, apart.norm() + density.reach());
+  return SharedBy(footprint, lags.MeanPairs(density, apart));
 }
 
 SharedWaves BeamCorrelation::InCell(const SurfaceCell& cell) const {

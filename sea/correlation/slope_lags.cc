@@ -13,7 +13,6 @@ namespace albtpu {
 namespace {
 
 constexpr int kHarmonicOrders = WaveHarmonics::kLast + 1;
-constexpr double kLongestTabulated = 90;  // m
 // Of half a turn: for the harmonics of products, and for the windows of cells.
 constexpr int kHalfTurnDirections = 20;
 
@@ -30,15 +29,34 @@ Eigen::ArrayXXd MeanTurns(const WaveMotion& motion, double time) {
   return turns;
 }
 
+// The product of the kernels of J_n, by lag and wavenumber, and `columns`, by wavenumber. An element depends on the sum
+// of its indices, and those of few sums count: of these alone, for some lags at a time.
+Eigen::MatrixXd ProductOfKernel(int n, int lags, const Eigen::MatrixXf& columns) {
+  constexpr int kBlock = 16;
+  const HankelLattice& lattice = HankelLattice::Shared();
+  const HankelLattice::Kernel kernel = lattice.Bessel(n, 0, lags, 1);
+  const auto [first, last] = lattice.Counting(n);
+  Eigen::MatrixXf product = Eigen::MatrixXf::Zero(lags, columns.cols());
+  for (int row = 0; row < lags; row += kBlock) {
+    const int rows = std::min(kBlock, lags - row);
+    const int begin = std::clamp(first - (row + rows - 1), 0, lattice.size());
+    const int count = std::clamp(last - row, begin, lattice.size()) - begin;
+    product.middleRows(row, rows).noalias() = kernel.block(row, begin, rows, count) * columns.middleRows(begin, count);
+  }
+  return product.cast<double>();
+}
+
 Eigen::Matrix3d Products(const Eigen::Array3d& r) { return r.matrix() * r.matrix().transpose(); }
 
 }  // namespace
 
 // As FootprintWaves::Between(), with the kernels of the lattice.
-SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, double later)
+SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, double later, double farthest)
     : symmetric_(later == 0 || motion.travel == WaveTravel::kBothWays) {
   const HankelLattice& lattice = HankelLattice::Shared();
-  const int lags = static_cast<int>(lattice.IndexOfLag(kLongestTabulated) / kStride) + 1;
+  assert(farthest <= kFarthest);
+  // Two more for interpolation.
+  const int lags = std::max(4, static_cast<int>(lattice.IndexOfLag(farthest)) + 3);
   const Eigen::ArrayXXd turns = MeanTurns(motion, std::abs(later));
   const WaveHarmonics& waves = points.harmonics();
   for (Eigen::MatrixXd& sum : sum_) sum = Eigen::MatrixXd::Zero(lags, 2 * kHarmonicOrders);
@@ -58,7 +76,7 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
       columns.col(2 * f) = (factor * functions[f].real()).cast<float>();
       columns.col(2 * f + 1) = (factor * functions[f].imag()).cast<float>();
     }
-    const Eigen::MatrixXd sums = (lattice.Bessel(n, 0, lags, kStride) * columns).eval().cast<double>();
+    const Eigen::MatrixXd sums = ProductOfKernel(n, lags, columns);
     for (int f = 0; f < 3; ++f) sum_[f].middleCols(2 * n, 2) = sums.middleCols(2 * f, 2);
   }
   const int count = symmetric_ ? kHalfTurnDirections : 2 * kHalfTurnDirections;
@@ -77,8 +95,7 @@ SlopeLags::SlopeLags(const FootprintWaves& points, const WaveMotion& motion, dou
 
 Eigen::Array3d SlopeLags::At(const Eigen::Vector2d& lag) const {
   const HankelLattice& lattice = HankelLattice::Shared();
-  const double position =
-      std::max(0.0, lattice.IndexOfLag(std::max(lag.norm(), HankelLattice::kShortestLag)) / kStride);
+  const double position = std::max(0.0, lattice.IndexOfLag(std::max(lag.norm(), HankelLattice::kShortestLag)));
   const Eigen::Index last = sum_[0].rows() - 1;
   assert(position <= static_cast<double>(last));
   const Eigen::Index first = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(position) - 1, 0, last - 3);
@@ -106,10 +123,10 @@ Eigen::Matrix3d SlopeLags::PairsOnRings(const LagDensity& density, const Eigen::
   const double even = 0.01 * density.reach();
   double at_centre = -1;
   for (Eigen::Index j = 0; j < on_rings_[0].rows(); ++j) {
-    const double lag = lattice.Lag(static_cast<int>(j) * kStride);
+    const double lag = lattice.Lag(static_cast<int>(j));
     if (lag > reach) break;
     // The first ring stands for the disc within it, too.
-    const double steps = j == 0 ? 0.5 * kStride * lattice.step() + 0.5 : kStride * lattice.step();
+    const double steps = j == 0 ? 0.5 * lattice.step() + 0.5 : lattice.step();
     const double measure = 2 * std::numbers::pi * lag * lag * steps / static_cast<double>(count);
     for (Eigen::Index d = 0; d < count; ++d) {
       const Eigen::Vector2d at = lag * directions_.col(d);

@@ -11,23 +11,23 @@ namespace albtpu {
 
 // Of one sea, at points one time apart. Immutable.
 //
-// It holds the harmonics over the direction of the lag on every kStride-th lag of HankelLattice::Shared(). Waves whose
-// phase turns within a step of the lattice, by lag or by time, average out. Single precision is enough.
+// It holds the harmonics over the direction of the lag on the lags of HankelLattice::Shared(). Waves whose phase turns
+// within a step of the lattice, by lag or by time, average out. Single precision is enough.
 class SlopeLags {
  public:
-  // `points` are the waves at points; the second point is `later` [s].
-  SlopeLags(const FootprintWaves& points, const WaveMotion& motion, double later);
+  static constexpr double kFarthest = 90;  // m
 
-  // R_xx, R_xy and R_yy at the vector `lag`, 1 mm to 90 m long.
+  // `points` are the waves at points; the second point is `later` [s]. Lags reach to `farthest` [m].
+  SlopeLags(const FootprintWaves& points, const WaveMotion& motion, double later, double farthest = kFarthest);
+
+  // R_xx, R_xy and R_yy at the vector `lag`, 1 mm to `farthest` long.
   Eigen::Array3d At(const Eigen::Vector2d& lag) const;
 
   // The means over `density` of products of R_xx, R_xy and R_yy, as MeanOfForms() takes them (slope_covariance.h),
-  // where the second of the two footprints lies `apart`. The density reaches 90 m at most.
+  // where the second of the two footprints lies `apart`. It reaches `farthest` at most.
   Eigen::Matrix3d MeanPairs(const LagDensity& density, const Eigen::Vector2d& apart) const;
 
  private:
-  static constexpr int kStride = 2;
-
   // About the lag 0, where R changes most: over rings of lags.
   Eigen::Matrix3d PairsOnRings(const LagDensity& density, const Eigen::Vector2d& apart) const;
 

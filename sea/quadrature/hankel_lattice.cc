@@ -1,8 +1,10 @@
 #include "sea/quadrature/hankel_lattice.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "sea/spectra/harmonic_spectrum.h"
 
@@ -30,6 +32,7 @@ constexpr double kFarthest = 400;  // beyond it, twenty radians a step, the mean
 // Means below this are taken as 0: it is far below the last digit of a sum in single precision, and products of it with
 // spectra do not become denormal numbers, which are slow.
 constexpr double kLeast = 1e-14;
+constexpr float kCounts = 1e-7F;  // means below this do not count
 
 double OneMinusJ0(double x) {
   const double q = x * x / 4;
@@ -86,6 +89,12 @@ HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
       if (x > kFarthest) return 0.0;
       return ::jn(order, x);
     }));
+    const auto counts = [](float mean) { return std::abs(mean) > kCounts; };
+    const Eigen::ArrayXf& means = bessel_.back();
+    const auto first = std::find_if(means.begin(), means.end(), counts) - means.begin();
+    const auto after =
+        std::find_if(std::make_reverse_iterator(means.end()), std::make_reverse_iterator(means.begin()), counts);
+    counting_.push_back({static_cast<int>(first), static_cast<int>(after.base() - means.begin())});
   }
   one_minus_bessel_ = Means(start, step_, count, [](double x) { return x > kFarthest ? 1.0 : OneMinusJ0(x); });
 }

@@ -46,6 +46,12 @@ class HankelLattice {
   using Kernel =
       Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0, Eigen::OuterStride<>>;
   Kernel Bessel(int order, int first, int count, int stride) const;
+  // The sums of the indices of wavenumber and lag from the first to before the last where these elements count: the
+  // others, together, are below 1e-7 of the sum over wavenumbers of the magnitude of what they multiply.
+  struct Range {
+    int first, last;
+  };
+  Range Counting(int order) const { return counting_[static_cast<std::size_t>(order)]; }
   // Of 1 - J_0, without cancellation at short lags.
   Kernel OneMinusBessel(int first, int count, int stride) const;
 
@@ -56,6 +62,7 @@ class HankelLattice {
   Eigen::ArrayXd wavenumbers_;
   double step_;
   std::vector<Eigen::ArrayXf> bessel_;  // by the sum of the indices of wavenumber and lag
+  std::vector<Range> counting_;
   Eigen::ArrayXf one_minus_bessel_;
 };
 
