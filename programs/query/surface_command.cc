@@ -43,6 +43,7 @@ struct SurfaceCommandOptions {
   std::string output, partial, organisation;
   std::vector<std::string> formats = {std::string(kNetcdf)};
   std::optional<double> cell;
+  bool land = false;
   Existing existing = Existing::kKeep;
   bool json = false;
 
@@ -63,6 +64,7 @@ absl::Status CheckUsage(const SurfaceCommandOptions& options) {
   if (options.inputs.size() == 1) return wrong("parts are missing; give files that --partial wrote after merge");
   if (!options.partial.empty()) return wrong("--partial has no effect with merge; give --output");
   if (options.cell.has_value()) return wrong("--cell has no effect with merge, for parts have theirs; leave it out");
+  if (options.land) return wrong("--land has no effect with merge, for parts have it or not; leave it out");
   if (options.flags.survey.has_value())
     return wrong("--survey has no effect with merge, for parts have their seas; leave it out");
   return absl::OkStatus();
@@ -81,7 +83,8 @@ absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options
                                             const std::vector<quality::AnnotatedLasFile>& files, const fs::path& path) {
   ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
   return quality::GatherPoints(
-      files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr}, path);
+      files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr, .land = options.land},
+      path);
 }
 
 std::vector<fs::path> PathsOf(const SurfaceCommandOptions& options) {
@@ -116,8 +119,8 @@ absl::Status RunPartial(const SurfaceCommandOptions& options) {
   ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, files, hidden.path() / path.filename()));
   RETURN_IF_ERROR(quality::SealPart(part));
   RETURN_IF_ERROR(hidden.Publish({path.filename().string()}));
-  std::cout << path.string() << "\n  " << part.facts.with_number << " points of " << part.facts.files.size()
-            << " files\n";
+  std::cout << path.string() << "\n  " << part.facts.with_number + part.facts.dry.value_or(0) << " points of "
+            << part.facts.files.size() << " files\n";
   return FlushStandardOutput();
 }
 
@@ -187,10 +190,13 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
       ->check(NotEmpty("file"));
   command->add_option("--cell", options->cell, "Side of the cells, each of which has a node [m] (default: 1)")
       ->check(NumberIn(0.1, 20, "m"));
+  command->add_flag("--land", options->land,
+                    "Also nodes of land: of the points of the ground (class 2; 8 in formats 0 to 5), and of the bottom "
+                    "where it lay dry, by their own totals");
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier surface or part");
   command->add_flag("--json", options->json, "Print what surface.json has");
-  Group(*command, "How points are gathered", {"--cell"});
+  Group(*command, "How points are gathered", {"--cell", "--land"});
   Group(*command, "Output", {"--output", "--format", "--organisation", "--partial", "--json", "--overwrite"});
   AddSeaFlags(*command, options->flags, kStatedOfWinds);
   EndHelp(*command,

@@ -71,7 +71,8 @@ struct AnnotatedPoint {
 // A point whose beam met no water before it, with a total of the air side.
 struct DryPoint {
   int point_class = 0;
-  bool of_water_surface = false;  // By its class: 9, or one that surface returns usually have.
+  // By its class: 9, or one that surface returns usually have; the ground; one of the classes of the bottom.
+  bool of_water_surface = false, of_ground = false, of_bottom = false;
   float variance_horizontal = 0;  // m^2 at 1 sigma, of both axes together.
   float variance_vertical = 0;    // Of the total: with --terrain-slope that of the height at a fixed place.
   AnnotatedPoint point = {};      // All of it; without a depth.

@@ -163,6 +163,8 @@ class AnnotatedLasFile::PointMaker {
     dry.has_number = IsKnown(dry.variance_z);
     made.dry.push_back({.point_class = point_class,
                         .of_water_surface = water_surface_.contains(point_class),
+                        .of_ground = formats::IsGround(point_class, file_.reader_.header().point_format),
+                        .of_bottom = wanted_[point_class],
                         .variance_horizontal = dry.variance_x + dry.variance_y,
                         .variance_vertical = sigma * sigma,
                         .point = dry});

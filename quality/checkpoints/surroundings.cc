@@ -75,7 +75,6 @@ absl::Status GatherAround(const std::vector<AnnotatedLasFile>& files, const Chec
         (gathered.around[i].*kind).push_back(SurfacePointOf(point, file.coverage(), source));
       });
     };
-    const int format = file.reader().header().point_format;
     ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(
                                                       progress,
                                                       [&](std::span<const AnnotatedPoint> points) {
@@ -83,8 +82,7 @@ absl::Status GatherAround(const std::vector<AnnotatedLasFile>& files, const Chec
                                                           add(point, &PointsAround::wet);
                                                       },
                                                       [&](const DryPoint& dry) {
-                                                        if (formats::IsGround(dry.point_class, format))
-                                                          add(dry.point, &PointsAround::dry);
+                                                        if (dry.of_ground) add(dry.point, &PointsAround::dry);
                                                       }));
     gathered.left_out.Add(of_file);
   }

@@ -94,7 +94,10 @@ SurfaceNode NodeOf(const CellPoints& cell, std::span<const char> kept, const Pla
     middle += cell.places[i];
     mean += point.z;
     node.bias += point.bias;
-    node.depth += point.depth;
+    if (point.dry())
+      ++node.dry;
+    else
+      node.depth += point.depth;
     node.thu += point.thu;
     if (!(point.z <= node.shoalest)) {
       node.shoalest = point.z;
@@ -105,7 +108,7 @@ SurfaceNode NodeOf(const CellPoints& cell, std::span<const char> kept, const Pla
   const auto n = static_cast<double>(points.size());
   node.points = static_cast<std::uint32_t>(points.size());
   middle /= n, mean /= n, node.bias /= n;
-  node.depth /= static_cast<float>(n), node.thu /= static_cast<float>(n);
+  node.depth /= static_cast<float>(node.points - node.dry), node.thu /= static_cast<float>(n);  // NaN over land.
   node.slope_x = static_cast<float>(plane.slope.x()), node.slope_y = static_cast<float>(plane.slope.y());
   node.elevation = mean - plane.slope.dot(middle);
   node.variance = VarianceOf(points, plane.slope, sources, lines);

@@ -77,6 +77,18 @@ SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std:
   return of;
 }
 
+SurfacePoint DrySurfacePointOf(const DryPoint& dry, Coverage coverage, std::uint16_t source) {
+  AnnotatedPoint point = dry.point;
+  // With --terrain-slope the groups are those of the height at a fixed place. A node has a slope of its own.
+  if (dry.variance_vertical > 0) {
+    const float to_point = std::sqrt(point.variance_z / dry.variance_vertical);
+    point.tvu_pulse *= to_point, point.tvu_line *= to_point;
+  }
+  SurfacePoint of = SurfacePointOf(point, coverage, source);
+  of.depth = NAN;
+  return of;
+}
+
 SurfaceMap MapOf(const AnnotatedLasFile& file) {
   return {.crs_name = file.crs_name(),
           .crs_wkt = file.crs_wkt(),
@@ -90,6 +102,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
   SurfacePart part = {.path = path, .facts = {}, .points_end = 0};
   PartFacts& facts = part.facts;
   facts.cell = options.cell;
+  if (options.land) facts.dry = 0;
   if (!files.empty()) {
     const AnnotatedLasFile& first = files.front();
     facts.map = MapOf(first);
@@ -104,18 +117,29 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file)));
     RETURN_IF_ERROR(CheckWater(files.front(), file, facts));
     const bool has_dates = file.has_dates();
-    ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(progress, [&](std::span<const AnnotatedPoint> points) {
-      for (const AnnotatedPoint& point : points) {
-        ++(point.has_number ? facts.with_number : facts.without_number);
-        if (!point.has_number) continue;
-        writer.Add(SurfacePointOf(point, facts.coverage, source));
-        if (!has_dates) continue;
-        const double time = point.time + kAdjustment;
-        if (!facts.times.has_value()) facts.times = {time, time};
-        facts.times->first = std::min(facts.times->first, time);
-        facts.times->second = std::max(facts.times->second, time);
-      }
-    }));
+    const auto add = [&](const SurfacePoint& point) {
+      writer.Add(point);
+      if (!has_dates) return;
+      const double time = point.time + kAdjustment;
+      if (!facts.times.has_value()) facts.times = {time, time};
+      facts.times->first = std::min(facts.times->first, time);
+      facts.times->second = std::max(facts.times->second, time);
+    };
+    const AnnotatedLasFile::VisitDry add_dry = [&](const DryPoint& dry) {
+      if (!dry.point.has_number || !(dry.of_bottom || dry.of_ground)) return;
+      ++*facts.dry;
+      add(DrySurfacePointOf(dry, facts.coverage, source));
+    };
+    ASSIGN_OR_RETURN(const LeftOutPoints of_file,
+                     file.ForEach(
+                         progress,
+                         [&](std::span<const AnnotatedPoint> points) {
+                           for (const AnnotatedPoint& point : points) {
+                             ++(point.has_number ? facts.with_number : facts.without_number);
+                             if (point.has_number) add(SurfacePointOf(point, facts.coverage, source));
+                           }
+                         },
+                         options.land ? add_dry : nullptr));
     facts.left_out.Add(of_file);
     facts.files.push_back(NameOf(file));
     if (facts.map.vertical_name.empty())

@@ -17,6 +17,7 @@ std::string Length(double metres) { return absl::StrFormat("%.10g m", metres); }
 // What all parts have alike, as messages name it.
 std::vector<std::pair<std::string, std::string>> SettingsOf(const PartFacts& facts) {
   return {{"--cell", Length(facts.cell)},
+          {"--land", facts.dry.has_value() ? "given" : "not given"},
           {"coordinate system", facts.map.crs_name},
           {"unit of x and y", Length(facts.map.metres_per_unit)},
           {"coverage", annotate::CoverageName(facts.coverage)},
@@ -89,6 +90,7 @@ absl::StatusOr<JoinedParts> Join(std::vector<SurfacePart>& parts) {
       all.map.vertical_name = facts.map.vertical_name, all.map.vertical_wkt = facts.map.vertical_wkt;
     all.files.insert(all.files.end(), facts.files.begin(), facts.files.end());
     all.with_number += facts.with_number, all.without_number += facts.without_number;
+    if (facts.dry.has_value()) all.dry = all.dry.value_or(0) + *facts.dry;
     all.left_out.Add(facts.left_out);
     if (facts.times.has_value()) {
       if (!all.times.has_value()) all.times = facts.times;

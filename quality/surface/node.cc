@@ -19,8 +19,10 @@ struct MeanBeam {
   double incidence = 0, azimuth = 0, footprint = 0, squared_depth = 0, sea = 0;
 
   explicit MeanBeam(std::span<const SurfacePoint> points) {
-    double north = 0, east = 0;
+    double north = 0, east = 0, n = 0;
     for (const SurfacePoint& point : points) {
+      if (point.dry()) continue;
+      ++n;
       incidence += point.incidence;
       footprint += point.footprint;
       squared_depth += point.depth * point.depth;
@@ -29,16 +31,17 @@ struct MeanBeam {
       north += point.incidence * std::cos(RadiansOfDegrees(point.azimuth));
       east += point.incidence * std::sin(RadiansOfDegrees(point.azimuth));
     }
-    const auto n = static_cast<double>(points.size());
+    n = std::max(n, 1.0);
     incidence /= n, footprint /= n, squared_depth /= n, sea /= n;
     azimuth = DegreesOfRadians(std::atan2(east, north));
   }
 };
 
+// Of the points that are not dry.
 PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, const NodeSources& sources) {
   const MeanBeam beam(points);
   PassSea sea;
-  if (!(beam.sea > 0)) return sea;  // Of dry points.
+  if (!(beam.sea > 0)) return sea;
   const SeaInCell waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint);
   // Slopes of waves shift points with the depth. What the stated variance has beyond that is the height of unseen
   // waves, of a surface that is not that of the pulse.
@@ -83,17 +86,17 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
       if (next.flight_line != first.flight_line || next.time - points[end - 1].time > kPassPause) break;
     }
     const std::span<const SurfacePoint> pass = points.subspan(begin, end - begin);
-    const auto of_pass = static_cast<double>(pass.size());
+    const auto wet = static_cast<double>(pass.size() - std::ranges::count_if(pass, &SurfacePoint::dry));
     ++variance.passes;
     const PassSea sea = SeaOf(pass, g, sources);
-    variance.sea += of_pass * (of_pass * sea.shared + (sea.of_point - sea.shared)) / (n * n);
-    variance.of_point += of_pass / n * sea.of_point;
+    variance.sea += wet * (wet * sea.shared + (sea.of_point - sea.shared)) / (n * n);
+    variance.of_point += wet / n * sea.of_point;
 
     const HorizontalGroups groups = sources.groups(first.source);
     for (const SurfacePoint& point : pass) {
       Eigen::Matrix3d rest;
       rest << point.xx, point.xy, point.xz, point.xy, point.yy, point.yz, point.xz, point.yz, 0;
-      rest -= sea.whole;
+      if (!point.dry()) rest -= sea.whole;
       rest(2, 2) = 0;
       const double by_slope = g.dot(rest * g);
       const auto with_slope = [&](double of_height, double fraction) {

@@ -5,7 +5,7 @@
 //               + sum over lines of (n / N)^2 L  +  U:
 // S the sea, P what is drawn anew for each pulse, L what a line shares, U what the survey shares. R is the correlation
 // of the sea's share over the cell (sea/correlation). A pass is what one line sees of the cell at once: the fore and
-// the aft part of a scan see other waves. Bias is not averaged away, and stays apart. docs/surface.md derives this.
+// the aft part of a scan see other waves. Dry points have no S. Bias is not averaged away, and stays apart. docs/surface.md derives this.
 #pragma once
 
 #include <Eigen/Core>
@@ -73,13 +73,14 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
 struct SurfaceNode {
   std::uint32_t points = 0;                                     // That its height is made of; 0: no node.
   std::uint32_t left_out = 0;                                   // Beyond kFarthest standard deviations.
+  std::uint32_t dry = 0;                                        // Of `points`, those that are dry.
   double elevation = std::numeric_limits<double>::quiet_NaN();  // m, upwards, in the datum of the points
   NodeVariance variance;
   double bias = 0;                                                   // m, of the elevation: the mean of its points
   double deviation = std::numeric_limits<double>::quiet_NaN();       // m, of the points from the plane; of one: NaN
   double shoalest = std::numeric_limits<double>::quiet_NaN();        // m: the highest of the points, upwards
   double shoalest_sigma = std::numeric_limits<double>::quiet_NaN();  // m, of its height
-  float depth = 0;                                                   // m, of the water: the mean of the points
+  float depth = 0;                                                   // m, of the water: the mean of points under it
   float thu = 0;                                                     // m, 95 %: the mean of the points
   float slope_x = 0, slope_y = 0;                                    // m per m
 };

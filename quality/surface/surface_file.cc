@@ -24,7 +24,7 @@ constexpr std::array kFloats = {
                [](const SurfaceNode& n) { return n.elevation; }},
     FloatLayer{"depth", "depth of the bottom, downwards, in the vertical datum of the points",
                [](const SurfaceNode& n) { return -n.elevation; }},
-    FloatLayer{"water_depth", "mean depth of the points below the water surface",
+    FloatLayer{"water_depth", "mean depth of the points below the water surface, without those of land",
                [](const SurfaceNode& n) { return double{n.depth}; }},
     FloatLayer{"uncertainty", "uncertainty of the elevation at 95 %, without its bias",
                [](const SurfaceNode& n) { return k95 * std::sqrt(n.variance.total()); }},
@@ -58,6 +58,8 @@ constexpr FloatLayer kOrder = {"order_met", "order of IHO S-44 that the node mee
 constexpr std::array kCounts = {
     CountLayer{"points", "points that the node is made of",
                [](const SurfaceNode& n) { return static_cast<int>(n.points); }},
+    CountLayer{"land_points", "points of these over which no water lay",
+               [](const SurfaceNode& n) { return static_cast<int>(n.dry); }},
     CountLayer{"left_out", "points that lie too far from the others",
                [](const SurfaceNode& n) { return static_cast<int>(n.left_out); }},
     CountLayer{"passes", "times that a line saw the cell", [](const SurfaceNode& n) { return n.variance.passes; }}};
@@ -135,7 +137,7 @@ void SurfaceFile::Put(const TilePlace& tile, std::span<const SurfaceNode> nodes)
       return std::isfinite(value) ? static_cast<float>(value) : NetcdfGrid::kNoValue;
     });
   put(order_, NetcdfGrid::kNoCode,
-      [](const SurfaceNode& node) { return node.points > 0 ? OrderOf(node) : NetcdfGrid::kNoCode; });
+      [](const SurfaceNode& node) { return node.points > node.dry ? OrderOf(node) : NetcdfGrid::kNoCode; });
 }
 
 }  // namespace albtpu::quality

@@ -66,6 +66,7 @@ Json ToJson(const PartFacts& facts) {
                {"seas", Json::array()},
                {"sources", Json::array()},
                {"points", {facts.with_number, facts.without_number}},
+               {"dry", facts.dry.has_value() ? Json(*facts.dry) : Json()},
                {"left_out", {facts.left_out.withheld, facts.left_out.noise}},
                {"times", Json()}};
   for (const PartFile& file : facts.files) json["files"].push_back({file.name, file.bytes, file.points, file.bounds});
@@ -97,6 +98,7 @@ PartFacts FactsOf(const Json& json) {
     facts.sources.push_back(
         {.sea = source.at(0), .groups = {.pulse = source.at(1), .line = source.at(2), .survey = source.at(3)}});
   facts.with_number = json.at("points").at(0), facts.without_number = json.at("points").at(1);
+  if (const Json& dry = json.at("dry"); !dry.is_null()) facts.dry = dry.get<std::uint64_t>();
   facts.left_out = {.withheld = json.at("left_out").at(0), .noise = json.at("left_out").at(1)};
   if (const Json& times = json.at("times"); !times.is_null()) facts.times = {times.at(0), times.at(1)};
   return facts;

@@ -47,6 +47,7 @@ struct PartFacts {
   std::vector<SeaOfSource> seas;
   std::vector<SourceOfPoints> sources;  // By SurfacePoint::source.
   std::uint64_t with_number = 0, without_number = 0;
+  std::optional<std::uint64_t> dry;  // Dry points, where they are asked for.
   LeftOutPoints left_out;
   std::optional<std::pair<double, double>> times;  // First and last, GPS seconds; of files that have dates.
 };

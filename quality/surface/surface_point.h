@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 
@@ -21,12 +22,14 @@ struct SurfacePoint {
 
   float incidence = 0, azimuth = 0;  // degree; the azimuth clockwise from north, where the beam travels to.
   float footprint = 0;               // m
-  float depth = 0;                   // m, below the water
+  float depth = 0;                   // m, below the water; NaN of a dry point, over which no water lay
   float bias = 0;                    // m, of the height
   float thu = 0;                     // m, 95 %
 
   std::uint16_t flight_line = 0;  // Point source ID. After a pause, another line of the same ID begins.
   std::uint16_t source = 0;       // Of NodeSources.
+
+  bool dry() const { return std::isnan(depth); }
 
   // Points in one order, whatever the order of their files: first lines, then times.
   auto Order() const { return std::tuple(flight_line, time, x, y, z, source, incidence, pulse); }

@@ -19,7 +19,8 @@ void SurfaceTally::Add(const SurfaceNode& node) {
   }
   lowest = std::min(lowest, node.elevation), highest = std::max(highest, node.elevation);
   ++nodes, points += node.points, left_out += node.left_out;
-  ++orders[OrderOf(node) - 1U];
+  if (node.points > node.dry) ++orders[OrderOf(node) - 1U];
+  dry += node.dry, of_land += node.points == node.dry, of_both += node.dry > 0 && node.points > node.dry;
   const NodeVariance& v = node.variance;
   pulse += v.pulse, sea += v.sea, line += v.line, survey += v.survey;
   const double factor = VerticalFactor(Coverage::kP95);

@@ -13,6 +13,7 @@ namespace albtpu::quality {
 
 struct SurfaceTally {
   std::uint64_t nodes = 0, points = 0, left_out = 0;
+  std::uint64_t dry = 0, of_land = 0, of_both = 0;  // Dry points; nodes of such alone, and nodes of both kinds.
   std::array<std::uint64_t, kS44Orders.size() + 1> orders = {};
   double pulse = 0, sea = 0, line = 0, survey = 0;  // Variances, m^2.
   double uncertainty = 0, independent = 0;          // At 95 %, m: as it is, and if points were independent.

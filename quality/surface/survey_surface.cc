@@ -105,7 +105,7 @@ absl::Status NoPointHasNumber(const SurfacePart& part) {
 absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs::path& folder) {
   ASSIGN_OR_RETURN(const JoinedParts joined, Join(parts));
   const PartFacts& facts = joined.facts;
-  if (facts.with_number == 0) return NoPointHasNumber(parts.front());
+  if (facts.with_number + facts.dry.value_or(0) == 0) return NoPointHasNumber(parts.front());
   SeaSharing sharing(facts.cell);
   for (const SeaOfSource& sea : facts.seas) sharing.Add(sea);
   const NodeSources sources = {
@@ -141,6 +141,11 @@ absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs
                         {"last", formats::UtcText(facts.times->second)}};
   if (!facts.left_out.empty()) json["points_left_out"] = LeftOutJson(facts.left_out);
   json.update(tally.ToJson());
+  if (facts.dry.has_value())
+    json["land"] = {{"points_with_number", *facts.dry},
+                    {"points", tally.dry},
+                    {"nodes", tally.of_land},
+                    {"nodes_of_both", tally.of_both}};
   return MadeSurface{.json = annotate::JsonBox(std::move(json)), .path = path, .frame = frame};
 }
 
@@ -156,6 +161,10 @@ std::string SurfaceText(const Json& surface) {
       100 * number(shares["line"]), 100 * number(shares["survey"]),
       number(surface["for_comparison"]["points_taken_as_independent_95"]),
       number(surface["for_comparison"]["mean_tvu_of_points_95"]));
+  if (surface.contains("land"))
+    absl::StrAppendFormat(&text, "  %d nodes are of land, %d of both land and water\n",
+                          surface["land"]["nodes"].get<std::uint64_t>(),
+                          surface["land"]["nodes_of_both"].get<std::uint64_t>());
   if (deviation["factor"].is_number())
     absl::StrAppendFormat(&text, "  points scatter %.3f m about the surface; %.3f m predicted\n",
                           number(deviation["sample"]), number(deviation["predicted"]));

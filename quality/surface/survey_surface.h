@@ -21,6 +21,7 @@ namespace albtpu::quality {
 struct SurfaceOptions {
   double cell = 1;                              // m, 0.1 to 20
   const annotate::SeaTimeline* seas = nullptr;  // Null: the seas of the winds that the files state.
+  bool land = false;                            // Also the dry points of the ground, and of the bottom above the water.
 };
 
 SurfaceMap MapOf(const AnnotatedLasFile& file);

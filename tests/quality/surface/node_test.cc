@@ -103,6 +103,39 @@ TEST(Node, TakesTheHeightOfUnseenWavesForWhatTheSlopesDoNotExplain) {
   EXPECT_NEAR(VarianceOf(points, Eigen::Vector2d::Zero(), sources).sea, 0.2 * (kSea - 0.001) + 0.9 * 0.001, 2e-6);
 }
 
+// Six points under water and four beside it, of one pass.
+TEST(Node, OfLandAndWaterHasTheWavesOfThePointsUnderWater) {
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 10; ++i) {
+    points.push_back(PointAt(0.001 * i));
+    if (i % 5 < 3) continue;
+    points.back().sea = 0;
+    points.back().depth = NAN;
+  }
+  const NodeVariance node = LevelNode(points, 0.7);
+  EXPECT_NEAR(node.sea, 0.6 * 0.6 * kSea * (0.7 + 0.3 / 6), 1e-9);
+  EXPECT_NEAR(node.pulse, kPulse / 10, 1e-9);
+  EXPECT_NEAR(node.line, kLine, 1e-9);
+  EXPECT_NEAR(node.of_point, 0.6 * kSea + kPulse + kLine, 1e-9);
+  EXPECT_EQ(node.passes, 1);
+}
+
+TEST(Node, OfLandHasNoWavesAndNoDepth) {
+  std::vector<SurfacePoint> points(4, PointAt(0));
+  for (SurfacePoint& point : points) point.sea = 0, point.depth = NAN;
+  const std::vector<Eigen::Vector2d> places(4, Eigen::Vector2d::Zero());
+  std::vector<char> kept(4, true);
+  SurfaceNode node = NodeOf({points, places}, kept, {}, Sharing(0.7));
+  EXPECT_EQ(node.dry, 4U);
+  EXPECT_EQ(node.variance.sea, 0);
+  EXPECT_NEAR(node.variance.total(), kPulse / 4 + kLine + kSurvey, 1e-9);
+  EXPECT_TRUE(std::isnan(node.depth));
+  points[1].depth = 3;
+  node = NodeOf({points, places}, kept, {}, Sharing(0.7));
+  EXPECT_EQ(node.dry, 3U);
+  EXPECT_EQ(node.depth, 3);
+}
+
 TEST(Node, PredictsTheScatterOfItsPoints) {
   std::vector<SurfacePoint> points;
   for (int i = 0; i < 5; ++i) points.push_back(PointAt(0.001 * i));

@@ -1,0 +1,134 @@
+"""albtpu-query surface --land, from outside: nodes of a beach by the totals of its dry points."""
+
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import netCDF4
+import numpy as np
+
+import programs
+import reported_survey
+from las_file import LasFile
+from programs import query
+from simulated_survey import LAND, SimulatedSurvey
+
+CELL = 2
+FACTOR = 1.959964
+
+
+def setUpModule():
+    global folder, annotated, points
+    folder = pathlib.Path(tempfile.mkdtemp())
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--seconds", 4, "--pulse-rate", 8000, "--range-noise",
+                             0.02, "--file-for-each-line")
+    annotated = folder / "annotated"
+    reported_survey.annotate(flight.folder, annotated, programs.PATHS["shipped_table"])
+    columns = {}
+    for name in flight.names:
+        las = LasFile(annotated / f"{name}.las")
+        kinds = flight.truth(name)["kind"]
+        of_file = {"x": las.field(0, "<i4") * las.scale[0] + las.offset[0],
+                   "y": las.field(4, "<i4") * las.scale[1] + las.offset[1], "class": las.classes,
+                   "land": kinds == LAND, **las.columns()}
+        for column, values in of_file.items():
+            columns.setdefault(column, []).append(values)
+    points = {column: np.concatenate(parts) for column, parts in columns.items()}
+
+
+class Land(programs.Test):
+    def surface(self, *flags, name="surface"):
+        query("surface", annotated, "--output", self.folder / name, "--cell", CELL, *flags, check=0)
+        grid = netCDF4.Dataset(self.folder / name / "surface.nc")
+        self.addCleanup(grid.close)
+        return grid, json.loads((self.folder / name / "surface.json").read_text())
+
+    def in_cells(self, grid, chosen, values=None):
+        """Of the chosen points, how many each cell has, or their sum."""
+        x, y = grid["x"][:].data, grid["y"][:].data
+        column = np.floor(points["x"][chosen] / CELL).astype(int) - round(x[0] / CELL - 0.5)
+        row = round(y[0] / CELL - 0.5) - np.floor(points["y"][chosen] / CELL).astype(int)
+        cells = np.zeros(grid["points"].shape)
+        np.add.at(cells, (row, column), 1 if values is None else values[chosen])
+        return cells
+
+    def test_takes_the_dry_points_of_the_ground(self):
+        grid, summary = self.surface("--land")
+        dry, wet = points["land"] & (points["share_of"] == 1), points["share_of"] == 2
+        self.assertGreater(dry.sum(), 1000)
+        self.assertTrue((points["class"][dry] == 2).all())
+        land, left_out = grid["land_points"][:].data, grid["left_out"][:].data
+        whole = left_out == 0
+        self.assertGreater(whole.mean(), 0.99)
+        np.testing.assert_array_equal(land[whole], self.in_cells(grid, dry)[whole])
+        np.testing.assert_array_equal(grid["points"][:].data[whole], self.in_cells(grid, dry | wet)[whole])
+        self.assertEqual(summary["land"]["points_with_number"], dry.sum())
+        self.assertEqual(summary["land"]["points"], land.sum())
+        self.assertEqual(summary["land"]["nodes"], ((land > 0) & (land == grid["points"][:].data)).sum())
+
+    def test_has_the_totals_of_dry_points_alone(self):
+        grid, summary = self.surface("--land")
+        of_land = (grid["land_points"][:].data > 3) & (grid["land_points"][:].data == grid["points"][:].data)
+        self.assertGreater(of_land.sum(), 50)
+        self.assertTrue((grid["sigma_sea"][:][of_land] == 0).all())
+        self.assertTrue(grid["water_depth"][:].mask[of_land].all())
+        self.assertTrue(grid["order_met"][:].mask[of_land].all())
+        judged = sum(summary["order_met"].values())
+        self.assertEqual(judged, summary["nodes"] - summary["land"]["nodes"])
+        dry = points["land"]
+        once = of_land & (grid["passes"][:].data == 1) & (grid["left_out"][:].data == 0)
+        mean_line = self.in_cells(grid, dry, points["tvu_line"] / FACTOR)[once] / grid["points"][:].data[once]
+        ratio = grid["sigma_line"][:].data[once] / mean_line
+        self.assertGreater(once.sum(), 50)
+        self.assertAlmostEqual(np.median(ratio), 1, delta=0.02)
+
+    def test_leaves_the_nodes_of_the_bottom_as_they_are(self):
+        with_land, summary = self.surface("--land")
+        without, other = self.surface(name="without")
+        self.assertNotIn("land", other)
+        self.assertTrue((without["land_points"][:].data == 0).all())
+        # Where neither a node nor one of its neighbours has a point of land.
+        x, y = without["x"][:].data, without["y"][:].data
+        rows = np.searchsorted(-with_land["y"][:].data, -y - 1e-3)
+        columns = np.searchsorted(with_land["x"][:].data, x - 1e-3)
+        land = np.pad(with_land["land_points"][:].data, 2)
+        near = sum(land[i:i + land.shape[0] - 4, j:j + land.shape[1] - 4] for i in range(5) for j in range(5))
+        far = near[np.ix_(rows, columns)] == 0
+        self.assertGreater((without["points"][:].data[far] > 0).sum(), 200)
+        for name in ("elevation", "uncertainty", "sigma_sea", "water_depth"):
+            np.testing.assert_array_equal(with_land[name][:].filled(-1)[np.ix_(rows, columns)][far],
+                                          without[name][:].filled(-1)[far], name)
+
+    def test_parts_have_land_or_not(self):
+        made = [self.folder / name for name in ("a.part", "b.part", "c.part")]
+        files = sorted(annotated.glob("*.las"))
+        for part, file, flags in zip(made, (files[0], files[1], files[1]), (("--land",), ("--land",), ())):
+            query("surface", file, "--partial", part, "--cell", CELL, *flags, check=0)
+        self.surface("--land")
+        query("surface", "merge", *made[:2], "--output", self.folder / "merged", check=0)
+        for name in ("surface.nc", "surface.json"):
+            self.assertEqual((self.folder / "merged" / name).read_bytes(),
+                             (self.folder / "surface" / name).read_bytes())
+        output = self.folder / "other"
+        self.assert_fails(query("surface", "merge", made[0], made[2], "--output", output), 1, "c.part", "its --land is")
+        self.assert_fails(query("surface", "merge", *made[:2], "--output", output, "--land"), 2, "--land has no effect")
+
+    def test_on_a_slope_of_the_terrain_the_slope_counts_once(self):
+        """--terrain-slope states the height at a fixed place; a node has its own slope, and the same uncertainty."""
+        before, _ = self.surface("--land")
+        sloping = self.folder / "sloping"
+        query("las", folder / "flight", "--output-dir", sloping, "--survey", folder / "annotated.toml", "--table",
+              programs.PATHS["shipped_table"], "--terrain-slope", check=0)
+        query("surface", sloping, "--output", self.folder / "after", "--cell", CELL, "--land", check=0)
+        with netCDF4.Dataset(self.folder / "after/surface.nc") as after:
+            of_land = before["land_points"][:].data == before["points"][:].data
+            ratio = after["uncertainty"][:][of_land] / before["uncertainty"][:][of_land]
+        self.assertLess(abs(np.ma.median(ratio) - 1), 0.01)
+        self.assertLess(abs(ratio - 1).max(), 0.05)
+
+
+if __name__ == "__main__":
+    programs.main()
