@@ -77,17 +77,21 @@ SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std:
   return of;
 }
 
-SurfacePoint DrySurfacePointOf(const DryPoint& dry, Coverage coverage, std::uint16_t source) {
-  AnnotatedPoint point = dry.point;
-  // With --terrain-slope the groups are those of the height at a fixed place. A node has a slope of its own.
-  if (dry.variance_vertical > 0) {
-    const float to_point = std::sqrt(point.variance_z / dry.variance_vertical);
-    point.tvu_pulse *= to_point, point.tvu_line *= to_point;
-  }
-  SurfacePoint of = SurfacePointOf(point, coverage, source);
+namespace {
+
+SurfacePoint DrySurfacePointOf(const DryPoint& dry, Coverage coverage, const HorizontalGroups& groups,
+                               std::uint16_t source) {
+  SurfacePoint of = SurfacePointOf(dry.point, coverage, source);
   of.depth = NAN;
+  // With --terrain-slope the groups are those of the height at a fixed place. A node has a slope of its own.
+  const double by_slope = dry.variance_vertical - dry.point.variance_z;
+  of.pulse = std::max(of.pulse - static_cast<float>(groups.pulse * by_slope), 0.F);
+  of.line = std::max(of.line - static_cast<float>(groups.line * by_slope), 0.F);
+  of.survey = std::max(dry.point.variance_z - of.pulse - of.line, 0.F);
   return of;
 }
+
+}  // namespace
 
 SurfaceMap MapOf(const AnnotatedLasFile& file) {
   return {.crs_name = file.crs_name(),
@@ -114,7 +118,8 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
     ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, options.seas));
-    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file)));
+    const HorizontalGroups groups = GroupsOf(file);
+    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, groups));
     RETURN_IF_ERROR(CheckWater(files.front(), file, facts));
     const bool has_dates = file.has_dates();
     const auto add = [&](const SurfacePoint& point) {
@@ -128,7 +133,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     const AnnotatedLasFile::VisitDry add_dry = [&](const DryPoint& dry) {
       if (!dry.point.has_number || !(dry.of_bottom || dry.of_ground)) return;
       ++*facts.dry;
-      add(DrySurfacePointOf(dry, facts.coverage, source));
+      add(DrySurfacePointOf(dry, facts.coverage, groups, source));
     };
     ASSIGN_OR_RETURN(const LeftOutPoints of_file,
                      file.ForEach(

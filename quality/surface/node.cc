@@ -11,9 +11,20 @@ namespace {
 
 // The sea's share of the points of one pass, and of the whole error what is left without it.
 struct PassSea {
-  double of_point = 0, shared = 0;  // Of the vertical error at a fixed place: one point, the mean of many.
+  double of_point = 0, of_pairs = 0;  // Of the vertical error at a fixed place: one point; the sum over ordered pairs.
   Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();  // Of a point's error.
 };
+
+std::array<double, kCellLevels> PairsOf(std::span<const SurfacePoint> points, double cell) {
+  PairsInCell pairs;
+  double n = 0;
+  for (const SurfacePoint& point : points) {
+    if (point.dry()) continue;
+    ++n;
+    if (cell > 0) pairs.Add(point.x / cell - std::floor(point.x / cell), point.y / cell - std::floor(point.y / cell));
+  }
+  return cell > 0 ? pairs.Weights() : std::array<double, kCellLevels>{n * (n - 1)};
+}
 
 struct MeanBeam {
   double incidence = 0, azimuth = 0, footprint = 0, squared_depth = 0, sea = 0;
@@ -45,14 +56,18 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   const SeaInCell waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint);
   // Slopes of waves shift points with the depth. What the stated variance has beyond that is the height of unseen
   // waves, of a surface that is not that of the pulse.
-  const double of_slopes = beam.squared_depth * waves.pulse(2, 2);
-  const double of_heights = waves.height_pulse > 0 ? std::max(beam.sea - of_slopes, 0.0) : 0;
+  const double of_slopes = beam.squared_depth * waves.pulse.errors(2, 2);
+  const double of_heights = waves.pulse.height > 0 ? std::max(beam.sea - of_slopes, 0.0) : 0;
   const double scale = of_slopes > 0 ? (beam.sea - of_heights) / of_slopes * beam.squared_depth : 0;
-  const double heights_shared = of_heights > 0 ? of_heights * waves.height_cell / waves.height_pulse : 0;
-  sea.whole = scale * waves.pulse;
+  sea.whole = scale * waves.pulse.errors;
   sea.whole(2, 2) += of_heights;
   sea.of_point = g.dot(sea.whole * g);
-  sea.shared = scale * g.dot(waves.cell * g) + heights_shared;
+  const std::array<double, kCellLevels> pairs = PairsOf(points, sources.cell);
+  for (std::size_t level = 0; level < pairs.size(); ++level) {
+    const SeaInCell::Variances& cell = waves.cell[level];
+    sea.of_pairs += pairs[level] * scale * g.dot(cell.errors * g);
+    if (of_heights > 0) sea.of_pairs += pairs[level] * of_heights * cell.height / waves.pulse.height;
+  }
   return sea;
 }
 
@@ -89,7 +104,7 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
     const auto wet = static_cast<double>(pass.size() - std::ranges::count_if(pass, &SurfacePoint::dry));
     ++variance.passes;
     const PassSea sea = SeaOf(pass, g, sources);
-    variance.sea += wet * (wet * sea.shared + (sea.of_point - sea.shared)) / (n * n);
+    variance.sea += std::max(wet * sea.of_point + sea.of_pairs, 0.0) / (n * n);
     variance.of_point += wet / n * sea.of_point;
 
     const HorizontalGroups groups = sources.groups(first.source);

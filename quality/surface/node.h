@@ -1,14 +1,16 @@
 // A node of the surface from the points of its cell, and its uncertainty.
 //
 // With weights 1 / N, and the vertical error of a point at a fixed place, g^T e with g = (-dz/dx, -dz/dy, 1),
-//     var(node) = sum over passes of (n / N)^2 (R + (1 - R) / n) S  +  sum over points of P / N^2
+//     var(node) = sum over passes of (n / N)^2 R_n S  +  sum over points of P / N^2
 //               + sum over lines of (n / N)^2 L  +  U:
-// S the sea, P what is drawn anew for each pulse, L what a line shares, U what the survey shares. R is the correlation
-// of the sea's share over the cell (sea/correlation). A pass is what one line sees of the cell at once: the fore and
-// the aft part of a scan see other waves. Dry points have no S. Bias is not averaged away, and stays apart. docs/surface.md derives this.
+// S the sea, P what is drawn anew for each pulse, L what a line shares, U what the survey shares. R_n is what n pulses
+// at their places keep of the sea's share of one (pairs_in_cell.h): R + (1 - R) / n at random places. A pass is what
+// one line sees of the cell at once: the fore and the aft part of a scan see other waves. Dry points have no S. Bias is
+// not averaged away, and stays apart. docs/surface.md derives this.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,14 +19,19 @@
 #include <vector>
 
 #include "quality/surface/surface_point.h"
+#include "sea/correlation/pairs_in_cell.h"
 
 namespace albtpu::quality {
 
-// What the sea does to the pulses of one beam: of one pulse, and of the mean over a cell at one instant. On the axes
-// east, north, up.
+// What the sea does to the pulses of one beam: of one pulse, and of the mean over a cell at one instant, and over its
+// parts as PairsInCell has them. On the axes east, north, up.
 struct SeaInCell {
-  Eigen::Matrix3d pulse = Eigen::Matrix3d::Zero(), cell = Eigen::Matrix3d::Zero();  // Of the error, per depth^2.
-  double height_pulse = 0, height_cell = 0;                                         // Of the height of the water, m^2.
+  struct Variances {
+    Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();  // Per depth^2.
+    double height = 0;                                 // Of the water, m^2.
+  };
+  Variances pulse;
+  std::array<Variances, kCellLevels> cell;
 };
 
 // Of the horizontal variance of points without the sea's share: the fractions of the groups, which add up to 1.
@@ -37,6 +44,8 @@ struct NodeSources {
   // `incidence` and `azimuth` in degree, `footprint` in m.
   std::function<SeaInCell(std::uint16_t source, double incidence, double azimuth, double footprint)> sea;
   std::function<HorizontalGroups(std::uint16_t source)> groups;
+  // Of cells on the axes of the map whose sides lie at its multiples, in the units of the map; 0: points lie at random.
+  double cell = 0;
 };
 
 // Waves are other ones after this time: at 6 m/s and a footprint of 0.6 m the correlation of slopes is 0.92 after 0.1 s

@@ -61,10 +61,11 @@ SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double 
       const int steps = std::abs(i + di), half_turn = i + di < 0 ? kAzimuths / 2 : 0;
       const int around = ((j + dj + half_turn) % kAzimuths + kAzimuths) % kAzimuths;
       const SeaInCell& each = At(beams, key, steps, steps == 0 ? 0 : around);
-      sum.pulse += weight * each.pulse;
-      sum.cell += weight * each.cell;
-      sum.height_pulse += weight * each.height_pulse;
-      sum.height_cell += weight * each.height_cell;
+      const auto add = [weight](const SeaInCell::Variances& of, SeaInCell::Variances& to) {
+        to.errors += weight * of.errors, to.height += weight * of.height;
+      };
+      add(each.pulse, sum.pulse);
+      for (std::size_t level = 0; level < sum.cell.size(); ++level) add(each.cell[level], sum.cell[level]);
     }
   return sum;
 }
@@ -87,14 +88,16 @@ const SeaInCell& SeaSharing::At(Beams& beams, const Key& key, int incidence, int
       .azimuth = sea.x_azimuth - 2 * std::numbers::pi * azimuth / kAzimuths,
       .footprint = std::clamp(std::exp(width * kFootprintStep), kLeastFootprint, kMostFootprint)};
   const BeamCorrelation of_beam(sea.waves, beam, sea.water_index);
-  // East, a side of the cell, lies this far to the left of the axis x.
-  const SharedWaves pulse = of_beam.pulse();
-  const SharedWaves cell = of_beam.InCell({.side = cell_, .orientation = sea.x_azimuth - std::numbers::pi / 2});
   const Eigen::Matrix3d turn = ToMap(sea.x_azimuth);
-  auto made = std::make_unique<const SeaInCell>(SeaInCell{.pulse = turn * pulse.errors() * turn.transpose(),
-                                                          .cell = turn * cell.errors() * turn.transpose(),
-                                                          .height_pulse = pulse.footprint.heights,
-                                                          .height_cell = cell.footprint.heights});
+  const auto on_map = [&](const SharedWaves& shared) -> SeaInCell::Variances {
+    return {.errors = turn * shared.errors() * turn.transpose(), .height = shared.footprint.heights};
+  };
+  auto of_cell = std::make_unique<SeaInCell>(SeaInCell{.pulse = on_map(of_beam.pulse()), .cell = {}});
+  // East, a side of the cell, lies this far to the left of the axis x.
+  const double east = sea.x_azimuth - std::numbers::pi / 2;
+  for (std::size_t level = 0; level < of_cell->cell.size(); ++level)
+    of_cell->cell[level] = on_map(of_beam.InCell({.side = std::ldexp(cell_, -int(level)), .orientation = east}));
+  std::unique_ptr<const SeaInCell> made = std::move(of_cell);
   // Another thread may have made the same one meanwhile.
   const SeaInCell* other = nullptr;
   return known.compare_exchange_strong(other, made.get()) ? *made.release() : *other;

@@ -17,6 +17,7 @@ const double k95 = VerticalFactor(Coverage::kP95);
 struct FloatLayer {
   const char *name, *long_name;
   double (*value)(const SurfaceNode& node);
+  const char* unit = "m";
 };
 
 constexpr std::array kFloats = {
@@ -38,6 +39,8 @@ constexpr std::array kFloats = {
                [](const SurfaceNode& n) { return std::sqrt(n.variance.line); }},
     FloatLayer{"sigma_survey", "part of the standard deviation: what all points share",
                [](const SurfaceNode& n) { return std::sqrt(n.variance.survey); }},
+    FloatLayer{"land_share", "share of the points over which no water lay",
+               [](const SurfaceNode& n) { return double{n.dry} / n.points; }, "1"},
     FloatLayer{"bias", "bias of the elevation, which is not taken away", [](const SurfaceNode& n) { return n.bias; }},
     FloatLayer{"shoalest", "elevation of the highest point", [](const SurfaceNode& n) { return n.shoalest; }},
     FloatLayer{"shoalest_uncertainty", "uncertainty of the highest point at 95 %",
@@ -58,8 +61,6 @@ constexpr FloatLayer kOrder = {"order_met", "order of IHO S-44 that the node mee
 constexpr std::array kCounts = {
     CountLayer{"points", "points that the node is made of",
                [](const SurfaceNode& n) { return static_cast<int>(n.points); }},
-    CountLayer{"land_points", "points of these over which no water lay",
-               [](const SurfaceNode& n) { return static_cast<int>(n.dry); }},
     CountLayer{"left_out", "points that lie too far from the others",
                [](const SurfaceNode& n) { return static_cast<int>(n.left_out); }},
     CountLayer{"passes", "times that a line saw the cell", [](const SurfaceNode& n) { return n.variance.passes; }}};
@@ -76,11 +77,11 @@ std::vector<SurfaceLayer> LayersOfRasters() {
   std::vector<SurfaceLayer> layers;
   for (const char* const first : {"elevation", "uncertainty"})
     for (const FloatLayer& layer : kFloats)
-      if (layer.name == std::string_view(first)) layers.push_back({layer.name, layer.long_name, "m"});
+      if (layer.name == std::string_view(first)) layers.push_back({layer.name, layer.long_name, layer.unit});
   for (const FloatLayer& layer : kFloats) {
     const std::string_view name = layer.name;
     if (name != "elevation" && name != "uncertainty" && name != "depth" && name != "uncertainty_1sigma")
-      layers.push_back({layer.name, layer.long_name, "m"});
+      layers.push_back({layer.name, layer.long_name, layer.unit});
   }
   for (const CountLayer& layer : kCounts)
     if (layer.name != std::string_view("left_out")) layers.push_back({layer.name, layer.long_name, ""});
@@ -106,7 +107,7 @@ SurfaceFile::SurfaceFile(const std::filesystem::path& path, const GridFrame& fra
     : file_(path, frame, kTileCells, "Nodes of a survey by airborne lidar bathymetry, and their uncertainty") {
   file_.Text(NC_GLOBAL, "comment", SurfaceStatement(frame.vertical_name));
   for (const FloatLayer& layer : kFloats) {
-    floats_.push_back(file_.Floats(layer.name, layer.long_name, "m"));
+    floats_.push_back(file_.Floats(layer.name, layer.long_name, layer.unit));
     const std::string_view name = layer.name;
     if (name == "elevation" || name == "shoalest") file_.Text(floats_.back(), "positive", "up");
     if (name == "depth") file_.Text(floats_.back(), "positive", "down");

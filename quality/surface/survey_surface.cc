@@ -108,14 +108,15 @@ absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs
   if (facts.with_number + facts.dry.value_or(0) == 0) return NoPointHasNumber(parts.front());
   SeaSharing sharing(facts.cell);
   for (const SeaOfSource& sea : facts.seas) sharing.Add(sea);
+  const double cell = facts.cell / facts.map.metres_per_unit;
   const NodeSources sources = {
       .sea = [&](std::uint16_t source, double incidence, double azimuth,
                  double footprint) { return sharing(facts.sources[source].sea, incidence, azimuth, footprint); },
-      .groups = [&](std::uint16_t source) { return facts.sources[source].groups; }};
+      .groups = [&](std::uint16_t source) { return facts.sources[source].groups; },
+      .cell = cell};
   std::vector<PointsFile> files;
   for (std::size_t i = 0; i < parts.size(); ++i)
     files.push_back({.path = parts[i].path, .end = parts[i].points_end, .sources = joined.sources[i]});
-  const double cell = facts.cell / facts.map.metres_per_unit;
   ASSIGN_OR_RETURN(const PointTiles points, PointTiles::Open(std::move(files), cell));
   SurfaceTally tally;
   ASSIGN_OR_RETURN(const GridFrame frame, FrameOf(points.tiles(), cell, facts.map));

@@ -32,8 +32,9 @@ SurfacePoint PointAt(double time, std::uint16_t line = 1) {
 
 // Pulses share `shared` of the sea's variance over a cell.
 NodeSources Sharing(double shared, Eigen::Matrix3d errors = Eigen::Vector3d(0, 0, kSea / 25).asDiagonal()) {
-  return {.sea = [=](auto...) { return SeaInCell{.pulse = errors, .cell = shared * errors}; },
-          .groups = [](auto) { return HorizontalGroups{.pulse = 0.5, .line = 0.3, .survey = 0.2}; }};
+  return {
+      .sea = [=](auto...) { return SeaInCell{.pulse = {.errors = errors}, .cell = {{{.errors = shared * errors}}}}; },
+      .groups = [](auto) { return HorizontalGroups{.pulse = 0.5, .line = 0.3, .survey = 0.2}; }};
 }
 
 NodeVariance LevelNode(const std::vector<SurfacePoint>& points, double shared) {
@@ -96,7 +97,7 @@ TEST(Node, TakesTheHeightOfUnseenWavesForWhatTheSlopesDoNotExplain) {
   NodeSources sources = Sharing(0.2, Eigen::Vector3d(0, 0, (kSea - 0.001) / 25).asDiagonal());
   sources.sea = [of = sources.sea](auto... beam) {
     SeaInCell sea = of(beam...);
-    sea.height_pulse = 0.01, sea.height_cell = 0.009;
+    sea.pulse.height = 0.01, sea.cell[0].height = 0.009;
     return sea;
   };
   const std::vector<SurfacePoint> points(1000, PointAt(0));

@@ -40,11 +40,13 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
           const double tolerance = 0.02 * std::sqrt(errors(i, i) * errors(j, j));
-          EXPECT_NEAR(found.pulse(i, j), errors(i, j), tolerance) << incidence << " " << azimuth << " " << i << j;
-          EXPECT_NEAR(found.cell(i, j), in_cell(i, j), tolerance) << incidence << " " << azimuth << " " << i << j;
+          EXPECT_NEAR(found.pulse.errors(i, j), errors(i, j), tolerance)
+              << incidence << " " << azimuth << " " << i << j;
+          EXPECT_NEAR(found.cell[0].errors(i, j), in_cell(i, j), tolerance)
+              << incidence << " " << azimuth << " " << i << j;
         }
       }
-      EXPECT_NEAR(found.height_cell, cell.footprint.heights, 1e-3 * pulse.footprint.heights);
+      EXPECT_NEAR(found.cell[0].height, cell.footprint.heights, 1e-3 * pulse.footprint.heights);
     }
   }
 }

@@ -198,8 +198,9 @@ class Scan {
 
 }  // namespace
 
-SimulatedPlace::SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells)
-    : lines_(std::move(lines)), spacing_(spacing), sea_(Sea()) {
+SimulatedPlace::SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells,
+                               double shared)
+    : lines_(std::move(lines)), spacing_(spacing), shared_(shared), sea_(Sea()) {
   for (const double cell : cells) {
     sharing_.emplace_back(cell, std::make_unique<SeaSharing>(cell));
     sharing_.back().second->Add({.spectrum = sea_, .x_azimuth = std::numbers::pi / 2, .water_index = kIndex});
@@ -213,25 +214,28 @@ const SeaSharing& SimulatedPlace::SharingAt(double cell) const {
 double SimulatedPlace::HeightAt(const Vector2d& at) { return -kDepth + kSlope.dot(at - kMiddle); }
 
 NodeSources SimulatedPlace::SourcesFor(double cell) const {
-  const Vector3d of_pulse = kPulseSigma.cwiseAbs2(), of_line = kLineSigma.cwiseAbs2(),
-                 of_survey = kSurveySigma.cwiseAbs2();
+  const Vector3d of_pulse = kPulseSigma.cwiseAbs2(), of_line = (shared_ * kLineSigma).cwiseAbs2(),
+                 of_survey = (shared_ * kSurveySigma).cwiseAbs2();
   const double all = (of_pulse + of_line + of_survey).head<2>().sum();
   const HorizontalGroups groups = {.pulse = of_pulse.head<2>().sum() / all,
                                    .line = of_line.head<2>().sum() / all,
                                    .survey = of_survey.head<2>().sum() / all};
   const SeaSharing& sharing = SharingAt(cell);
-  return {.sea = [&sharing](auto... beam) { return sharing(beam...); }, .groups = [groups](auto) { return groups; }};
+  return {.sea = [&sharing](auto... beam) { return sharing(beam...); },
+          .groups = [groups](auto) { return groups; },
+          .cell = cell};
 }
 
 DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed) const {
   std::mt19937_64 random(seed);
   TravellingWaves waves(sea_, random);
-  const Vector3d of_survey = Draw(kSurveySigma, random);
+  const Vector3d line_sigma = shared_ * kLineSigma, survey_sigma = shared_ * kSurveySigma;
+  const Vector3d of_survey = Draw(survey_sigma, random);
   const Eigen::Matrix3d others =
-      (kPulseSigma.cwiseAbs2() + kLineSigma.cwiseAbs2() + kSurveySigma.cwiseAbs2()).asDiagonal();
+      (kPulseSigma.cwiseAbs2() + line_sigma.cwiseAbs2() + survey_sigma.cwiseAbs2()).asDiagonal();
   DrawnSurvey survey;
   for (const SimulatedLine& line : lines_) {
-    const Vector3d of_line = Draw(kLineSigma, random);
+    const Vector3d of_line = Draw(line_sigma, random);
     const Scan scan(line, spacing_, random);
     for (const Look& look : scan.looks()) {
       if (look.empty()) continue;
@@ -252,7 +256,8 @@ DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed) const {
 
         const double azimuth = 90 - DegreesOfRadians(pulse.azimuth), incidence = DegreesOfRadians(pulse.incidence);
         // What waves do to one pulse, per depth^2.
-        const Eigen::Matrix3d of_waves = sharing_.front().second->operator()(0, incidence, azimuth, kFootprint).pulse;
+        const Eigen::Matrix3d of_waves =
+            sharing_.front().second->operator()(0, incidence, azimuth, kFootprint).pulse.errors;
         const Vector3d g(-kSlope.x(), -kSlope.y(), 1);
         survey.sum += by_waves, survey.squares += by_waves * by_waves, survey.stated += g.dot(of_waves * g);
         const Eigen::Matrix3d all = depth * depth * of_waves + others;
@@ -261,8 +266,8 @@ DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed) const {
                                  .z = reported.z(),
                                  .time = pulse.time,
                                  .pulse = static_cast<float>(std::pow(kPulseSigma.z(), 2)),
-                                 .line = static_cast<float>(std::pow(kLineSigma.z(), 2)),
-                                 .survey = static_cast<float>(std::pow(kSurveySigma.z(), 2)),
+                                 .line = static_cast<float>(std::pow(line_sigma.z(), 2)),
+                                 .survey = static_cast<float>(std::pow(survey_sigma.z(), 2)),
                                  .sea = static_cast<float>(depth * depth * of_waves(2, 2)),
                                  .xx = static_cast<float>(all(0, 0)),
                                  .yy = static_cast<float>(all(1, 1)),

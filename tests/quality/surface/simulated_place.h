@@ -46,8 +46,9 @@ class SimulatedPlace {
   // The bottom has all its points this far from the edge, m.
   static constexpr double kMargin = 2.5;
 
-  // `spacing` between pulses, m. `cells` are those that nodes will be asked for.
-  SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells);
+  // `spacing` between pulses, m. `cells` are those that nodes will be asked for. `shared` scales the errors of lines
+  // and of the survey.
+  SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells, double shared);
 
   DrawnSurvey Survey(std::uint64_t seed) const;
   // Nodes of cells of a side that was named.
@@ -59,7 +60,7 @@ class SimulatedPlace {
   const SeaSharing& SharingAt(double cell) const;
 
   std::vector<SimulatedLine> lines_;
-  double spacing_;
+  double spacing_, shared_;
   HarmonicSpectrum sea_;
   std::vector<std::pair<double, std::unique_ptr<SeaSharing>>> sharing_;
 };

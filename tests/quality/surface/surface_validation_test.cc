@@ -97,6 +97,8 @@ struct Case {
   ScanPattern pattern;
   double spacing;  // m between the pulses of a pass
   bool always = false;
+  // What all nodes of a place share hides what these share by waves: without it, a tenth as many places tell as much.
+  double shared = 1;
 
   friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
   // Two lines overlap, flown the opposite ways; of a raster, one has the place at nadir.
@@ -115,7 +117,7 @@ class NodesOfSurveys : public testing::TestWithParam<Case> {};
 TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
   const Case& c = GetParam();
   if (!c.always && !EveryCase()) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
-  const SimulatedPlace place(c.Lines(), c.spacing, kCells);
+  const SimulatedPlace place(c.Lines(), c.spacing, kCells, c.shared);
   std::vector<std::vector<NodeErrors>> of_places(static_cast<std::size_t>(kSeeds * Places()),
                                                  std::vector<NodeErrors>(kCells.size()));
   std::vector<DrawnSurvey> drawn(of_places.size());
@@ -142,7 +144,8 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
         "%.2f, mean TVU %.2f; scatter in cells %.3f\n",
         c.name.c_str(), kCells[cell], all.size(), found.ours, standard_error, 100 * found.held, found.independent,
         found.mean_of_points, found.within_cells);
-    EXPECT_NEAR(found.ours, 1, 0.03 + 3 * standard_error) << kCells[cell];
+    // The even places of a scan within a sixteenth of a cell count as random ones: the sea has 5 % too much.
+    EXPECT_NEAR(found.ours, 1, (c.shared > 0 ? 0.03 : 0.05) + 3 * standard_error) << kCells[cell];
   }
   double sum = 0, square = 0, stated = 0, n = 0;
   for (const DrawnSurvey& each : drawn) sum += each.sum, square += each.squares, stated += each.stated, n += each.n;
@@ -153,9 +156,15 @@ INSTANTIATE_TEST_SUITE_P(Cases, NodesOfSurveys,
                          testing::Values(Case{"palmer_dense", ScanPattern::kPalmer, 0.45},
                                          Case{"palmer_sparse", ScanPattern::kPalmer, 1, true},
                                          Case{"raster_dense", ScanPattern::kRaster, 0.45},
-                                         Case{"raster_sparse", ScanPattern::kRaster, 1, true},
+                                         Case{"raster_sparse", ScanPattern::kRaster, 1},
                                          Case{"random_dense", ScanPattern::kRandom, 0.45},
-                                         Case{"random_sparse", ScanPattern::kRandom, 1}),
+                                         Case{"random_sparse", ScanPattern::kRandom, 1},
+                                         Case{"waves_of_palmer_dense", ScanPattern::kPalmer, 0.45, false, 0},
+                                         Case{"waves_of_palmer_sparse", ScanPattern::kPalmer, 1, false, 0},
+                                         Case{"waves_of_raster_dense", ScanPattern::kRaster, 0.45, false, 0},
+                                         Case{"waves_of_raster_sparse", ScanPattern::kRaster, 1, true, 0},
+                                         Case{"waves_of_random_dense", ScanPattern::kRandom, 0.45, false, 0},
+                                         Case{"waves_of_random_sparse", ScanPattern::kRandom, 1, false, 0}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace
