@@ -14,7 +14,8 @@ MADE = ("_pb2", "_pb2_grpc")  # By protoc; a test of the Python package holds th
 CODE = (".h", ".cc", ".py", ".sh", ".proto", ".cmake")
 WIRE = ("albtpu/v1/", "google/rpc/", "grpc/health/v1/")  # What protoc makes of proto/.
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
-SYSTEM = re.compile(r"(sys|arpa|netinet)/\w+\.h|(dlfcn|fcntl|limits|netdb|poll|pthread|spawn|stdio|stdlib|unistd)\.h")
+SYSTEM = re.compile(r"(sys|arpa|netinet)/\w+\.h|"
+                    r"(dlfcn|fcntl|limits|malloc|netdb|poll|pthread|spawn|stdio|stdlib|unistd)\.h")
 COMMAND = re.compile(r"^\s*(\w+)\s*\(", re.MULTILINE)
 
 
