@@ -185,8 +185,8 @@ std::string TotalText(const ordered_json& total) {
   absl::StrAppend(
       &text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m", "vertical, m (1 sigma)"));
   for (const auto& [name, source] : total["sources"].items()) {
-    const auto root = [&, &source = source](const char* axis) {
-      return source[axis].is_number() ? absl::StrFormat("%.4f", std::sqrt(source[axis].get<double>()))
+    const auto root = [&, &given = source](const char* axis) {
+      return given[axis].is_number() ? absl::StrFormat("%.4f", std::sqrt(given[axis].get<double>()))
                                       : std::string("no number");
     };
     absl::StrAppend(&text, absl::StrFormat("%-16s %-8s %18s %18s\n", name, source["group"].get<std::string>(),

@@ -23,6 +23,7 @@ namespace {
 using namespace config;
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr TomlKind kSpecificationFile = {"a specification file", "the limits", "the path of --spec"};
 constexpr double kMaxLimit = 1000;  // m
@@ -99,7 +100,6 @@ double Limit::At(double depth) const {
 }
 
 nlohmann::ordered_json LimitsJson(const Specification& specification) {
-  using Json = nlohmann::ordered_json;
   Json json = {{"name", specification.name},     {"title", specification.title}, {"edition", specification.edition},
                {"source", specification.source}, {"land", specification.land},   {"classes", Json::array()}};
   for (const SpecificationClass& of : specification.classes) {

@@ -10,7 +10,11 @@
 
 namespace albtpu::quality {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 void SurfaceTally::Add(const SurfaceNode& node) {
   if (node.points == 0) {

@@ -108,8 +108,8 @@ TEST(FootprintWaves, TravelTheirWay) {
   const auto [spectrum, k] = WaveAlong(axis);
   const double phase = 1.2, later = phase / AngularFrequency(k);
   const Eigen::Vector2d apart = phase / k * Eigen::Vector2d(std::cos(axis), std::sin(axis));
-  const auto heights = [&, &spectrum = spectrum](const WaveMotion& motion, double sign, double time) {
-    const FootprintWaves waves = MovingWaves(spectrum, motion).AtPoints();
+  const auto heights = [&, &line = spectrum](const WaveMotion& motion, double sign, double time) {
+    const FootprintWaves waves = MovingWaves(line, motion).AtPoints();
     return waves.Between(sign * apart, time).heights / waves.Between({0, 0}, 0).heights;
   };
   const WaveMotion there{.towards = axis}, back{.towards = axis + kPi}, both{.travel = WaveTravel::kBothWays};
