@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
 namespace {
@@ -15,7 +16,6 @@ constexpr double kSecchiProduct = 0.94, kOldSecchiProduct = 1.7;  // Kd Z; the o
 constexpr double kSystemFactor = 1.05;                            // of the decay of a lidar's echoes, over Kd
 constexpr double kDefaultOmega0 = 0.8, kDefaultOmega0Sigma = 0.1;
 constexpr double kMinFraction = 0.01, kMaxFraction = 0.03;
-constexpr double kMiddleFraction = 0.0183;
 
 // Standard deviations of ln Kd where none is given. A tenth is what instruments agree within; 0.26 is what ocean colour
 // reaches in coastal water; Secchi depths add 0.3 to it; a Jerlov type stands for half the step to its neighbours.
@@ -80,7 +80,7 @@ Attenuation AttenuationOf(const OpticsInput& given) {
     return {kJerlovKd[type], type < kOceanicTypes ? 1 : kSunCosine, kJerlov};
   }
   const double a = *given.absorption, b = *given.scattering;
-  const double fraction = given.backscatter_fraction.value_or(kMiddleFraction);
+  const double fraction = given.backscatter_fraction.value_or(kMeanBackscatterFraction);
   return {std::sqrt(a * a + 6 * fraction * a * b), 1, kMeasured};
 }
 

@@ -12,6 +12,7 @@
 #include "sea/sea_state.h"
 #include "sea/spectra/spectral_tail.h"
 #include "sea/water_index.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu::programs {
 
@@ -79,7 +80,7 @@ struct WaterPointOptions {
   double incidence = 0;                   // degree, in air
   double kd = 0, omega0 = 0;              // In place of the next two, which the flags then set.
   double absorption = 0, scattering = 0;  // 1/m
-  double backscatter_fraction = 0.0183;
+  double backscatter_fraction = kMeanBackscatterFraction;
   double depth = 0, field_of_view = 0;  // m; the field of view may be infinite
   double pulse_length = 0;              // ns
   double footprint = 0;                 // m

@@ -97,7 +97,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
       point.add_option("--omega0", options.omega0, "Single-scattering albedo, with --kd")->check(NumberIn(1e-4, 0.99));
   point
       .add_option("--backscatter-fraction", options.backscatter_fraction,
-                  "Share of scattered light that turns back (default: 0.0183)")
+                  absl::StrCat("Share of scattered light that turns back (default: ", kMeanBackscatterFraction, ")"))
       ->check(NumberIn(0.001, 0.1));
   point.add_option("--depth", options.depth, "Depth of the bottom below the surface [m]")
       ->required()

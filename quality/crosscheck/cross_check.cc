@@ -91,7 +91,7 @@ std::optional<CrossCheck> CheckPairs(PatchPairs& of_patches, double patch, const
   check.air_in_variance = air / (air + sea + line);
   check.line_in_variance = line / (air + sea + line);
   const PairGroups groups = GroupPairs(pairs, patch, waves);
-  check.pulse = FitPulses(PulseSamples(of_patches, groups, waves), check.median_factor);
+  check.pulse = FitPulses(SquaredDifferences(of_patches, groups, waves), check.median_factor);
   check.line = TestLines(groups);
   check.factor = OfBoth(check);
   check.guilty = NameOfGuilty(check);

@@ -36,9 +36,9 @@ struct Sums {
   }
 };
 
-Terms TermsOf(const PulseSample& sample) { return {sample.air, sample.sea, sample.distance}; }
+Terms TermsOf(const SquaredDifference& sample) { return {sample.air, sample.sea, sample.distance}; }
 
-double VarianceBy(const Terms& factors, const PulseSample& sample) {
+double VarianceBy(const Terms& factors, const SquaredDifference& sample) {
   const Terms terms = TermsOf(sample);
   double variance = sample.slope;
   for (std::size_t i = 0; i < kTerms; ++i) variance += factors[i] * terms[i];
@@ -98,9 +98,9 @@ Terms SolveNonNegative(const Sums& sums, unsigned allowed) {
 
 // Sums of each place, weighted by the inverse square of the variance that `factors` give: the variance of a squared
 // difference is twice its square.
-std::vector<Sums> SumPlaces(const std::vector<PulseSample>& samples, const Terms& factors, double rough) {
+std::vector<Sums> SumPlaces(const std::vector<SquaredDifference>& samples, const Terms& factors, double rough) {
   std::map<Place, Sums> places;
-  for (const PulseSample& sample : samples) {
+  for (const SquaredDifference& sample : samples) {
     const double weight = 1 / std::pow(VarianceBy(factors, sample), 2);
     const Terms terms = TermsOf(sample);
     const double square = sample.square - sample.slope;
@@ -164,8 +164,9 @@ bool LiesOnSide(const Estimate& interval, bool above) { return above ? interval.
 
 }  // namespace
 
-std::vector<PulseSample> PulseSamples(const PatchPairs& pairs, const PairGroups& groups, const SharedWaves& waves) {
-  std::vector<PulseSample> samples;
+std::vector<SquaredDifference> SquaredDifferences(const PatchPairs& pairs, const PairGroups& groups,
+                                                  const SharedWaves& waves) {
+  std::vector<SquaredDifference> samples;
   for (const PairGroup& cell : groups.cells) {
     const double n = cell.count();
     if (n < 2) continue;
@@ -200,11 +201,11 @@ std::vector<PulseSample> PulseSamples(const PatchPairs& pairs, const PairGroups&
                        .slope = pair.variance_slope,
                        .distance = std::pow(pair.distance, 2)});
   }
-  std::erase_if(samples, [](const PulseSample& sample) { return !(sample.air + sample.sea > 0); });
+  std::erase_if(samples, [](const SquaredDifference& sample) { return !(sample.air + sample.sea > 0); });
   return samples;
 }
 
-PulsePart FitPulses(const std::vector<PulseSample>& samples, double guess) {
+PulsePart FitPulses(const std::vector<SquaredDifference>& samples, double guess) {
   PulsePart part;
   part.factor.value = part.air.value = part.sea.value = std::nan("");
   if (samples.empty()) return part;

@@ -14,7 +14,7 @@
 
 namespace albtpu::quality {
 
-struct PulseSample {
+struct SquaredDifference {
   Place place;
   bool across = true;                  // Lines; otherwise of one line.
   double square = 0;                   // m^2
@@ -22,7 +22,8 @@ struct PulseSample {
   double distance = 0;                 // m^2, of the two points, squared.
 };
 
-std::vector<PulseSample> PulseSamples(const PatchPairs& pairs, const PairGroups& groups, const SharedWaves& waves);
+std::vector<SquaredDifference> SquaredDifferences(const PatchPairs& pairs, const PairGroups& groups,
+                                                  const SharedWaves& waves);
 
 struct PulsePart {
   Estimate factor;       // By which the predicted standard deviations would have to be multiplied; at 95 %.
@@ -45,6 +46,6 @@ inline constexpr double kTailOfPart = 0.01 / 4;
 // 11) on the scale of k: each place is left out in turn. Where the part differs, it is of the air side or of the sea if
 // only that one's interval, with the same tail, lies on that side of 1: waves that are not those of the prediction
 // share more or less than C says, which makes the other one err to the other side.
-PulsePart FitPulses(const std::vector<PulseSample>& samples, double guess);
+PulsePart FitPulses(const std::vector<SquaredDifference>& samples, double guess);
 
 }  // namespace albtpu::quality

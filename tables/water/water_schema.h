@@ -44,6 +44,9 @@ inline constexpr double kMinEchoEnergy = 0.003;
 constexpr std::size_t Index(WaterAxis axis) { return static_cast<std::size_t>(axis); }
 constexpr std::size_t Index(WaterQuantity quantity) { return static_cast<std::size_t>(quantity); }
 
+// The share of light that the mean ocean particle of Petzold scatters backwards (Mobley 1994, table 3.10).
+inline constexpr double kMeanBackscatterFraction = 0.0183;
+
 // Speed of light, m/ns: exact by the definition of the metre.
 inline constexpr double kLightSpeed = 0.299792458;
 

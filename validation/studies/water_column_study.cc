@@ -19,7 +19,7 @@ constexpr double kGroupIndex = 1.36;
 
 // Petzold's mean ocean particle.
 const PhaseFunction& Ocean() {
-  static const PhaseFunction ocean = PhaseFunction::FournierForand(0.0183);
+  static const PhaseFunction ocean = PhaseFunction::FournierForand(kMeanBackscatterFraction);
   return ocean;
 }
 
