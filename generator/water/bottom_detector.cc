@@ -203,31 +203,36 @@ std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length
   const double step = echo.step * static_cast<double>(factor), sigma = pulse_length * kSigmaOfWidth;
   const Window window = WithLight(echo, 2 * kReach * sigma);
   const std::vector<double> weights = Coarser(window.Of(echo.weights), factor);
-  const std::vector<double> ahead_weights = Coarser(window.Of(echo.ahead_weights), factor);
+  const std::vector<double> delays = Coarser(window.Of(echo.delays), factor);
+  const std::vector<double> losses = Coarser(window.Of(echo.losses), factor);
   const double first = echo.TimeAt(static_cast<double>(window.begin));
-  const Waveform wave(first, step, weights, sigma), ahead(first, step, ahead_weights, sigma);
+  const Waveform wave(first, step, weights, sigma), delayed(first, step, delays, sigma),
+      lost(first, step, losses, sigma);
   const std::optional<Shape> found = ShapeOf(wave);
   if (!found) return std::nullopt;
   const Shape& at = *found;
 
   DetectedBottom bottom;
   bottom.width = at.half_after - at.half;
-  // A bump delays the waveform y_x of its point x by its height, which changes the equation that each detector solves:
-  // y' = 0 at the peak, y(half) = y(peak) / 2, and the ratio of two integrals whose limits solve y = y(peak) / 10.
-  const Wave peak = wave.At(at.peak), ahead_peak = ahead.At(at.peak);
-  bottom.by[Index(Detector::kPeak)] = {at.peak, ahead_peak.curvature / peak.curvature};
+  // A tilt delays light and loses some of it, by which the waveform y changes by u = -delayed' - lost. That changes the
+  // equation that each detector solves: y' = 0 at the peak, y(half) = y(peak) / 2, and the ratio of two integrals whose
+  // limits solve y = y(peak) / 10.
+  const auto rise = [&](double time) { return -delayed.At(time).slope - lost.At(time).value; };
+  const double rise_of_slope = -delayed.At(at.peak).curvature - lost.At(at.peak).slope, peak = rise(at.peak);
+  bottom.by[Index(Detector::kPeak)] = {at.peak, -rise_of_slope / wave.At(at.peak).curvature};
   bottom.by[Index(Detector::kHalf)] = {at.half + pulse_length / 2,
-                                       (ahead.At(at.half).slope - 0.5 * ahead_peak.slope) / wave.At(at.half).slope};
-  const Area area = wave.Between(at.gate_begin, at.gate_end), ahead_area = ahead.Between(at.gate_begin, at.gate_end);
+                                       (0.5 * peak - rise(at.half)) / wave.At(at.half).slope};
+  const auto in_gate = [&](const Waveform& of) { return of.Between(at.gate_begin, at.gate_end); };
+  const Area area = in_gate(wave), lost_area = in_gate(lost);
   const double centroid = area.moment / area.total;
-  double kernel = ahead_area.total;
+  double change = in_gate(delayed).total - (lost_area.moment - centroid * lost_area.total);
   for (const double end : {at.gate_begin, at.gate_end}) {
-    const Wave of_all = wave.At(end), of_ahead = ahead.At(end);
-    const double moved = (kGate * ahead_peak.slope - of_ahead.slope) / of_all.slope;
-    const double edge = (end - centroid) * (of_ahead.value + of_all.value * moved);
-    kernel += end == at.gate_end ? -edge : edge;
+    const Wave there = wave.At(end);
+    const double moved = (kGate * peak - rise(end)) / there.slope;
+    const double edge = (end - centroid) * (there.value * moved - delayed.At(end).value);
+    change += end == at.gate_end ? edge : -edge;
   }
-  bottom.by[Index(Detector::kCentroid)] = {centroid, kernel / area.total};
+  bottom.by[Index(Detector::kCentroid)] = {centroid, change / area.total};
   return bottom;
 }
 
@@ -238,8 +243,8 @@ DetectedBottom ClearBottom(const EchoSetup& setup, double pulse_length) {
   const double sigma = std::hypot(pulse_length * kSigmaOfWidth, slope * spread);
   DetectedBottom bottom;
   bottom.width = sigma / kSigmaOfWidth;
-  bottom.by[Index(Detector::kHalf)] = {(pulse_length - bottom.width) / 2,
-                                       -slope * spread * spread * std::sqrt(2 * std::numbers::ln2) / sigma};
+  const double ahead = -slope * spread * spread * std::sqrt(2 * std::numbers::ln2) / sigma;
+  bottom.by[Index(Detector::kHalf)] = {(pulse_length - bottom.width) / 2, ahead / std::cos(setup.refracted)};
   return bottom;
 }
 

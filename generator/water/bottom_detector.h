@@ -1,4 +1,4 @@
-// The time at which a detector finds the bottom in an echo, and the part of the bottom that it measures.
+// The time at which a detector finds the bottom in an echo, and how a tilt of the bottom changes it.
 #pragma once
 
 #include <array>
@@ -19,12 +19,10 @@ inline constexpr std::array<Detector, 3> kDetectors = {Detector::kPeak, Detector
 inline constexpr std::array<std::string_view, 3> kDetectorNames = {"peak", "half", "centroid"};
 constexpr std::size_t Index(Detector detector) { return static_cast<std::size_t>(detector); }
 
-// In the units of Echo: times of 2 n_group z / c, lengths of z.
+// In the units of Echo: times of 2 n_group z / c.
 struct Detection {
   double time = 0;
-  // A bump of the bottom at x changes the time in proportion to a kernel of x (where the waveform of that point rises
-  // or falls at `time`); this is the mean of x over it.
-  double ahead = 0;
+  double by_tilt = 0;  // its change for each unit of the bottom's tilt
 };
 
 struct DetectedBottom {

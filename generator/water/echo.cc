@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "generator/math/random_stream.h"
@@ -14,15 +15,21 @@ namespace {
 constexpr std::uint32_t kPairs = 1 << 16;
 
 struct Arrival {
-  float excess, ahead, sideways, weight;
+  float excess, ahead, sideways, weight, forward, sidelong;
+
+  double secant() const { return std::sqrt(1 + double{forward} * forward + double{sidelong} * sidelong); }
 };
+
+// By half of this tilt the pairs at the edge of a field of view are moved inwards and outwards.
+constexpr double kTiltOfEdge = 0.2;
 
 std::vector<Arrival> ArrivalsOf(const Crossings& crossings, double absorption) {
   std::vector<Arrival> arrivals(crossings.excess.size());
   const auto scale = static_cast<float>(1 / crossings.depth);
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
-    arrivals[i] = {crossings.excess[i] * scale, crossings.ahead[i] * scale, crossings.sideways[i] * scale,
-                   static_cast<float>(std::exp(-absorption * crossings.excess[i]))};
+    arrivals[i] = {crossings.excess[i] * scale,   crossings.ahead[i] * scale,
+                   crossings.sideways[i] * scale, static_cast<float>(std::exp(-absorption * crossings.excess[i])),
+                   crossings.forward[i],          crossings.sidelong[i]};
   }
   return arrivals;
 }
@@ -118,26 +125,54 @@ std::vector<double> PairsOf(const std::vector<Arrival>& lit, const NearArrivals&
 Echo::Echo(double of_step)
     : step(of_step),
       weights(static_cast<std::size_t>((kLatest - kEarliest) / of_step) + 2),
-      ahead_weights(weights.size()) {}
+      delays(weights.size()),
+      losses(weights.size()) {}
 
-void Echo::Add(double time, double ahead_of, double weight) {
+namespace {
+
+// The sample before a time and the share of the sample after it.
+struct Place {
+  std::size_t bin;
+  double later;
+};
+
+std::optional<Place> PlaceOf(double time, const Echo& echo) {
+  const double place = (time - Echo::kEarliest) / echo.step;
+  if (!(place >= 0 && place < static_cast<double>(echo.weights.size() - 1))) return std::nullopt;
+  const auto bin = static_cast<std::size_t>(place);
+  return Place{bin, place - static_cast<double>(bin)};
+}
+
+}  // namespace
+
+void Echo::Add(double time, double ahead_of, double weight, const TiltOfPair& tilt) {
   energy += weight;
   ahead += weight * ahead_of;
   ahead_squared += weight * ahead_of * ahead_of;
-  const double place = (time - kEarliest) / step;
-  if (!(place >= 0 && place < static_cast<double>(weights.size() - 1))) return;
-  const auto bin = static_cast<std::size_t>(place);
-  const double later = weight * (place - static_cast<double>(bin)), earlier = weight - later;
+  const std::optional<Place> place = PlaceOf(time, *this);
+  if (!place) return;
+  const std::size_t bin = place->bin;
+  const double later = weight * place->later, earlier = weight - later;
   weights[bin] += earlier;
   weights[bin + 1] += later;
-  ahead_weights[bin] += earlier * ahead_of;
-  ahead_weights[bin + 1] += later * ahead_of;
+  delays[bin] += earlier * tilt.delay;
+  delays[bin + 1] += later * tilt.delay;
+  losses[bin] += earlier * tilt.loss;
+  losses[bin + 1] += later * tilt.loss;
+}
+
+void Echo::AddLoss(double time, double weight) {
+  if (const std::optional<Place> place = PlaceOf(time, *this)) {
+    losses[place->bin] += weight * (1 - place->later);
+    losses[place->bin + 1] += weight * place->later;
+  }
 }
 
 Echo& Echo::operator+=(const Echo& other) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     weights[i] += other.weights[i];
-    ahead_weights[i] += other.ahead_weights[i];
+    delays[i] += other.delays[i];
+    losses[i] += other.losses[i];
   }
   energy += other.energy;
   ahead += other.ahead;
@@ -146,8 +181,8 @@ Echo& Echo::operator+=(const Echo& other) {
 }
 
 Echo& Echo::operator*=(double factor) {
-  for (double& weight : weights) weight *= factor;
-  for (double& weight : ahead_weights) weight *= factor;
+  for (std::vector<double>* column : {&weights, &delays, &losses})
+    for (double& weight : *column) weight *= factor;
   energy *= factor;
   ahead *= factor;
   ahead_squared *= factor;
@@ -167,6 +202,7 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
   const std::vector<Arrival> lit = ArrivalsOf(sources, setup.absorption);
   const double cosine = std::cos(setup.incidence), radius = setup.field_of_view / 2;
   const double lag = std::sin(setup.incidence) / (2 * setup.group_index);
+  const double absorption = setup.absorption * sources.depth;
   const NearArrivals seen(ArrivalsOf(receivers, setup.absorption), radius / cosine, radius);
   const double spread = setup.footprint / 4;
   const std::vector<double> pairs_of = PairsOf(lit, seen, setup.pairs_per_photon * static_cast<double>(lit.size()));
@@ -192,13 +228,27 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
       if (!(near.weight > 0)) continue;
       const Arrival& receiver = seen.Pick(near, pick);
       const double exit_x = x - receiver.ahead, exit_y = y - receiver.sideways;
-      const double diameter = 2 * std::sqrt(exit_x * exit_x * cosine * cosine + exit_y * exit_y);
+      const double apart_x = source.forward - receiver.forward, apart_y = mirror * source.sidelong - receiver.sidelong;
       // The smallest field of view that sees it; wider ones are summed up below.
-      const auto least = std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter);
-      if (least == fields_of_view.end()) continue;
-      const double time = (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x);
-      echoes[static_cast<std::size_t>(least - fields_of_view.begin())].Add(time, x,
-                                                                           source.weight * near.weight / pairs_of[i]);
+      const auto least = [&](double tilt) {
+        const double along = (exit_x + tilt * x * apart_x) * cosine, across = exit_y + tilt * x * apart_y;
+        const double diameter = 2 * std::sqrt(along * along + across * across);
+        return static_cast<std::size_t>(std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter) -
+                                        fields_of_view.begin());
+      };
+      const double longer = source.secant() + receiver.secant();
+      const TiltOfPair by_tilt{.delay = x * (longer / 2 + lag * apart_x),
+                               .loss = x * absorption * longer + receiver.forward};
+      const double time =
+          (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x) + setup.tilt * by_tilt.delay;
+      const double weight = source.weight * near.weight / pairs_of[i] * std::exp(-setup.tilt * by_tilt.loss);
+      const std::size_t view = least(setup.tilt);
+      if (view < echoes.size()) echoes[view].Add(time, x, weight, by_tilt);
+      const std::size_t fallen = least(setup.tilt + kTiltOfEdge / 2), risen = least(setup.tilt - kTiltOfEdge / 2);
+      if (fallen != risen) {
+        if (fallen < echoes.size()) echoes[fallen].AddLoss(time, -weight / kTiltOfEdge);
+        if (risen < echoes.size()) echoes[risen].AddLoss(time, weight / kTiltOfEdge);
+      }
     }
   }
   const double pairs = static_cast<double>(sources.launched) * receivers.launched;

@@ -15,14 +15,30 @@
 
 namespace albtpu {
 
+// A bottom that falls ahead by the tilt s has the depth 1 + s x. To first order in s, a photon goes on straight to it:
+// that it may scatter on the added way h moves it by a distance of order h with a probability of order h. With the
+// ways u along and across the beam for each length down and w = sqrt(1 + u^2), photon i meets the bottom s x w_i later
+// and s x u_i farther ahead; photon j from the receiver likewise, which must therefore leave the surface at
+//     e = x - x_j + s x (u_i - u_j).
+// The time of the pair grows by s x [(w_i + w_j) / 2 + sin(incidence) (u_i - u_j) / (2 n_group)]. Absorption takes the
+// fraction s x a (w_i + w_j) of it, the light from the receiver thins out on the bottom as 1 - s u_j, and pairs enter or
+// leave the field of view.
+
 struct EchoSetup {
   double incidence = 0;             // in air [radian]
+  double refracted = 0;             // the angle in the water [radian]
   double group_index = 1.36;        // above 1
   double absorption = 0;            // over scattering
   double footprint = 0;             // 1/e^2 diameter of the Gaussian beam, across it, over z
   double field_of_view = INFINITY;  // diameter of the receiver's disc on the surface, across the beam, over z
+  double tilt = 0;                  // of the bottom, to first order for each photon
   double step = 0;                  // of the times
   int pairs_per_photon = 1;
+};
+
+// How a pair changes for each unit of the bottom's tilt: by what time it is later, and which fraction of it is lost.
+struct TiltOfPair {
+  double delay = 0, loss = 0;
 };
 
 // Weights of pairs over their time, and sums over all pairs. Weights are relative to unscattered light: without
@@ -31,14 +47,17 @@ struct Echo {
   static constexpr double kEarliest = -2, kLatest = 5;  // Pairs outside count in the sums alone.
 
   double step;
-  std::vector<double> weights;        // at kEarliest + i * step; a pair is split between its two neighbours
-  std::vector<double> ahead_weights;  // times the point on the bottom, ahead of where unscattered light meets it
-  double energy = 0;                  // of all pairs
+  std::vector<double> weights;         // at kEarliest + i * step; a pair is split between its two neighbours
+  std::vector<double> delays, losses;  // the weights times those of TiltOfPair
+  double energy = 0;                   // of all pairs
+  // Times the point on the bottom, ahead of where unscattered light meets it, and its square.
   double ahead = 0, ahead_squared = 0;
 
   explicit Echo(double of_step = 1);
 
-  void Add(double time, double ahead_of, double weight);  // a pair
+  void Add(double time, double ahead_of, double weight, const TiltOfPair& tilt);  // a pair
+  // A fraction of light that is lost to a tilt alone, as at the edge of a field of view.
+  void AddLoss(double time, double weight);
   double TimeAt(double i) const { return kEarliest + i * step; }
   Echo& operator+=(const Echo& other);  // of the same step
   Echo& operator*=(double factor);

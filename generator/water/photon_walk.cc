@@ -15,6 +15,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kSmallestAngle = 1e-9;
 constexpr int kNodes = 8000;
 constexpr std::size_t kGuides = 1 << 16;
+// The cosine from the vertical below which a photon counts as this steep. The way of a flatter one to a tilted plane is
+// not in proportion to the tilt, and of all light some thousandths are so flat.
+constexpr double kFlattest = 0.1;
 
 double Square(double x) { return x * x; }
 
@@ -165,7 +168,8 @@ std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& 
   for (std::size_t i = 0; i < depths.size(); ++i) {
     planes[i].depth = depths[i];
     planes[i].launched = photons;
-    for (std::vector<float>* column : {&planes[i].excess, &planes[i].ahead, &planes[i].sideways})
+    Crossings& plane = planes[i];
+    for (std::vector<float>* column : {&plane.excess, &plane.ahead, &plane.sideways, &plane.forward, &plane.sidelong})
       column->reserve(photons);
   }
   const Heading down{std::sin(setup.refracted), 0, std::cos(setup.refracted)};
@@ -194,6 +198,9 @@ std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& 
         plane.excess.push_back(static_cast<float>(there.path - depths[next] / down.z));
         plane.ahead.push_back(static_cast<float>(there.x - depths[next] * (down.x / down.z)));
         plane.sideways.push_back(static_cast<float>(there.y));
+        const double down_least = std::max(there.heading.z, kFlattest);
+        plane.forward.push_back(static_cast<float>(there.heading.x / down_least));
+        plane.sidelong.push_back(static_cast<float>(there.heading.y / down_least));
       }
       if (next == depths.size()) break;
       photon.Move(free);

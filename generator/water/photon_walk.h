@@ -65,6 +65,8 @@ struct Crossings {
   std::vector<float> excess;    // path down to it less depth / cos(refracted)
   std::vector<float> ahead;     // along the beam, from where unscattered light meets it
   std::vector<float> sideways;  // across the beam
+  // The ways along and across the beam for each length down, in the direction in which it met the plane.
+  std::vector<float> forward, sidelong;
 };
 
 struct WalkSetup {

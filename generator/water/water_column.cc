@@ -16,6 +16,7 @@ constexpr double kNarrow = 0.25;
 
 EchoSetup SetupOf(const WaterColumn& column, std::span<const double> pulse_lengths, int pairs_per_photon) {
   return {.incidence = column.incidence,
+          .refracted = RefractedAngle(column.incidence, column.refractive_index),
           .group_index = column.group_index,
           .absorption = column.absorption,
           .footprint = column.footprint,
@@ -76,8 +77,10 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
       const auto deep = [&](const DetectedBottom& of) {
         return (of.by[d].time - clear.by[d].time) * std::cos(refracted);
       };
+      // On a bottom of tilt s the reported depth is wrong by s times this: the part of the bottom that is measured lies
+      // so far behind the reported point.
       const auto along = [&](const DetectedBottom& of) {
-        return deep(of) * std::tan(refracted) - (of.by[d].ahead - clear.by[d].ahead);
+        return deep(of) * std::tan(refracted) - (of.by[d].by_tilt - clear.by[d].by_tilt) * std::cos(refracted);
       };
       detected.vertical[d] = estimate(-deep(*bottom), [&](std::size_t i) { return -deep(others[i]); });
       detected.along[d] = estimate(along(*bottom), [&](std::size_t i) { return along(others[i]); });

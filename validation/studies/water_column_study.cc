@@ -142,14 +142,15 @@ void AddRoundTrips(const StudyOptions& options, Study& study) {
                        .depth = depth,
                        .field_of_view = kWide.field_of_view,
                        .footprint = kWide.footprint};
-  const WaterColumnBias trips = BiasOfEchoes(
-      TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 25'000 : 1'000'000, options.seed), column,
-      pulses);
+  const WaterColumnBias trips =
+      BiasOfEchoes(TraceRoundTrips(Ocean(), trip, pulses[0] / 30, 16, options.quick ? 25'000 : 1'000'000, options.seed),
+                   column, pulses);
   const WalkSetup beam{.refracted = RefractedAngle(column.incidence, kSeaWaterIndex),
                        .longest_excess = 14 / column.absorption};
   WalkSetup receiver = beam;
   receiver.cone = trip.cone;
   const EchoSetup setup{.incidence = column.incidence,
+                        .refracted = beam.refracted,
                         .group_index = kGroupIndex,
                         .absorption = column.absorption,
                         .footprint = column.footprint,

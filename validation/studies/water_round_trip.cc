@@ -30,7 +30,7 @@ std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& t
       const double excess = photon.path - 2 * unscattered;
       const double weight = std::exp(-trip.absorption * excess) / in_cone / photons;
       const double time = (excess / 2 + lag * (entry + photon.at.x())) / trip.depth;
-      echo.Add(time, ahead, weight);
+      echo.Add(time, ahead, weight, {.delay = ahead / down.z()});
     }
   });
   return echoes;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 namespace albtpu {
 namespace {
 
@@ -78,6 +81,52 @@ TEST(WaterColumn, SeenWholeDelaysByTheMeanPathOfTwoPhotons) {
     }
     EXPECT_NEAR(echo.energy, std::pow(weights / 200'000, 2), 0.005) << incidence;
     EXPECT_NEAR(time / total, excess / weights / depth, 0.003) << incidence;
+  }
+}
+
+// Every pair of some photons that go on straight to a bottom of depth 1 + tilt x, with no expansion in the tilt.
+Echo OnATiltedBottom(const Crossings& photons, const EchoSetup& setup, double tilt) {
+  Echo echo(setup.step);
+  const double scale = 1 / photons.depth, lag = std::sin(setup.incidence) / (2 * setup.group_index);
+  const auto secant = [&](std::size_t i) { return std::hypot(1.0, photons.forward[i], photons.sidelong[i]); };
+  for (std::size_t i = 0; i < photons.excess.size(); ++i) {
+    const double u = photons.forward[i], deeper = tilt * photons.ahead[i] * scale / (1 - tilt * u);
+    const double x = photons.ahead[i] * scale + deeper * u;
+    for (std::size_t j = 0; j < photons.excess.size(); ++j) {
+      for (const int mirror : {-1, 1}) {
+        const double y = mirror * (photons.sideways[i] * scale + deeper * photons.sidelong[i]);
+        const double exit_x = x - photons.ahead[j] * scale - deeper * photons.forward[j];
+        const double exit_y = y - photons.sideways[j] * scale - deeper * photons.sidelong[j];
+        if (std::hypot(exit_x * std::cos(setup.incidence), exit_y) > setup.field_of_view / 2) continue;
+        const double excess = (photons.excess[i] + photons.excess[j]) * scale + deeper * (secant(i) + secant(j));
+        // Receivers that start evenly on the surface meet a tilted bottom as densely as this.
+        const double density = 1 - tilt * photons.forward[j];
+        echo.Add(excess / 2 + lag * exit_x, x, density * std::exp(-setup.absorption * photons.depth * excess), {});
+      }
+    }
+  }
+  return echo;
+}
+
+TEST(WaterColumn, AnswersToATiltAsPhotonsThatGoOnStraight) {
+  const double depths[] = {2.8}, pulse = 0.2, tilt = 0.02;
+  const auto planes = WalkPhotons(kOcean, {.refracted = 0.25}, depths, 1500, 1, 0, 0);
+  const EchoSetup setup{.incidence = 0.34,
+                        .refracted = 0.25,
+                        .absorption = 0.25,
+                        .field_of_view = 0.4,
+                        .step = 0.005,
+                        .pairs_per_photon = 2000};
+  const auto level = DetectBottom(PairPhotons(planes[0], planes[0], setup, 1, 0, 0), pulse);
+  const auto falls = DetectBottom(OnATiltedBottom(planes[0], setup, tilt), pulse);
+  const auto rises = DetectBottom(OnATiltedBottom(planes[0], setup, -tilt), pulse);
+  ASSERT_TRUE(level && falls && rises);
+  for (const Detector detector : kDetectors) {
+    const std::size_t d = Index(detector);
+    const double seen = (falls->by[d].time - rises->by[d].time) / (2 * tilt);
+    std::printf("%-9s %9.5f by tilted bottoms, %9.5f by the change of pairs\n", kDetectorNames[d].data(), seen,
+                level->by[d].by_tilt);
+    EXPECT_NEAR(level->by[d].by_tilt, seen, 7e-4) << kDetectorNames[d];
   }
 }
 

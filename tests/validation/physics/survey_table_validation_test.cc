@@ -105,7 +105,13 @@ constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
 // refraction.
 constexpr double kSteep = 0.0015;
 
-// The rms difference of biases along the beam is 1.6 times the standard errors that the tables state of them.
+// All nodes are of the same random numbers, so that biases along the beam, which the longest waves under the footprint
+// make, have nearly one error: over a hundred seeds, the rms of it over 64 nodes is 0.4 to 2.1 times the standard errors
+// that they state. So it may be this many.
+constexpr double kSharedErrors = 2;
+
+// The triangles of a grid that holds nearly all waves have slopes along one diagonal that the waves have not: up to 3 %
+// of a bias in between the axes, under 0.2 m.
 constexpr double kBiasAlongBeam = 0.03;
 
 // The beam of a node, in words.
@@ -137,7 +143,7 @@ Bound BoundOf(Quantity quantity) {
     case Quantity::kTvu:
       return {0.0005, kPatchAndRays, kPatchAndRays};
     case Quantity::kBiasAlongBeam:
-      return {0.0035, kBiasAlongBeam, kBiasAlongBeam};
+      return {0.0035, 2 * kPatchAndRays, kBiasAlongBeam};
     case Quantity::kBiasVertical:
       return {0.0005, 2 * kPatchAndRays, 2 * kPatchAndRays};
   }
@@ -197,7 +203,8 @@ TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
       std::printf("  theory over table %.4f +- %.4f: %s\n", ours[worst_node] / traced[worst_node],
                   variable.standard_errors[worst_node] / std::abs(traced[worst_node]),
                   NodeOf(*table, worst_node / columns).c_str());
-      EXPECT_LT(rms, std::hypot(bound.rms, stated)) << Describe(quantity).name << " at " << depths[d] << " m";
+      const double shared = quantity == Quantity::kBiasAlongBeam ? kSharedErrors : 1;
+      EXPECT_LT(rms, std::hypot(bound.rms, shared * stated)) << Describe(quantity).name << " at " << depths[d] << " m";
       EXPECT_EQ(beyond, 0) << Describe(quantity).name << " at " << depths[d] << " m";
     }
   }

@@ -76,9 +76,9 @@ Echo Meet(const std::vector<Arrival>& lit, std::vector<Arrival> seen, const Wave
     const auto [begin, end] = std::equal_range(seen.begin(), seen.end(), source, before);
     for (int k = 0; k < kPairs && begin != end; ++k) {
       const Arrival& receiver = begin[static_cast<std::ptrdiff_t>(Uniform(random) * static_cast<double>(end - begin))];
-      echo.Add((source.time + receiver.time) / 2 / at.trip.depth,
-               ((source.x + receiver.x) / 2 - straight) / at.trip.depth,
-               source.weight * receiver.weight * static_cast<double>(end - begin));
+      const double ahead = ((source.x + receiver.x) / 2 - straight) / at.trip.depth;
+      echo.Add((source.time + receiver.time) / 2 / at.trip.depth, ahead,
+               source.weight * receiver.weight * static_cast<double>(end - begin), {.delay = ahead});
     }
   }
   return echo;
@@ -113,7 +113,8 @@ class Simulation {
     Errors errors;
     for (std::size_t d = 0; d < errors.size(); ++d) {
       const double late = bottom.by[d].time * at_.trip.depth;
-      errors[d] = {late * std::sin(refracted) - bottom.by[d].ahead * at_.trip.depth, -late * std::cos(refracted)};
+      // The part of the bottom that is measured, as the light is delayed by its point.
+      errors[d] = {late * std::sin(refracted) - bottom.by[d].by_tilt * at_.trip.depth, -late * std::cos(refracted)};
     }
     return errors;
   }
