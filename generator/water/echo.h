@@ -21,8 +21,8 @@ namespace albtpu {
 // and s x u_i farther ahead; photon j from the receiver likewise, which must therefore leave the surface at
 //     e = x - x_j + s x (u_i - u_j).
 // The time of the pair grows by s x [(w_i + w_j) / 2 + sin(incidence) (u_i - u_j) / (2 n_group)]. Absorption takes the
-// fraction s x a (w_i + w_j) of it, the light from the receiver thins out on the bottom as 1 - s u_j, and pairs enter or
-// leave the field of view.
+// fraction s x a (w_i + w_j) of it, the light from the receiver thins out on the bottom as 1 - s u_j, and pairs enter
+// or leave the field of view.
 
 struct EchoSetup {
   double incidence = 0;             // in air [radian]

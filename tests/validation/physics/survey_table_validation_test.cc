@@ -106,8 +106,8 @@ constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
 constexpr double kSteep = 0.0015;
 
 // All nodes are of the same random numbers, so that biases along the beam, which the longest waves under the footprint
-// make, have nearly one error: over a hundred seeds, the rms of it over 64 nodes is 0.4 to 2.1 times the standard errors
-// that they state. So it may be this many.
+// make, have nearly one error: over a hundred seeds, the rms of it over 64 nodes is 0.4 to 2.1 times the standard
+// errors that they state. So it may be this many.
 constexpr double kSharedErrors = 2;
 
 // The triangles of a grid that holds nearly all waves have slopes along one diagonal that the waves have not: up to 3 %
