@@ -20,27 +20,50 @@ class ArithmeticEncoder {
   template <int kMost>
   using Model = SymbolModel<kMost, false>;
 
+  // The interval of what was coded so far, for loops that work on some encoders at a time.
+  struct Interval {
+    // Where it begins: the 32 bits that are still open, and above them the last four bytes that were written, so that
+    // a carry reaches these without a look at the memory.
+    std::uint64_t begin = 0;
+    std::uint32_t length = 0xFFFFFFFFu;
+  };
+  static constexpr std::uint32_t kLeastLength = 1u << 24;
+  // The written bytes that `begin` has, and the bytes behind them that each step writes ahead.
+  static constexpr std::size_t kOpenBytes = 4;
+
   void Begin() {
     if (bytes_->empty()) bytes_->resize(kMinRoom);
-    room_ = RoomBehind(0, *bytes_);
-    base_ = 0;
-    length_ = 0xFFFFFFFFu;
+    interval_ = Interval();
+    room_ = RoomBehind(kOpenBytes, *bytes_);  // No carry leads to those before.
+  }
+
+  const Interval& interval() const { return interval_; }
+  // The place of the next byte, where so many more have room.
+  char* Reserve(std::size_t count) {
+    while (room_.next + count > room_.last) room_ = Grow(room_.next, *bytes_);
+    return room_.next;
+  }
+  // Once the bytes before `next` are written.
+  void Continue(const Interval& interval, char* next) {
+    interval_ = interval;
+    room_.next = next;
   }
 
   template <int kMost>
   [[gnu::always_inline]] std::uint32_t Symbol(SymbolModel<kMost, false>& model, std::uint32_t symbol) {
     model.Prepare();
-    const std::uint32_t part = length_ >> kProbabilityBits;
+    const std::uint32_t part = interval_.length >> kProbabilityBits;
     const std::uint32_t below = model.Below(symbol) * part;
-    length_ = (symbol == model.last_symbol() ? length_ : model.Below(symbol + 1) * part) - below;
+    interval_.length =
+        (symbol == model.last_symbol() ? interval_.length : model.Below(symbol + 1) * part) - below;
     Raise(below);
     model.Count(symbol);
     return symbol;
   }
 
   [[gnu::always_inline]] void Bit(BitModel& model, bool bit) {
-    const std::uint32_t zero = model.zero() * (length_ >> BitModel::kProbabilityBits);
-    length_ = bit ? length_ - zero : zero;
+    const std::uint32_t zero = model.zero() * (interval_.length >> BitModel::kProbabilityBits);
+    interval_.length = bit ? interval_.length - zero : zero;
     Raise(bit ? zero : 0);
     model.Count(bit);
   }
@@ -50,9 +73,9 @@ class ArithmeticEncoder {
     int low_count = 0;
     if (count > 19) {
       low_count = 16;
-      Raise((bits & 0xFFFF) * (length_ >>= low_count));
+      Raise((bits & 0xFFFF) * (interval_.length >>= low_count));
     }
-    Raise((bits >> low_count) * (length_ >>= count - low_count));
+    Raise((bits >> low_count) * (interval_.length >>= count - low_count));
     return bits;
   }
 
@@ -62,28 +85,41 @@ class ArithmeticEncoder {
     return bits;
   }
 
-  // Ends the stream and gives its bytes: as many as a decoder reads, which is always 4 ahead.
-  std::string Finish() {
-    const bool short_end = length_ > 2 * kLeastLength;
-    length_ = short_end ? kLeastLength >> 1 : kLeastLength >> 9;
+  // Takes the part of the interval that begins `by` behind its begin and has this length, which is not 0.
+  [[gnu::always_inline]] void Narrow(std::uint32_t by, std::uint32_t length) {
+    interval_.length = length;
+    Raise(by);
+  }
+
+  // Ends the stream and appends its bytes to others: as many as a decoder reads, which is always 4 ahead.
+  void Finish(std::string& bytes) {
+    const bool short_end = interval_.length > 2 * kLeastLength;
+    interval_.length = short_end ? kLeastLength >> 1 : kLeastLength >> 9;
     Raise(short_end ? kLeastLength : kLeastLength >> 1);
-    return std::string(bytes_->data(), room_.next).append(short_end ? 3 : 2, '\0');
+    const char* const begin = bytes_->data() + kOpenBytes;
+    bytes.append(begin, static_cast<std::size_t>(room_.next - begin));
+    bytes.append(short_end ? 3 : 2, '\0');
+  }
+  std::string Finish() {
+    std::string bytes;
+    Finish(bytes);
+    return bytes;
   }
 
  private:
-  static constexpr std::uint32_t kLeastLength = 1u << 24;
   static constexpr std::size_t kMinRoom = 4096;  // Bytes.
 
   // Moves the begin of the interval, and then shifts bytes out of it until it is at least kLeastLength long.
   [[gnu::always_inline]] void Raise(std::uint32_t by) {
-    base_ += by;
-    if (base_ < by) Carry(room_.next);
-    const std::uint32_t bytes = std::uint32_t{length_ < 1u << 24} + (length_ < 1u << 16) + (length_ < 1u << 8);
-    const std::uint32_t first = __builtin_bswap32(base_);
-    std::memcpy(room_.next, &first, sizeof first);  // The next ones overwrite those behind `bytes`.
-    room_.next += bytes;
-    base_ <<= 8 * bytes;
-    length_ <<= 8 * bytes;
+    interval_.begin += by;
+    if (interval_.begin < by) [[unlikely]]
+      Carry(room_.next - kOpenBytes);
+    const std::uint64_t bytes = __builtin_bswap64(interval_.begin);
+    std::memcpy(room_.next - kOpenBytes, &bytes, sizeof bytes);  // The next ones overwrite the open bits.
+    const int bits = __builtin_clz(interval_.length) & 24;
+    interval_.begin <<= bits;
+    interval_.length <<= bits;
+    room_.next += bits / 8;
     if (room_.next > room_.last) [[unlikely]]
       room_ = Grow(room_.next, *bytes_);
   }
@@ -106,10 +142,10 @@ class ArithmeticEncoder {
   }
 
   static Room RoomBehind(std::size_t size, std::vector<char>& bytes) {
-    return {bytes.data() + size, bytes.data() + bytes.size() - sizeof(std::uint32_t)};
+    return {bytes.data() + size, bytes.data() + bytes.size() - kOpenBytes};
   }
 
-  std::uint32_t base_ = 0, length_ = 0xFFFFFFFFu;
+  Interval interval_;
   Room room_;
   std::unique_ptr<std::vector<char>> bytes_ = std::make_unique<std::vector<char>>();
 };

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "laz/items/color_layers.h"
+#include "laz/items/extra_bytes_encoder.h"
 #include "laz/items/extra_bytes_layers.h"
 #include "laz/items/field_layers.h"
 #include "laz/items/integer_fields.h"
@@ -72,6 +74,8 @@ class LayeredPoint {
   }
 
  private:
+  using ExtraBytes = std::conditional_t<Coder::kEncodes, ExtraBytesEncoder, ExtraBytesLayers<Coder>>;
+
   template <template <typename> typename Layer, typename... Arguments>
   void Add(Arguments&&... arguments) {
     layers_.push_back(std::make_unique<Layer<Coder>>(arguments...));
@@ -101,7 +105,7 @@ class LayeredPoint {
         Add<WavePacketLayer>(place);
         break;
       case ItemType::kByte14:
-        Add<ExtraBytesLayers>(place, item.size);
+        layers_.push_back(std::make_unique<ExtraBytes>(place, item.size));
         break;
       default:
         assert(false && "items of formats 0 to 5 have no layers");

@@ -19,7 +19,7 @@ void PointwiseEncoder::Encode(std::string_view records, std::string& chunk) {
   ArithmeticEncoder encoder = std::move(encoder_);  // Its state stays in registers here.
   for (std::size_t i = record_length_; i < records.size(); i += record_length_)
     items_.Code(encoder, records.data() + i);
-  chunk += encoder.Finish();
+  encoder.Finish(chunk);
   encoder_ = std::move(encoder);
 }
 
@@ -52,9 +52,9 @@ void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
   std::size_t size_offset = record_length_ + sizeof(std::uint32_t);
   for (auto& stream : point_.streams()) {
     if (stream.present) {
-      const std::string& layer = stream.coder.Finish();
-      StoreCount(layer.size(), &chunk[size_offset]);
-      chunk += layer;
+      const std::size_t begin = chunk.size();
+      stream.coder.Finish(chunk);
+      StoreCount(chunk.size() - begin, &chunk[size_offset]);
     }
     size_offset += sizeof(std::uint32_t);
   }

@@ -16,6 +16,7 @@ class RecordRun {
       : first_(first), record_length_(record_length), count_(count) {}
 
   std::size_t count() const { return count_; }
+  std::size_t record_length() const { return record_length_; }
   Byte* operator[](std::size_t i) const { return first_ + i * record_length_; }
 
   // Whether the condition holds for one of the records, up to which they are looked at.

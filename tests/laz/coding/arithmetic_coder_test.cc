@@ -92,6 +92,47 @@ TEST(ArithmeticCoder, CarriesIntoBytesThatAreWrittenAlready) {
   }
 }
 
+// As in the paper: a carry looks at the bytes that are written already.
+class PlainEncoder {
+ public:
+  void Narrow(std::uint32_t by, std::uint32_t length) {
+    base_ += by;
+    if (base_ < by) {
+      std::size_t at = bytes_.size() - 1;
+      while (bytes_[at] == '\xFF') bytes_[at--] = 0;
+      ++bytes_[at];
+    }
+    for (length_ = length; length_ < 1u << 24; length_ <<= 8, base_ <<= 8) bytes_ += static_cast<char>(base_ >> 24);
+  }
+  std::uint32_t length() const { return length_; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::uint32_t base_ = 0, length_ = 0xFFFFFFFF;
+  std::string bytes_;
+};
+
+TEST(ArithmeticEncoder, WritesTheBytesOfAPlainEncoder) {
+  std::mt19937 random(1);
+  for (int run = 0; run < 300; ++run) {
+    ArithmeticEncoder encoder;
+    encoder.Begin();
+    PlainEncoder plain;
+    // The last part of the interval again and again gives long runs of 0xFF, in some of which a carry ends.
+    for (int i = 0; i < 2000; ++i) {
+      const std::uint32_t length = plain.length(), part = 1 + random() % (length >> random() % 16);
+      const bool is_last = run % 3 > 0 && random() % 300 > 0;
+      const std::uint32_t by = is_last ? length - part : random() % (length - part + 1);
+      encoder.Narrow(by, part);
+      plain.Narrow(by, part);
+    }
+    ASSERT_GT(plain.bytes().size(), 100u);
+    const bool short_end = plain.length() > 1u << 25;  // As of LASzip.
+    plain.Narrow(short_end ? 1u << 24 : 1u << 23, short_end ? 1u << 23 : 1u << 15);
+    EXPECT_EQ(encoder.Finish(), plain.bytes() + std::string(short_end ? 3 : 2, '\0')) << run;
+  }
+}
+
 TEST(ArithmeticDecoder, CountsTheBytesThatAreMissing) {
   const std::string bytes = "\x80\x40";
   const MemorySource source(bytes);
