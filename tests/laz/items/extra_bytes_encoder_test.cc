@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "laz/items/extra_bytes_layers.h"
+#include "tests/instruction_sets.h"
 
 namespace albtpu::laz {
 namespace {
+
+using albtpu::testing::OnInstructionSet;
 
 constexpr std::size_t kOffset = 30;
 
@@ -90,7 +94,10 @@ std::vector<std::string> Encode(Layers<ArithmeticEncoder>& layers, const Records
   return encoded;
 }
 
-TEST(ExtraBytesEncoder, GivesTheBytesOfAPlainEncoder) {
+using ExtraBytesLanes = OnInstructionSet;
+ALBTPU_ON_EACH_INSTRUCTION_SET(ExtraBytesLanes);
+
+TEST_P(ExtraBytesLanes, GiveTheBytesOfAPlainEncoder) {
   for (const std::size_t extra_bytes : {1, 2, 7, 8, 9, 16, 23, 61, 115}) {
     const ItemPlace place = {.offset = kOffset, .version3 = true};
     ExtraBytesEncoder encoder(place, extra_bytes);  // Of chunk after chunk, in which other bytes change.
