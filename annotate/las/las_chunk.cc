@@ -1,5 +1,6 @@
 #include "annotate/las/las_chunk.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,6 +12,13 @@
 namespace albtpu::annotate {
 
 using laz::Store;
+
+namespace {
+
+// Points whose columns stay in the cache of a core: some 100 numbers each.
+constexpr std::size_t kBlockPoints = 4096;
+
+}  // namespace
 
 std::set<int> LasAnnotation::ClassesOf(int point_format) const {
   return classes.has_value() ? *classes : formats::DefaultClasses(point_format);
@@ -68,7 +76,11 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   Begin(chunk);
-  for (const Scanner& scanner : scanners_) RETURN_IF_ERROR(Annotate(scanner, chunk));
+  for (chunk.begin = 0; chunk.begin < chunk.own; chunk.begin = chunk.end) {
+    chunk.end = std::min(chunk.begin + kBlockPoints, chunk.own);
+    CopyRecords(chunk);
+    for (const Scanner& scanner : scanners_) RETURN_IF_ERROR(Annotate(scanner, chunk));
+  }
   if (csv_ != nullptr) {
     chunk.csv.clear();
     csv_->Append(chunk.annotated, chunk.own, record_length_, record_length_ + no_data_.size(), chunk.csv);
@@ -140,11 +152,14 @@ void LasChunkWork::Begin(Chunk& chunk) const {
     else
       ++chunk.dry_without_channel;
   }
+  chunk.annotated.resize(chunk.own * (record_length_ + no_data_.size()));
+}
+
+void LasChunkWork::CopyRecords(Chunk& chunk) const {
   const std::size_t appended = no_data_.size();
   const std::size_t annotated_length = record_length_ + appended;
-  chunk.annotated.resize(chunk.own * annotated_length);
   const char* const records = chunk.records.data() + chunk.before * record_length_;
-  for (std::size_t i = 0; i < chunk.own; ++i) {
+  for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
     char* const record = chunk.annotated.data() + i * annotated_length;
     std::memcpy(record, records + i * record_length_, record_length_);
     std::memcpy(record + record_length_, no_data_.data(), appended);
@@ -152,9 +167,9 @@ void LasChunkWork::Begin(Chunk& chunk) const {
 }
 
 void LasChunkWork::Decode(const Scanner& scanner, Chunk& chunk) const {
-  chunk.chosen.resize(chunk.own);
+  chunk.chosen.resize(chunk.end - chunk.begin);
   std::size_t found = 0;
-  for (std::size_t i = 0; i < chunk.own; ++i) {
+  for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
     // Avoids a branch: every index is written, and the next one overwrites it unless it is chosen.
     chunk.chosen[found] = static_cast<std::uint32_t>(chunk.before + i);
     found += chunk.scanners[i] == scanner.number;
@@ -179,8 +194,9 @@ void LasChunkWork::Decode(const Scanner& scanner, Chunk& chunk) const {
 
 void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const {
   chunk.water.clear();
-  const std::size_t count = chunk.records.size() / record_length_;
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t count = chunk.records.size() / record_length_, begin = chunk.before + chunk.begin;
+  const std::size_t end = std::min(chunk.before + chunk.end + kPulseReach, count);
+  for (std::size_t i = begin - std::min(begin, kPulseReach); i < end; ++i) {
     const std::string_view record = Record(chunk, i);
     if (!is_water_[fields_.Class(record)] || (!use_withheld_ && fields_.IsWithheld(record))) continue;
     if (scanner.points != nullptr && !scanner.points->Has(fields_, record)) continue;
@@ -278,7 +294,9 @@ void LasChunkWork::FindTotals(const Scanner& scanner, Chunk& chunk) const {
   TakeAircraft(*scanner.plan, chunk.beams, chunk.rows, chunk.aircraft);
   ComputeTotals(*scanner.total, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
   chunk.sigmas_assumed += chunk.total.sigmas_assumed;
-  if (!chunk.rows.empty()) chunk.totals.Add(SampleSources(*scanner.total, chunk.pulses, chunk.aircraft, chunk.total));
+  const std::size_t samples = (kSourceSamples * (chunk.end - chunk.begin) + chunk.own - 1) / chunk.own;
+  if (!chunk.rows.empty())
+    chunk.totals.Add(SampleSources(*scanner.total, chunk.pulses, chunk.aircraft, chunk.total, samples));
   std::map<int, TotalSummary> by_line;
   for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     const int line = fields_.PointSourceId(Record(chunk, chunk.chosen[chunk.rows[i]]));

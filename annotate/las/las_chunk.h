@@ -108,9 +108,11 @@ class LasChunkWork {
    private:
     friend class LasChunkWork;
     std::vector<std::uint8_t> scanners;  // Of each own record, that of a point that may get a number; or kNoScanner.
-    std::vector<std::uint32_t> chosen;   // Indices of own records of one scanner.
-    std::vector<std::uint32_t> water;    // Indices of records from the surface.
-    SurveyPoints points;                 // Of the chosen records.
+    // The block of own records that is worked on; what follows is of one scanner in it.
+    std::size_t begin = 0, end = 0;
+    std::vector<std::uint32_t> chosen;  // Indices of own records.
+    std::vector<std::uint32_t> water;   // Indices of records from the surface.
+    SurveyPoints points;                // Of the chosen records.
     BeamScratch scratch;
     PointBeams beams;
     std::vector<std::uint32_t> rows;  // Of the points that have a pulse.
@@ -145,8 +147,10 @@ class LasChunkWork {
   };
   static constexpr std::uint8_t kNoScanner = 255;
 
-  // Counts, and the records without numbers.
+  // Counts.
   void Begin(Chunk& chunk) const;
+  // The records of a block, without numbers.
+  void CopyRecords(Chunk& chunk) const;
   std::uint8_t ScannerOf(std::string_view record) const;
   absl::Status Annotate(const Scanner& scanner, Chunk& chunk) const;
   void Decode(const Scanner& scanner, Chunk& chunk) const;

@@ -102,7 +102,7 @@ nlohmann::ordered_json SourceSums::Json() const {
 }
 
 SourceSums SampleSources(const TotalPlan& plan, const PulseBatch& pulses, const AircraftColumns& aircraft,
-                         const TotalBatch& totals) {
+                         const TotalBatch& totals, std::size_t samples) {
   SourceSums sums;
   std::array<double, kErrorSourceCount> assumed = {};
   const std::size_t size = totals.size();
@@ -112,8 +112,8 @@ SourceSums SampleSources(const TotalPlan& plan, const PulseBatch& pulses, const 
   if (plan.attitude_by_pulse) assumed[Index(&AirErrors::attitude)] = without_sigmas;
   const bool water_assumed = IsWaterAssumed(plan);
   const auto is_known = [&](std::size_t i) { return std::isfinite(totals.thu[i]) && std::isfinite(totals.tvu[i]); };
-  for (std::size_t part = 0; part < kSourceSamples; ++part) {
-    const std::size_t begin = part * size / kSourceSamples, end = (part + 1) * size / kSourceSamples;
+  for (std::size_t part = 0; part < samples; ++part) {
+    const std::size_t begin = part * size / samples, end = (part + 1) * size / samples;
     std::size_t known = 0, first = end;
     for (std::size_t i = begin; i < end; ++i)
       if (is_known(i)) first = std::min(first, i), ++known;

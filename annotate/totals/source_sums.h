@@ -55,11 +55,11 @@ struct TotalPlan;
 
 inline constexpr std::size_t kSourceSamples = 32;  // Of a batch.
 
-// The contributions to pulses of a batch after ComputeTotals, which changed `aircraft`: each of kSourceSamples equal
-// parts is represented by its first pulse with a total, and the sources of the air side are those of
+// The contributions to pulses of a batch after ComputeTotals, which changed `aircraft`: each of `samples` equal parts
+// is represented by its first pulse with a total, and the sources of the air side are those of
 // budget/air/air_sources.h for it. Where the trajectory states its errors pulse by pulse, the fraction of the batch
 // without them counts as assumed.
 SourceSums SampleSources(const TotalPlan& plan, const PulseBatch& pulses, const AircraftColumns& aircraft,
-                         const TotalBatch& totals);
+                         const TotalBatch& totals, std::size_t samples = kSourceSamples);
 
 }  // namespace albtpu::annotate

@@ -54,8 +54,7 @@ class ArithmeticEncoder {
     model.Prepare();
     const std::uint32_t part = interval_.length >> kProbabilityBits;
     const std::uint32_t below = model.Below(symbol) * part;
-    interval_.length =
-        (symbol == model.last_symbol() ? interval_.length : model.Below(symbol + 1) * part) - below;
+    interval_.length = (symbol == model.last_symbol() ? interval_.length : model.Below(symbol + 1) * part) - below;
     Raise(below);
     model.Count(symbol);
     return symbol;

@@ -55,7 +55,7 @@ struct LaneWindow {
   static constexpr std::size_t kSize = 16;
   static constexpr std::uint8_t kIdle = 0x80;
 
-  std::size_t offset = 0;  // Of the window in a record, which has the whole window.
+  std::size_t offset = 0;                        // Of the window in a record, which has the whole window.
   std::array<std::uint8_t, kSize> places = [] {  // Of the byte of each lane in the window, or kIdle: it codes zeros.
     std::array<std::uint8_t, kSize> idle;
     idle.fill(kIdle);

@@ -29,7 +29,7 @@ class ExtraBytesEncoder final : public Layers<ArithmeticEncoder> {
   struct Group {
     LaneWindow window;
     std::array<std::size_t, kByteLanes> streams{};
-    std::size_t count = 0;  // Of streams.
+    std::size_t count = 0;                                              // Of streams.
     std::array<std::array<char, LaneWindow::kSize>, kChannels> last{};  // The window of the last point of a channel.
     ChannelHistories<ByteLaneModels> models;
   };
@@ -41,8 +41,8 @@ class ExtraBytesEncoder final : public Layers<ArithmeticEncoder> {
   ItemPlace place_;
   std::size_t bytes_;
   std::string first_point_;
-  std::size_t group_count_ = 0;                 // 0: groups are to be made.
-  std::vector<std::unique_ptr<Group>> groups_;  // Those behind group_count_ keep their memory for later chunks.
+  std::size_t group_count_ = 0;                     // 0: groups are to be made.
+  std::vector<std::unique_ptr<Group>> groups_;      // Those behind group_count_ keep their memory for later chunks.
   std::array<ArithmeticEncoder, kByteLanes> idle_;  // Of lanes without a stream.
 };
 
