@@ -294,7 +294,9 @@ void LasChunkWork::FindTotals(const Scanner& scanner, Chunk& chunk) const {
   TakeAircraft(*scanner.plan, chunk.beams, chunk.rows, chunk.aircraft);
   ComputeTotals(*scanner.total, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
   chunk.sigmas_assumed += chunk.total.sigmas_assumed;
-  const std::size_t samples = (kSourceSamples * (chunk.end - chunk.begin) + chunk.own - 1) / chunk.own;
+  // As many of the chunk as of a batch.
+  const auto samples_before = [&](std::size_t point) { return kSourceSamples * point / chunk.own; };
+  const std::size_t samples = samples_before(chunk.end) - samples_before(chunk.begin);
   if (!chunk.rows.empty())
     chunk.totals.Add(SampleSources(*scanner.total, chunk.pulses, chunk.aircraft, chunk.total, samples));
   std::map<int, TotalSummary> by_line;
