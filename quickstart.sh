@@ -16,8 +16,9 @@ install_packages
 
 echo "== Building"
 cmake --preset release >/dev/null
-cmake --build --preset release -j "$(nproc)" \
-  --target albtpu-generate albtpu-serve albtpu-query albtpu_manual albtpu_simulated_survey
+targets=(albtpu-generate albtpu-serve albtpu-query albtpu_manual)
+[[ -r $sample ]] || targets+=(albtpu_simulated_survey)
+cmake --build --preset release -j "$(nproc)" --target "${targets[@]}"
 cmake --install build/release --prefix out >/dev/null
 
 echo "== Making $table by Monte Carlo from $campaign"
