@@ -62,18 +62,21 @@ absl::Status AskSea(client::UncertaintySource& sea, const Query& query, const Pu
 }  // namespace
 
 AnswerSource::AnswerSource(client::UncertaintySource& source)
-    : AnswerSource(source.table(), [&source](const Query& query, const PulseBatch& pulses,
-                                             const AnswerSelection& selection, AnswerBatch& answers) {
-        const AnswerColumns columns = answers.Resize(pulses.size, selection);
-        if (const std::optional<SeaSummary>& sea = source.table().sea; sea.has_value()) {
-          if (selection.sea_frame) {
-            answers.sea_axes.assign(pulses.size, static_cast<float>(sea->x_azimuth));
-            answers.wave_heights.assign(pulses.size, static_cast<float>(sea->significant_wave_height / 4));
-          }
-          return AskSea(source, query, pulses, columns);
-        }
-        return source.Answer(query, pulses.columns(), columns);
-      }) {}
+    : AnswerSource(
+          source.table(),
+          [&source](const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
+                    AnswerBatch& answers) {
+            const AnswerColumns columns = answers.Resize(pulses.size, selection);
+            if (const std::optional<SeaSummary>& sea = source.table().sea; sea.has_value()) {
+              if (selection.sea_frame) {
+                answers.sea_axes.assign(pulses.size, static_cast<float>(sea->x_azimuth));
+                answers.wave_heights.assign(pulses.size, static_cast<float>(sea->significant_wave_height / 4));
+              }
+              return AskSea(source, query, pulses, columns);
+            }
+            return source.Answer(query, pulses.columns(), columns);
+          },
+          source.in_process()) {}
 
 absl::Status AnswerPulses(const AnswerSource& source, const Query& query, const PulseBatch& pulses,
                           const AnswerSelection& selection, AnswerBatch& answers) {

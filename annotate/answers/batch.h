@@ -102,10 +102,12 @@ class AnswerSource {
   using Answer = std::function<absl::Status(const Query&, const PulseBatch&, const AnswerSelection&, AnswerBatch&)>;
 
   AnswerSource(client::UncertaintySource& source);  // NOLINT: each table answers. Must outlive it.
-  AnswerSource(const client::TableSummary& table, Answer answer) : table_(&table), answer_(std::move(answer)) {}
+  AnswerSource(const client::TableSummary& table, Answer answer, bool in_process = true)
+      : table_(&table), answer_(std::move(answer)), in_process_(in_process) {}
 
   // The table, or the one of a sea, whose axes all seas share.
   const client::TableSummary& table() const { return *table_; }
+  bool in_process() const { return in_process_; }
 
  private:
   friend absl::Status AnswerPulses(const AnswerSource&, const Query&, const PulseBatch&, const AnswerSelection&,
@@ -113,6 +115,7 @@ class AnswerSource {
 
   const client::TableSummary* table_;
   Answer answer_;
+  bool in_process_;
 };
 
 // Queries `source` for all pulses and replaces the contents of `answers`, sides included.

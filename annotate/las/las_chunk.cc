@@ -76,8 +76,10 @@ LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   Begin(chunk);
+  // A server is asked once.
+  const std::size_t block = source_.in_process() ? kBlockPoints : chunk.own;
   for (chunk.begin = 0; chunk.begin < chunk.own; chunk.begin = chunk.end) {
-    chunk.end = std::min(chunk.begin + kBlockPoints, chunk.own);
+    chunk.end = std::min(chunk.begin + block, chunk.own);
     CopyRecords(chunk);
     for (const Scanner& scanner : scanners_) RETURN_IF_ERROR(Annotate(scanner, chunk));
   }

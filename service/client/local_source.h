@@ -15,6 +15,7 @@ class LocalSource : public UncertaintySource {
   LocalSource(std::string name, const UncertaintyTable& table, double index = kSeaWaterIndex);
 
   const TableSummary& table() const override { return summary_; }
+  bool in_process() const override { return true; }
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
   absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
                             const BudgetAnswers& answers) override;

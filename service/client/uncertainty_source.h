@@ -55,6 +55,9 @@ class UncertaintySource {
   // The table that all answers come from. It is fixed when the source is opened.
   virtual const TableSummary& table() const = 0;
 
+  // Whether calls are cheap, as in this process; where each is a message, fewer and larger ones take less time.
+  virtual bool in_process() const { return false; }
+
   // Queries the table for all pulses, zero or more, and fills the columns of `answers` that are not null. Any number of
   // threads may call this at the same time. Either all pulses are answered, or the call fails and the contents of the
   // columns are unspecified: the columns of the pulses have invalid lengths (InvalidArgument), the server cannot be
