@@ -33,17 +33,6 @@ Difference DifferenceAt(const SurfaceAtPoint& surface, const CheckPoint& point) 
   return of;
 }
 
-std::vector<Difference> DifferencesOf(const std::vector<SurfaceAtPoint>& surfaces,
-                                      const std::vector<CheckPoint>& points) {
-  std::vector<Difference> differences;
-  for (const SurfaceAtPoint& each : surfaces) differences.push_back(DifferenceAt(each, points[each.point]));
-  const auto of_lidar = [&](std::size_t i) { return surfaces[i].node.variance.pulse + surfaces[i].node.variance.sea; };
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-    for (const auto& [other, correlation] : surfaces[i].shared)
-      differences[i].same_points.emplace_back(other, correlation * std::sqrt(of_lidar(i) * of_lidar(other)));
-  return differences;
-}
-
 double MedianSize(const PointCheck& check, const std::function<double(double)>& changed) {
   std::vector<double> sizes;
   for (const SurfaceAtPoint& each : check.surfaces)
@@ -138,6 +127,17 @@ void AddGroups(PointCheck& check) {
 }
 
 }  // namespace
+
+std::vector<Difference> DifferencesOf(const std::vector<SurfaceAtPoint>& surfaces,
+                                      const std::vector<CheckPoint>& points) {
+  std::vector<Difference> differences;
+  for (const SurfaceAtPoint& each : surfaces) differences.push_back(DifferenceAt(each, points[each.point]));
+  const auto of_lidar = [&](std::size_t i) { return surfaces[i].node.variance.pulse + surfaces[i].node.variance.sea; };
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (const auto& [other, correlation] : surfaces[i].shared)
+      differences[i].same_points.emplace_back(other, correlation * std::sqrt(of_lidar(i) * of_lidar(other)));
+  return differences;
+}
 
 absl::StatusOr<PointCheck> CheckPointsOf(const std::vector<AnnotatedLasFile>& files,
                                          const std::filesystem::path& points, const GivenSigma& given,

@@ -43,6 +43,10 @@ struct PointCheck {
 inline constexpr std::size_t kFewestToTest = 5;    // Of fewer, the interval of a variance spans more than 1 to 5.
 inline constexpr std::size_t kPointsOfAsprs = 30;  // ASPRS edition 2 asks for as many.
 
+// Surfaces less the elevations of their check points.
+std::vector<Difference> DifferencesOf(const std::vector<SurfaceAtPoint>& surfaces,
+                                      const std::vector<CheckPoint>& points);
+
 // FailedPrecondition where no check point has a surface, and where elevations are plainly in another unit or count
 // downwards: why, and where the files are.
 absl::StatusOr<PointCheck> CheckPointsOf(const std::vector<AnnotatedLasFile>& files,

@@ -18,10 +18,6 @@
 namespace albtpu::quality {
 namespace {
 
-struct PointsAround {
-  std::vector<SurfacePoint> wet, dry;
-};
-
 // Brings points to the check points that they lie around.
 class CheckPointFinder {
  public:
@@ -89,11 +85,10 @@ absl::Status GatherAround(const std::vector<AnnotatedLasFile>& files, const Chec
   return absl::OkStatus();
 }
 
-// Lines by their numbers, in order; the points of one whose line is not known have their ID.
+// Lines by their numbers; the points of one whose line is not known have their ID.
 void NumberLines(const FlightLines& lines, std::vector<SurfacePoint>& points) {
   for (SurfacePoint& point : points)
     point.flight_line = lines.NumberOf(point.flight_line, point.time).value_or(point.flight_line);
-  std::ranges::sort(points, {}, &SurfacePoint::Order);
 }
 
 // A line that sees the place twice, with a pause between, is one line for all places.
@@ -132,12 +127,40 @@ void PlaneBox::Add(double x, double y) {
   west = std::min(west, x), east = std::max(east, x), south = std::min(south, y), north = std::max(north, y);
 }
 
+std::vector<SurfaceAtPoint> SurfacesOf(const std::vector<CheckPoint>& points, std::vector<PointsAround>& around,
+                                       double radius, double metres_per_unit, const NodeSources& sources) {
+  std::vector<SurfaceAtPoint> found;
+  std::vector<const std::vector<SurfacePoint>*> of_surfaces;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool wet = around[i].wet.size() >= around[i].dry.size();
+    std::vector<SurfacePoint>& taken = wet ? around[i].wet : around[i].dry;
+    if (taken.size() < kFewestPoints) continue;
+    std::ranges::sort(taken, {}, &SurfacePoint::Order);
+    SurfaceAtPoint surface{.point = i, .wet = wet};
+    std::vector<LineOfNode> of_node;
+    surface.node = NodeOfCircle(taken, points[i].x, points[i].y, radius, metres_per_unit, sources, of_node);
+    if (surface.node.points == 0) continue;
+    surface.lines = OncePerLine(of_node);
+    surface.tvu = MeanTvu(taken);
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      const CheckPoint& other = points[found[j].point];
+      if (std::hypot(other.x - points[i].x, other.y - points[i].y) >= 2 * radius / metres_per_unit) continue;
+      const auto both = static_cast<double>(InBoth(*of_surfaces[j], taken));
+      const double of_both = static_cast<double>(of_surfaces[j]->size()) * static_cast<double>(taken.size());
+      if (both > 0) found[j].shared.emplace_back(found.size(), both / std::sqrt(of_both));
+    }
+    found.push_back(std::move(surface));
+    of_surfaces.push_back(&taken);
+  }
+  return found;
+}
+
 absl::StatusOr<Surroundings> SurroundingsOf(const std::vector<AnnotatedLasFile>& files,
                                             const std::vector<CheckPoint>& points, const SurroundingOptions& options) {
-  const double unit = files.front().metres_per_unit(), radius = options.radius / unit;
+  const double unit = files.front().metres_per_unit(), radius = options.radius;
   GatheredPoints gathered{.around = std::vector<PointsAround>(points.size())};
-  RETURN_IF_ERROR(GatherAround(files, CheckPointFinder(points, radius), options.seas, gathered));
-  SeaSharing sharing(SideOfCircle(options.radius));
+  RETURN_IF_ERROR(GatherAround(files, CheckPointFinder(points, radius / unit), options.seas, gathered));
+  SeaSharing sharing(SideOfCircle(radius));
   for (const SeaOfSource& sea : gathered.facts.seas) sharing.Add(sea);
   const std::vector<SourceOfPoints>& all = gathered.facts.sources;
   const NodeSources sources = {
@@ -145,31 +168,10 @@ absl::StatusOr<Surroundings> SurroundingsOf(const std::vector<AnnotatedLasFile>&
                  double footprint) { return sharing(all[source].sea, incidence, azimuth, footprint); },
       .groups = [&](std::uint16_t source) { return all[source].groups; }};
   const FlightLines lines(gathered.times);
-  Surroundings found{.surfaces = {}, .box = gathered.box, .left_out = gathered.left_out};
-  std::vector<const std::vector<SurfacePoint>*> of_surfaces;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    PointsAround& around = gathered.around[i];
-    const bool wet = around.wet.size() >= around.dry.size();
-    std::vector<SurfacePoint>& taken = wet ? around.wet : around.dry;
-    if (taken.size() < kFewestPoints) continue;
-    NumberLines(lines, taken);
-    SurfaceAtPoint surface{.point = i, .wet = wet};
-    std::vector<LineOfNode> of_node;
-    surface.node = NodeOfCircle(taken, points[i].x, points[i].y, options.radius, unit, sources, of_node);
-    if (surface.node.points == 0) continue;
-    surface.lines = OncePerLine(of_node);
-    surface.tvu = MeanTvu(taken);
-    for (std::size_t j = 0; j < found.surfaces.size(); ++j) {
-      const CheckPoint& other = points[found.surfaces[j].point];
-      if (std::hypot(other.x - points[i].x, other.y - points[i].y) >= 2 * radius) continue;
-      const auto both = static_cast<double>(InBoth(*of_surfaces[j], taken));
-      const double of_both = static_cast<double>(of_surfaces[j]->size()) * static_cast<double>(taken.size());
-      if (both > 0) found.surfaces[j].shared.emplace_back(found.surfaces.size(), both / std::sqrt(of_both));
-    }
-    found.surfaces.push_back(std::move(surface));
-    of_surfaces.push_back(&taken);
-  }
-  return found;
+  for (PointsAround& around : gathered.around) NumberLines(lines, around.wet), NumberLines(lines, around.dry);
+  return Surroundings{.surfaces = SurfacesOf(points, gathered.around, radius, unit, sources),
+                      .box = gathered.box,
+                      .left_out = gathered.left_out};
 }
 
 }  // namespace albtpu::quality

@@ -11,6 +11,7 @@
 #include "quality/checkpoints/check_points_file.h"
 #include "quality/crosscheck/flight_lines.h"
 #include "quality/surface/node.h"
+#include "quality/surface/surface_point.h"
 
 namespace albtpu::quality {
 
@@ -33,6 +34,15 @@ struct SurfaceAtPoint {
   // two means of as many independent points.
   std::vector<std::pair<std::size_t, double>> shared = {};
 };
+
+// The points of the survey within the radius of a check point, with the numbers of their lines.
+struct PointsAround {
+  std::vector<SurfacePoint> wet, dry;
+};
+
+// Of `around`, by check point, whose points it brings into order. `sources` are for cells of SideOfCircle(radius).
+std::vector<SurfaceAtPoint> SurfacesOf(const std::vector<CheckPoint>& points, std::vector<PointsAround>& around,
+                                       double radius, double metres_per_unit, const NodeSources& sources);
 
 struct PlaneBox {
   double west = 0, south = 0, east = -1, north = -1;  // Units of the map; empty at first.

@@ -1,12 +1,15 @@
 #include "tests/quality/surface/simulated_place.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "sea/angle.h"
+#include "sea/correlation/moving_waves.h"
 #include "sea/response/closed_form.h"
+#include "sea/samples.h"
 #include "sea/sea_state.h"
 
 namespace albtpu::quality {
@@ -97,6 +100,25 @@ Vector3d Draw(const Vector3d& sigma, std::mt19937_64& random) {
 struct Pulse {
   Vector2d at;
   double time, azimuth, incidence;
+
+  Vector2d along() const { return {std::cos(azimuth), std::sin(azimuth)}; }
+  double still() const { return StillWaterRefraction(incidence, kIndex); }
+  RefractedRay Refracted(const Vector2d& slope) const {
+    const double sine = std::sin(incidence);
+    return RefractAtSlope({sine * along().x(), sine * along().y(), -std::cos(incidence)}, slope, kIndex);
+  }
+  // Where it meets the bottom below calm water, nearly.
+  Vector2d OnBottom() const { return at - SimulatedPlace::HeightAt(at) * std::tan(still()) * along(); }
+  // Of the reported height over a level bottom, per depth: the mean over normal slopes, by Gauss and Hermite.
+  double Bias(const Eigen::Matrix2d& root_of_slopes) const {
+    constexpr std::array<std::pair<double, double>, 3> kNodes = {
+        {{-std::numbers::sqrt3, 1.0 / 6}, {0, 2.0 / 3}, {std::numbers::sqrt3, 1.0 / 6}}};
+    double mean = 0;
+    for (const auto& [u, of_u] : kNodes)
+      for (const auto& [v, of_v] : kNodes)
+        mean += of_u * of_v * (1 - Refracted(root_of_slopes * Vector2d(u, v)).secant * std::cos(still()));
+    return mean;
+  }
 };
 // Pulses that one footprint stands for: the fore or the aft part of a line.
 using Look = std::vector<Pulse>;
@@ -200,7 +222,11 @@ class Scan {
 
 SimulatedPlace::SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells,
                                double shared)
-    : lines_(std::move(lines)), spacing_(spacing), shared_(shared), sea_(Sea()) {
+    : lines_(std::move(lines)),
+      spacing_(spacing),
+      shared_(shared),
+      sea_(Sea()),
+      slopes_(MovingWaves(sea_).Under({.footprint = kFootprint}).Whole().slopes) {
   for (const double cell : cells) {
     sharing_.emplace_back(cell, std::make_unique<SeaSharing>(cell));
     sharing_.back().second->Add({.spectrum = sea_, .x_azimuth = std::numbers::pi / 2, .water_index = kIndex});
@@ -212,6 +238,8 @@ const SeaSharing& SimulatedPlace::SharingAt(double cell) const {
 }
 
 double SimulatedPlace::HeightAt(const Vector2d& at) { return -kDepth + kSlope.dot(at - kMiddle); }
+
+Vector3d SimulatedPlace::Upward() { return {-kSlope.x(), -kSlope.y(), 1}; }
 
 NodeSources SimulatedPlace::SourcesFor(double cell) const {
   const Vector3d of_pulse = kPulseSigma.cwiseAbs2(), of_line = (shared_ * kLineSigma).cwiseAbs2(),
@@ -226,39 +254,56 @@ NodeSources SimulatedPlace::SourcesFor(double cell) const {
           .cell = cell};
 }
 
-DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed) const {
+void SharedErrors::AddTo(std::vector<SurfacePoint>& points) const {
+  for (SurfacePoint& point : points) {
+    const Vector3d error = survey + lines.at(point.flight_line);
+    point.x += error.x(), point.y += error.y(), point.z += error.z();
+  }
+}
+
+SharedErrors SimulatedPlace::DrawShared(std::uint64_t seed) const {
+  std::mt19937_64 random(MixBits(seed));
+  SharedErrors drawn{.survey = Draw(shared_ * kSurveySigma, random), .lines = {}};
+  for (const SimulatedLine& line : lines_) drawn.lines[line.number] = Draw(shared_ * kLineSigma, random);
+  return drawn;
+}
+
+DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed, std::span<const Vector2d> around) const {
   std::mt19937_64 random(seed);
   TravellingWaves waves(sea_, random);
+  const Eigen::Matrix2d root_of_slopes = slopes_.llt().matrixL();
+  const auto is_drawn = [&](const Pulse& pulse) {
+    return around.empty() || std::ranges::any_of(around, [on_bottom = pulse.OnBottom()](const Vector2d& each) {
+             return (each - on_bottom).norm() < kReach;
+           });
+  };
   const Vector3d line_sigma = shared_ * kLineSigma, survey_sigma = shared_ * kSurveySigma;
-  const Vector3d of_survey = Draw(survey_sigma, random);
   const Eigen::Matrix3d others =
       (kPulseSigma.cwiseAbs2() + line_sigma.cwiseAbs2() + survey_sigma.cwiseAbs2()).asDiagonal();
   DrawnSurvey survey;
   for (const SimulatedLine& line : lines_) {
-    const Vector3d of_line = Draw(line_sigma, random);
     const Scan scan(line, spacing_, random);
     for (const Look& look : scan.looks()) {
       if (look.empty()) continue;
       const Pulse& typical = look[look.size() / 2];
       waves.Weight({.incidence = typical.incidence, .azimuth = typical.azimuth, .footprint = kFootprint});
       for (const Pulse& pulse : look) {
-        const Vector2d along(std::cos(pulse.azimuth), std::sin(pulse.azimuth));
-        const double sine = std::sin(pulse.incidence), still = StillWaterRefraction(pulse.incidence, kIndex);
-        const Vector3d incident(sine * along.x(), sine * along.y(), -std::cos(pulse.incidence));
-        const RefractedRay ray = RefractAtSlope(incident, waves.SlopeAt(pulse.at, pulse.time), kIndex);
+        if (!is_drawn(pulse)) continue;
+        const double still = pulse.still();
+        const RefractedRay ray = pulse.Refracted(waves.SlopeAt(pulse.at, pulse.time));
         // The true ray meets the bottom; its path is laid along that of still water.
         const double path = -HeightAt(pulse.at) / (1 + kSlope.dot(ray.tangent)) * ray.secant;
         const double depth = path * std::cos(still);
         Vector3d at;
-        at << pulse.at + path * std::sin(still) * along, -depth;
+        at << pulse.at + path * std::sin(still) * pulse.along(), -depth;
         const double by_waves = (at.z() - HeightAt(at.head<2>())) / depth;
-        const Vector3d reported = at + Draw(kPulseSigma, random) + of_line + of_survey;
+        const Vector3d reported = at + Draw(kPulseSigma, random);
 
         const double azimuth = 90 - DegreesOfRadians(pulse.azimuth), incidence = DegreesOfRadians(pulse.incidence);
         // What waves do to one pulse, per depth^2.
         const Eigen::Matrix3d of_waves =
             sharing_.front().second->operator()(0, incidence, azimuth, kFootprint).pulse.errors;
-        const Vector3d g(-kSlope.x(), -kSlope.y(), 1);
+        const Vector3d g = Upward();
         survey.sum += by_waves, survey.squares += by_waves * by_waves, survey.stated += g.dot(of_waves * g);
         const Eigen::Matrix3d all = depth * depth * of_waves + others;
         survey.points.push_back({.x = reported.x(),
@@ -278,6 +323,7 @@ DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed) const {
                                  .azimuth = static_cast<float>(azimuth),
                                  .footprint = static_cast<float>(kFootprint),
                                  .depth = static_cast<float>(depth),
+                                 .bias = static_cast<float>(depth * pulse.Bias(root_of_slopes)),
                                  .flight_line = static_cast<std::uint16_t>(line.number),
                                  .source = 0});
       }

@@ -2,13 +2,15 @@
 //
 // Waves are drawn anew for every survey, and every pulse meets them at its own place and time. A pulse is refracted by
 // the law of Snell at the slope that its footprint averages, and reported as processing would, with errors of its own,
-// of its line and of the survey. No covariance of two pulses is used.
+// of its line and of the survey, which may be drawn many times over the same waves. No covariance of two pulses is used.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,8 +35,17 @@ struct SimulatedLine {
   double start;    // s: when it passes the place
 };
 
+// Of a line by its number, m.
+struct SharedErrors {
+  Eigen::Vector3d survey;
+  std::map<int, Eigen::Vector3d> lines;
+
+  void AddTo(std::vector<SurfacePoint>& points) const;
+};
+
 struct DrawnSurvey {
-  std::vector<SurfacePoint> points;  // In the order of SurfacePoint::Order.
+  // In the order of SurfacePoint::Order, without SharedErrors. Their bias is that of slopes that are drawn singly.
+  std::vector<SurfacePoint> points;
   // Of the sea's share of the heights of single pulses, over their depths: sums of the drawn and of the stated ones.
   double sum = 0, squares = 0, stated = 0, n = 0;
 };
@@ -45,16 +56,21 @@ class SimulatedPlace {
   static constexpr double kWest = 2.5, kWidth = 25;  // m: where pulses meet the water, on both axes.
   // The bottom has all its points this far from the edge, m.
   static constexpr double kMargin = 2.5;
+  static constexpr double kReach = 3.2;  // m: waves move points by 0.2 m, one standard deviation.
 
   // `spacing` between pulses, m. `cells` are those that nodes will be asked for. `shared` scales the errors of lines
   // and of the survey.
   SimulatedPlace(std::vector<SimulatedLine> lines, double spacing, const std::vector<double>& cells, double shared);
 
-  DrawnSurvey Survey(std::uint64_t seed) const;
+  // All pulses, or, where `around` has some, those that calm water sends to within kReach of one of these.
+  DrawnSurvey Survey(std::uint64_t seed, std::span<const Eigen::Vector2d> around = {}) const;
+  SharedErrors DrawShared(std::uint64_t seed) const;
   // Nodes of cells of a side that was named.
   NodeSources SourcesFor(double cell) const;
 
   static double HeightAt(const Eigen::Vector2d& at);
+  // By it, an error of a point is one of the height at a fixed place.
+  static Eigen::Vector3d Upward();
 
  private:
   const SeaSharing& SharingAt(double cell) const;
@@ -62,6 +78,7 @@ class SimulatedPlace {
   std::vector<SimulatedLine> lines_;
   double spacing_, shared_;
   HarmonicSpectrum sea_;
+  Eigen::Matrix2d slopes_;  // Covariance of those that a footprint averages.
   std::vector<std::pair<double, std::unique_ptr<SeaSharing>>> sharing_;
 };
 

@@ -172,9 +172,84 @@ Ratios Theory(const HarmonicSpectrum& spectrum, const Case& made) {
   return ratios;
 }
 
+// Of the realizations, which are independent, and of the ratios of all of them: the jackknife.
+Ratios StandardErrors(const std::vector<const Sums*>& parts, const Ratios& of_all) {
+  Sums all;
+  for (const Sums* part : parts) all.Add(*part);
+  Ratios scatter = Ratios::Zero();
+  for (const Sums* part : parts) {
+    Sums others = all;
+    others.Add(*part, -1);
+    scatter += (RatiosOf(others) - of_all).square();
+  }
+  const auto n = static_cast<double>(parts.size());
+  return (scatter * (n - 1) / n).sqrt();
+}
+
+// Of departures in standard errors.
+struct Tail {
+  int beyond = 0;  // 3
+  double worst = 0;
+
+  void Add(const Ratios& departures) {
+    beyond += static_cast<int>((departures.abs() > 3).count());
+    worst = std::max(worst, departures.abs().maxCoeff());
+  }
+};
+
+// Departures as they are if theory is right: those of realizations that are drawn from the traced ones, with
+// repetitions, from all of these. They are correlated and have the tails of what was traced.
+std::vector<Tail> DrawnTails(const std::vector<Sums>& parts, const Ratios& traced, std::uint32_t sea, int draws) {
+  std::vector<Tail> tails(draws);
+  tbb::parallel_for(0, draws, [&](int draw) {
+    UniformStream random(kSeed, sea, static_cast<std::uint32_t>(draw), 6000);
+    Sums all;
+    std::vector<const Sums*> drawn;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto one = static_cast<std::size_t>(random.Next() * static_cast<double>(parts.size()));
+      drawn.push_back(&parts[std::min(one, parts.size() - 1)]);
+      all.Add(*drawn.back());
+    }
+    const Ratios ratios = RatiosOf(all);
+    tails[draw].Add((ratios - traced) / StandardErrors(drawn, ratios));
+  });
+  return tails;
+}
+
 // Bounds of 0.01, or of as many standard errors, from so many realizations, as the greatest of the deviations of all
 // seas exceeds with a probability of 5 %.
-class PulseCorrelations : public testing::TestWithParam<int> {};
+class PulseCorrelations : public testing::TestWithParam<int> {
+ protected:
+  static constexpr int kDraws = 4000;
+
+  static void TearDownTestSuite() {
+    if (correlations_ == 0) return;
+    double mean = 0, as_many = 0, as_far = 0;
+    for (const Tail& tail : expected_) {
+      mean += static_cast<double>(tail.beyond) / kDraws;
+      as_many += tail.beyond >= found_.beyond ? 1.0 / kDraws : 0;
+      as_far += tail.worst >= found_.worst ? 1.0 / kDraws : 0;
+    }
+    std::printf(
+        "%d of %d beyond 3 standard errors, %.1f expected, as many with a probability of %.3f; the worst %.2f, as far "
+        "with one of %.3f\n",
+        found_.beyond, correlations_, mean, as_many, found_.worst, as_far);
+  }
+
+  static void Count(const Ratios& departures, const std::vector<Tail>& drawn) {
+    correlations_ += static_cast<int>(departures.size());
+    found_.Add(departures);
+    for (int i = 0; i < kDraws; ++i) {
+      expected_[i].beyond += drawn[i].beyond;
+      expected_[i].worst = std::max(expected_[i].worst, drawn[i].worst);
+    }
+  }
+
+ private:
+  inline static int correlations_ = 0;
+  inline static Tail found_;
+  inline static std::vector<Tail> expected_ = std::vector<Tail>(kDraws);  // Sum over seas, which are independent.
+};
 
 TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
   const int index = GetParam();
@@ -189,15 +264,11 @@ TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
   Sums all;
   for (const Sums& part : parts) all.Add(part);
   const Ratios traced = RatiosOf(all), theory = Theory(spectrum, made);
-  // The jackknife over realizations, which are independent.
-  Ratios scatter = Ratios::Zero();
-  for (const Sums& part : parts) {
-    Sums others = all;
-    others.Add(part, -1);
-    scatter += (RatiosOf(others) - traced).square();
-  }
-  const Ratios errors = (scatter * (realizations - 1.0) / realizations).sqrt();
+  std::vector<const Sums*> each;
+  for (const Sums& part : parts) each.push_back(&part);
+  const Ratios errors = StandardErrors(each, traced);
   const Ratios departures = theory - traced;
+  Count(departures / errors, DrawnTails(parts, traced, static_cast<std::uint32_t>(index), kDraws));
   const double k = StudentQuantile(realizations - 1, 0.025 / (kSeas * Ratios::SizeAtCompileTime));
   const char* const quantity[] = {"horizontal", "vertical", "height"};
   std::printf("%s, %.0f degrees, %.1f m %s; theory, traced - theory and 1000 standard errors of lags, then cells\n",
