@@ -1,8 +1,8 @@
 // A place of a simulated survey, with truth: a sloping bottom under waves that travel, which two lines see.
 //
 // Waves are drawn anew for every survey, and every pulse meets them at its own place and time. A pulse is refracted by
-// the law of Snell at the slope that its footprint averages, and reported as processing would, with errors of its own,
-// of its line and of the survey, which may be drawn many times over the same waves. No covariance of two pulses is used.
+// the law of Snell at the slope that its footprint averages, and reported as processing would, with errors of its own.
+// Those of its line and of the survey may be drawn many times over the same waves. No covariance of two pulses is used.
 #pragma once
 
 #include <Eigen/Core>
