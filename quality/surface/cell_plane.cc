@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sea/correlation/pairs_in_cell.h"
+
 namespace albtpu::quality {
 namespace {
 
@@ -122,7 +124,12 @@ SurfaceNode NodeOfCircle(std::span<const SurfacePoint> points, double x, double 
   for (std::size_t i = 0; i < points.size(); ++i)
     if (kept[i]) sums.Add(places[i].x(), places[i].y(), points[i].z);
   const Plane plane = PlaneOf(sums, side);
-  return plane.has_slope ? NodeOf(cell, kept, plane, sources, &lines) : SurfaceNode();
+  if (!plane.has_slope) return {};
+  NodeSources in_circle = sources;
+  in_circle.place = [=](const SurfacePoint& point) {
+    return SquareOfCircle(Eigen::Vector2d(point.x - x, point.y - y) * (metres_per_unit / radius));
+  };
+  return NodeOf(cell, kept, plane, in_circle, &lines);
 }
 
 }  // namespace albtpu::quality

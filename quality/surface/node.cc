@@ -15,15 +15,17 @@ struct PassSea {
   Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();  // Of a point's error.
 };
 
-std::array<double, kCellLevels> PairsOf(std::span<const SurfacePoint> points, double cell) {
+std::array<double, kCellLevels> PairsOf(std::span<const SurfacePoint> points, const NodeSources& sources) {
   PairsInCell pairs;
   double n = 0;
   for (const SurfacePoint& point : points) {
     if (point.dry()) continue;
     ++n;
-    if (cell > 0) pairs.Add(point.x / cell - std::floor(point.x / cell), point.y / cell - std::floor(point.y / cell));
+    if (!sources.place) continue;
+    const Eigen::Vector2d at = sources.place(point);
+    pairs.Add(at.x(), at.y());
   }
-  return cell > 0 ? pairs.Weights() : std::array<double, kCellLevels>{n * (n - 1)};
+  return sources.place ? pairs.Weights() : std::array<double, kCellLevels>{n * (n - 1)};
 }
 
 struct MeanBeam {
@@ -62,7 +64,7 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   sea.whole = scale * waves.pulse.errors;
   sea.whole(2, 2) += of_heights;
   sea.of_point = g.dot(sea.whole * g);
-  const std::array<double, kCellLevels> pairs = PairsOf(points, sources.cell);
+  const std::array<double, kCellLevels> pairs = PairsOf(points, sources);
   for (std::size_t level = 0; level < pairs.size(); ++level) {
     const SeaInCell::Variances& cell = waves.cell[level];
     sea.of_pairs += pairs[level] * scale * g.dot(cell.errors * g);

@@ -44,9 +44,15 @@ struct NodeSources {
   // `incidence` and `azimuth` in degree, `footprint` in m.
   std::function<SeaInCell(std::uint16_t source, double incidence, double azimuth, double footprint)> sea;
   std::function<HorizontalGroups(std::uint16_t source)> groups;
-  // Of cells on the axes of the map whose sides lie at its multiples, in the units of the map; 0: points lie at random.
-  double cell = 0;
+  // Where a point lies in its cell, 0 to 1 along both sides; empty: points lie at random.
+  std::function<Eigen::Vector2d(const SurfacePoint& point)> place = {};
 };
+
+// Of cells on the axes of the map whose sides lie at the multiples of `cell`, in the units of the map.
+inline Eigen::Vector2d PlaceInCell(const SurfacePoint& point, double cell) {
+  const Eigen::Array2d at = Eigen::Array2d(point.x, point.y) / cell;
+  return at - at.floor();
+}
 
 // Waves are other ones after this time: at 6 m/s and a footprint of 0.6 m the correlation of slopes is 0.92 after 0.1 s
 // and below 0 after 0.5 s. The fore and the aft part of a scan are seconds apart.
@@ -73,7 +79,7 @@ struct LineOfNode {
 };
 
 // Of the mean of `points`, one at least, which are in the order of SurfacePoint::Order. `slope` is that of the bottom,
-// m per m. The points count as spread evenly over the cell. What lines share, whose squares add up to `line`, is put
+// m per m. What lines share, whose squares add up to `line`, is put
 // into `lines`, if given.
 NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vector2d& slope, const NodeSources& sources,
                         std::vector<LineOfNode>* lines = nullptr);

@@ -113,7 +113,7 @@ absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs
       .sea = [&](std::uint16_t source, double incidence, double azimuth,
                  double footprint) { return sharing(facts.sources[source].sea, incidence, azimuth, footprint); },
       .groups = [&](std::uint16_t source) { return facts.sources[source].groups; },
-      .cell = cell};
+      .place = [cell](const SurfacePoint& point) { return PlaceInCell(point, cell); }};
   std::vector<PointsFile> files;
   for (std::size_t i = 0; i < parts.size(); ++i)
     files.push_back({.path = parts[i].path, .end = parts[i].points_end, .sources = joined.sources[i]});

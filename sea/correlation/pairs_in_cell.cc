@@ -1,8 +1,26 @@
 #include "sea/correlation/pairs_in_cell.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace albtpu {
+
+Eigen::Vector2d SquareOfCircle(const Eigen::Vector2d& at) {
+  const double radius = std::min(at.norm(), 1.0);
+  // Rings become squares: each quarter of a ring, about one axis, a side.
+  const auto side = [radius](double about, double along) {
+    const double sign = std::copysign(1, about), part = std::atan2(along, std::abs(about)) * 4 / std::numbers::pi;
+    return std::pair(0.5 + sign * radius / 2, 0.5 + part * radius / 2);
+  };
+  if (std::abs(at.x()) >= std::abs(at.y())) {
+    const auto [x, y] = side(at.x(), at.y());
+    return {x, y};
+  }
+  const auto [y, x] = side(at.y(), at.x());
+  return {x, y};
+}
 
 void PairsInCell::Add(double x, double y) {
   const auto step = [](double at) { return std::clamp(static_cast<int>(kParts * at), 0, kParts - 1); };

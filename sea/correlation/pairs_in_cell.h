@@ -6,13 +6,20 @@
 // quarter of it, one pair in four, have C_(l+1). Those in different quarters therefore have
 //     (4 C_l - C_(l+1)) / 3,
 // and each pair of pulses has that of the smallest part in which both lie.
+//
+// A circle counts as the square of its area: the concentric map of Shirley and Chiu (1997),
+// doi:10.1080/10867651.1997.10487479, preserves areas, and leaves parts of a square compact.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 
 namespace albtpu {
 
 inline constexpr int kCellLevels = 3;  // The cell, its quarters, and the quarters of these.
+
+// From the circle of radius 1 around the origin to the square of 0 to 1. Points beyond it come to its sides.
+Eigen::Vector2d SquareOfCircle(const Eigen::Vector2d& at);
 
 class PairsInCell {
  public:

@@ -32,9 +32,10 @@ SurfacePoint PointAt(double time, std::uint16_t line = 1) {
 
 // Pulses share `shared` of the sea's variance over a cell.
 NodeSources Sharing(double shared, Eigen::Matrix3d errors = Eigen::Vector3d(0, 0, kSea / 25).asDiagonal()) {
-  return {
-      .sea = [=](auto...) { return SeaInCell{.pulse = {.errors = errors}, .cell = {{{.errors = shared * errors}}}}; },
-      .groups = [](auto) { return HorizontalGroups{.pulse = 0.5, .line = 0.3, .survey = 0.2}; }};
+  SeaInCell sea = {.pulse = {.errors = errors}, .cell = {}};
+  for (SeaInCell::Variances& part : sea.cell) part.errors = shared * errors;  // Wherever pulses lie.
+  return {.sea = [=](auto...) { return sea; },
+          .groups = [](auto) { return HorizontalGroups{.pulse = 0.5, .line = 0.3, .survey = 0.2}; }};
 }
 
 NodeVariance LevelNode(const std::vector<SurfacePoint>& points, double shared) {

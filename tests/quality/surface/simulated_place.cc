@@ -251,7 +251,7 @@ NodeSources SimulatedPlace::SourcesFor(double cell) const {
   const SeaSharing& sharing = SharingAt(cell);
   return {.sea = [&sharing](auto... beam) { return sharing(beam...); },
           .groups = [groups](auto) { return groups; },
-          .cell = cell};
+          .place = [cell](const SurfacePoint& point) { return PlaceInCell(point, cell); }};
 }
 
 void SharedErrors::AddTo(std::vector<SurfacePoint>& points) const {

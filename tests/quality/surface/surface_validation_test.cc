@@ -150,8 +150,8 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
       std::printf(" %.3f +- %.3f", one.Mean(&NodeSums::ours), one.StandardError(&NodeSums::ours));
     }
     std::printf("\n");
-    // The even places of a scan within a sixteenth of a cell count as random ones: the sea has 5 % too much.
-    EXPECT_NEAR(ours, 1, (c.shared > 0 ? 0.03 : 0.05) + 3 * standard_error) << kCells[cell];
+    // Neighbours of a scan in two parts of a cell are further apart than random ones: the sea has up to 8 % too much.
+    EXPECT_NEAR(ours, 1, (c.shared > 0 ? 0.03 : 0.08) + 3 * standard_error) << kCells[cell];
   }
   double sum = 0, square = 0, stated = 0, n = 0;
   for (const DrawnSurvey& each : drawn) sum += each.sum, square += each.squares, stated += each.stated, n += each.n;

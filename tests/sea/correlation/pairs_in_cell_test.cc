@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -57,6 +59,25 @@ TEST(PairsInCell, InOnePartShareMore) {
   EXPECT_NEAR(weights[0], 6 * 4.0 / 3, 1e-12);
   EXPECT_NEAR(weights[1] + weights[2], 6 - 6 / 3.0, 1e-12);
   EXPECT_GT(weights[2], 0);
+}
+
+TEST(PairsInCell, SeeACircleAsTheSquareOfItsArea) {
+  const double diagonal = std::sqrt(0.5);
+  EXPECT_NEAR((SquareOfCircle({1, 0}) - Eigen::Vector2d(1, 0.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((SquareOfCircle({-diagonal, diagonal}) - Eigen::Vector2d(0, 1)).norm(), 0, 1e-12);
+  EXPECT_NEAR((SquareOfCircle({0, -0.5}) - Eigen::Vector2d(0.5, 0.25)).norm(), 0, 1e-12);
+  EXPECT_NEAR((SquareOfCircle({0, 0}) - Eigen::Vector2d(0.5, 0.5)).norm(), 0, 1e-12);
+  // Points that lie evenly in one lie evenly in the other, 1 of 16 in each part.
+  constexpr int kAlong = 1000;
+  std::array<double, 16> parts = {};
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kAlong; ++j) {
+      const Eigen::Vector2d at = Eigen::Vector2d(i + 0.5, j + 0.5) * (2.0 / kAlong) - Eigen::Vector2d(1, 1);
+      if (at.norm() >= 1) continue;
+      const Eigen::Vector2d square = SquareOfCircle(at) * 4;
+      ++parts[static_cast<std::size_t>(square.y()) * 4 + static_cast<std::size_t>(square.x())];
+    }
+  for (const double part : parts) EXPECT_NEAR(part / (kAlong * kAlong * std::numbers::pi / 4), 1.0 / 16, 1e-4);
 }
 
 // Pulses of a scan, whose lines begin anywhere, against the sum of the covariances of all pairs. To take them for
