@@ -32,7 +32,6 @@
 #include "tables/file/table_folder.h"
 #include "tables/file/table_io.h"
 #include "tables/version.h"
-#include "tables/water/water_column_table.h"
 
 namespace albtpu::programs {
 namespace {
@@ -185,14 +184,13 @@ server::Access MakeAccess(const server::CredentialFiles& files, std::shared_ptr<
 }
 
 // Serves until a signal stops it; returns the exit code.
-int Serve(server::TableCatalog catalog, std::shared_ptr<const WaterColumnTable> water, const Addresses& addresses,
-          server::Access access, std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics,
-          const server::Recorders& recorders, const sigset_t& signals) {
+int Serve(server::TableCatalog catalog, const Addresses& addresses, server::Access access,
+          std::chrono::seconds max_stream_idle, server::ServerMetrics& metrics, const server::Recorders& recorders,
+          const sigset_t& signals) {
   server::LiveTables tables(std::move(catalog), [&metrics](const server::LiveTables::ReloadResult& result) {
     metrics.reloads.Count(result);
     server::LogReload(result);
   });
-  const bool computes_waters = water != nullptr;
   const auto table_metrics = std::make_shared<server::TableMetrics>(tables);
   std::unique_ptr<server::MetricsEndpoint> endpoint;
   if (addresses.metrics.has_value()) {
@@ -201,11 +199,12 @@ int Serve(server::TableCatalog catalog, std::shared_ptr<const WaterColumnTable> 
     if (!started.ok()) return Fail(formats::kExitFailure, WithFlag("--metrics", started.status()));
     endpoint = *std::move(started);
   }
-  const absl::StatusOr<std::unique_ptr<server::Server>> server = server::Server::Start(
-      {tables, std::move(water)}, recorders, addresses.service, std::move(access), max_stream_idle);
+  const absl::StatusOr<std::unique_ptr<server::Server>> server =
+      server::Server::Start(tables, recorders, addresses.service, std::move(access), max_stream_idle);
   if (!server.ok()) return Fail(formats::kExitFailure, server.status());
   spdlog::info("ready on {}, {}", (*server)->address(), Summary(*tables.current()));
-  if (!computes_waters) spdlog::info("no table of the water column: requests with a water will fail");
+  if (tables.current()->water() == nullptr)
+    spdlog::info("no table of the water column: requests with a water will fail");
   if (endpoint != nullptr) spdlog::info("metrics on http://{}/metrics", endpoint->address());
   const int signal = WaitForStop(signals, tables);
   spdlog::info("draining after {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
@@ -214,14 +213,12 @@ int Serve(server::TableCatalog catalog, std::shared_ptr<const WaterColumnTable> 
   return 0;
 }
 
-// The table of the water column that the flag or the environment names, or the installed one. Null if nothing names one
-// and none is installed.
-absl::StatusOr<std::shared_ptr<const WaterColumnTable>> ReadWaterTable(const Options& options) {
+// Adds the table of the water column that the flag or the environment names, or the installed one; none if nothing
+// names one and none is installed.
+absl::Status AddWater(const Options& options, server::TableCatalog& catalog) {
   const std::filesystem::path path = options.water_table.has_value() ? *options.water_table : WaterTablePath();
-  if (path == InstalledWaterTable() && !std::filesystem::exists(path)) return nullptr;
-  ASSIGN_OR_RETURN(Table table, ReadTable(path, kWaterColumn));
-  ASSIGN_OR_RETURN(WaterColumnTable water, WaterColumnTable::Create(std::move(table)));
-  return std::make_shared<const WaterColumnTable>(std::move(water));
+  if (path == InstalledWaterTable() && !std::filesystem::exists(path)) return absl::OkStatus();
+  return WithFlag(options.water_table.has_value() ? "--water-table" : "no --water-table given", catalog.AddWater(path));
 }
 
 int Run(const Options& options) {
@@ -241,12 +238,9 @@ int Run(const Options& options) {
     return Fail(formats::kExitFailure,
                 WithFlag(options.tables.has_value() ? "--tables" : "no --tables given", catalog.status()));
   }
-  absl::StatusOr<std::shared_ptr<const WaterColumnTable>> water = ReadWaterTable(options);
-  if (!water.ok()) {
-    return Fail(formats::kExitFailure,
-                WithFlag(options.water_table.has_value() ? "--water-table" : "no --water-table given", water.status()));
-  }
-  return Serve(*std::move(catalog), *std::move(water), *addresses, MakeAccess(options.credentials, *credentials),
+  const absl::Status water = AddWater(options, *catalog);
+  if (!water.ok()) return Fail(formats::kExitFailure, water);
+  return Serve(*std::move(catalog), *addresses, MakeAccess(options.credentials, *credentials),
                std::chrono::seconds(options.max_stream_idle), metrics, recorders, signals);
 }
 

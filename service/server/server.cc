@@ -54,20 +54,20 @@ void Configure(grpc::ServerBuilder& builder) {
 
 }  // namespace
 
-Server::Server(const Sources& sources, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle)
+Server::Server(LiveTables& tables, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle)
     : credentials_(std::move(access.credentials)),
       recorders_(recorders),
-      service_(sources.tables, sources.water, recorders_, max_stream_idle),
-      admin_(sources.tables, recorders_, access.admin),
+      service_(tables, recorders_, max_stream_idle),
+      admin_(tables, recorders_, access.admin),
       health_({v1::UncertaintyService::service_full_name(), v1::AdminService::service_full_name()}) {}
 
-absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Sources& sources, const Recorders& recorders,
+absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const Recorders& recorders,
                                                       const ListenAddress& address, Access access,
                                                       std::chrono::seconds max_stream_idle) {
   absl::StatusOr<std::vector<ListeningSocket>> sockets = Listen(address);
   if (!sockets.ok()) return absl::UnavailableError(absl::StrCat("cannot listen on ", sockets.status().message()));
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  std::unique_ptr<Server> server(new Server(sources, recorders, std::move(access), max_stream_idle));
+  std::unique_ptr<Server> server(new Server(tables, recorders, std::move(access), max_stream_idle));
   grpc::ServerBuilder builder;
   Configure(builder);
   builder.RegisterService(&server->service_);

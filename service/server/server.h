@@ -16,15 +16,8 @@
 #include "service/server/ground/listening_sockets.h"
 #include "service/server/observe/log.h"
 #include "service/server/tables/table_catalog.h"
-#include "tables/water/water_column_table.h"
 
 namespace albtpu::server {
-
-// What the server answers from.
-struct Sources {
-  LiveTables& tables;
-  std::shared_ptr<const WaterColumnTable> water = nullptr;  // Null: it computes no waters.
-};
 
 // The access to the server.
 struct Access {
@@ -34,9 +27,9 @@ struct Access {
 
 class Server {
  public:
-  // Listens and serves `sources`. Its tables and the objects that `recorders` refers to must outlive the server.
-  // Unavailable, with the reason, if it cannot listen.
-  static absl::StatusOr<std::unique_ptr<Server>> Start(const Sources& sources, const Recorders& recorders,
+  // Listens and serves `tables`. They and the objects that `recorders` refers to must outlive the server. Unavailable,
+  // with the reason, if it cannot listen.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const Recorders& recorders,
                                                        const ListenAddress& address, Access access = {},
                                                        std::chrono::seconds max_stream_idle = kMaxStreamIdle);
 
@@ -48,7 +41,7 @@ class Server {
   void Drain();
 
  private:
-  Server(const Sources& sources, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle);
+  Server(LiveTables& tables, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle);
 
   std::shared_ptr<grpc::ServerCredentials> credentials_;  // Must outlive the listener.
   const Recorders recorders_;

@@ -4,6 +4,7 @@ Usage: reload_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 """
 
 import os
+import pathlib
 import shutil
 import signal
 import socket
@@ -14,10 +15,11 @@ import unittest
 import grpc
 import numpy as np
 
+import albtpu
 from albtpu.v1 import admin_service_pb2, admin_service_pb2_grpc
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
-from served import TablesTest, budget, columns, make_table
+from served import SERVE, TablesTest, budget, columns, make_table
 from serving import PATIENCE, connect
 
 RELOADS = 100
@@ -124,7 +126,7 @@ class Reloads(ReloadTest):
                 self.server.process.send_signal(signal.SIGHUP)
                 self.server.wait_for("tables reloaded", times=i + 1)
             else:
-                self.assertEqual(self.reload(), {"quick": "LOADED"})
+                self.assertEqual(self.reload(), {"quick": "LOADED", "water_column": "KEPT"})
         load.stop()
         print(f"{RELOADS} reloads under {load.calls} calls, {len(load.failures)} failures")
         self.assertEqual(load.failures, [])
@@ -145,6 +147,33 @@ class Reloads(ReloadTest):
         self.assertEqual(len({self.ask() for _ in range(5)}), 1)
         self.channel.close()  # An idle client takes five seconds to notice that its server stops.
         self.assertEqual(self.server.stop(signal.SIGTERM), 0)
+
+
+class Water(ReloadTest):
+    def test_is_read_again_and_a_damaged_file_changes_nothing(self):
+        file = self.folder / "elsewhere" / "water.h5"
+        file.parent.mkdir()
+        shipped = pathlib.Path(SERVE).parent.parent / "share/albtpu/water/water_column.h5"
+        shutil.copy(shipped.resolve(), file)
+        address = self.serve("--water-table", file).address
+        request = budget([4, 8], ["BUDGET_QUANTITY_TVU_WATER"])
+        request.water.CopyFrom(albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=2,
+                                            bias="correct").message())
+        with connect(address) as channel:
+            stub = UncertaintyServiceStub(channel)
+            before = stub.QueryBudget(request, timeout=PATIENCE, wait_for_ready=True)
+            kept = {"quick": "KEPT", "water_column": "KEPT"}
+            self.assertEqual(self.reload(address), kept)
+            file.write_bytes(b"not a table")
+            with self.assertRaises(grpc.RpcError) as failure:
+                self.reload(address)
+            self.assertEqual(failure.exception.code(), grpc.StatusCode.FAILED_PRECONDITION)
+            self.assertIn("water.h5", failure.exception.details())
+            self.assertNotIn(str(file.parent), failure.exception.details())  # Callers learn no path of the server.
+            self.assertEqual(stub.QueryBudget(request, timeout=PATIENCE), before)
+            shutil.copy(shipped.resolve(), file)
+            self.assertEqual(self.reload(address), kept | {"water_column": "LOADED"})
+            self.assertEqual(stub.QueryBudget(request, timeout=PATIENCE), before)
 
 
 class Callers(ReloadTest):

@@ -52,7 +52,7 @@ class Tables {
   ServerMetrics metrics_;
   CallLog log_;
   SeaTables seas_;
-  WaterShares waters_{nullptr, metrics_.waters, log_};
+  WaterShares waters_{metrics_.waters, log_};
   std::map<const TableCatalog::Entry*, Twin> twins_;
 };
 

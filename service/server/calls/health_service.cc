@@ -114,13 +114,18 @@ v1::TableChange ToWire(TableCatalog::Change::Kind kind) {
   return v1::TABLE_CHANGE_UNSPECIFIED;
 }
 
-// The reason of a failed reload without the path of the folder, which callers must not learn.
-absl::Status WithoutFolder(const absl::Status& reason, const std::filesystem::path& folder) {
+// The reason of a failed reload without the paths of the tables, which callers must not learn.
+absl::Status WithoutPaths(const absl::Status& reason, const TableCatalog& tables) {
   if (absl::IsInternal(reason)) return reason;  // Its message is not sent to callers.
-  const std::string inside = absl::StrReplaceAll(
+  const std::filesystem::path& folder = tables.folder();
+  std::string message = absl::StrReplaceAll(
       reason.message(),
       {{(folder / "").string(), ""}, {absl::StrCat("'", folder.string(), "'"), "the folder of tables"}});
-  return absl::FailedPreconditionError(absl::StrCat("tables not reloaded, the previous tables stay in use: ", inside));
+  if (tables.water() != nullptr) {
+    const std::filesystem::path& water = tables.water()->path;
+    absl::StrReplaceAll({{water.string(), water.filename().string()}}, &message);
+  }
+  return absl::FailedPreconditionError(absl::StrCat("tables not reloaded, the previous tables stay in use: ", message));
 }
 
 }  // namespace
@@ -147,7 +152,7 @@ grpc::ServerUnaryReactor* AdminService::ReloadTables(grpc::CallbackServerContext
     return reactor;
   }
   tables_.Reload([this, response, finish](const LiveTables::ReloadResult& result) {
-    if (!result.ok()) return finish(ToGrpcStatus(WithoutFolder(result.status(), tables_.current()->folder())));
+    if (!result.ok()) return finish(ToGrpcStatus(WithoutPaths(result.status(), *tables_.current())));
     for (const TableCatalog::Change& change : *result) {
       v1::ReloadedTable& table = *response->add_tables();
       table.set_name(change.name);

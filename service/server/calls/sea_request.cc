@@ -278,11 +278,16 @@ absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea, 
 
 absl::StatusOr<const ServedWater*> AnswerSources::Find(const v1::WaterState& water, const KnownWater& known) {
   if (made_.water != nullptr) return made_.water.get();
-  const Sha256Digest key = KeyOf(water);
+  const std::shared_ptr<const TableCatalog::Water>& table = catalog_.water();
+  const Sha256Digest key = KeyOf(water, table == nullptr ? "" : table->table.table().digest());
   made_.water = waters_->Find(key);
   if (made_.water != nullptr) return made_.water.get();
-  RETURN_IF_ERROR(waters_->Check(known));
-  wanted_ = WantedWater{key, known};
+  if (known.bias.has_value() && table == nullptr) {
+    return absl::FailedPreconditionError(
+        "this server computes no water (it has no table of the water column); give the water's columns in aircraft, or "
+        "start the server with --water-table");
+  }
+  wanted_ = WantedWater{key, known, table};
   return absl::UnavailableError("the water is not compiled yet");
 }
 

@@ -84,16 +84,15 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // `tables` and `recorders` must outlive the service. `water` is null if it has no table of the water column. Streams
-  // without activity and unread answers end after `max_stream_idle`.
-  UncertaintyService(const LiveTables& tables, std::shared_ptr<const WaterColumnTable> water,
-                     const Recorders& recorders, std::chrono::seconds max_stream_idle)
+  // `tables` and `recorders` must outlive the service. Streams without activity and unread answers end after
+  // `max_stream_idle`.
+  UncertaintyService(const LiveTables& tables, const Recorders& recorders, std::chrono::seconds max_stream_idle)
       : tables_(tables),
         recorders_(recorders),
         max_stream_idle_(max_stream_idle),
         unread_(recorders.metrics, max_stream_idle),
         seas_(recorders.seas, recorders.log),
-        waters_(std::move(water), recorders.waters, recorders.log) {}
+        waters_(recorders.waters, recorders.log) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;

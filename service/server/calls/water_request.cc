@@ -177,11 +177,11 @@ class Reader {
 
 absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state) { return Reader(state).Read(); }
 
-Sha256Digest KeyOf(const v1::WaterState& state) {
+Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table_digest) {
   v1::WaterState known = state;
   known.DiscardUnknownFields();
   Sha256 sha;
-  sha.Update(absl::StrCat("water ", known.SerializeAsString()));
+  sha.Update(absl::StrCat(std::string(table_digest), " water ", known.SerializeAsString()));
   return sha.Finish();
 }
 

@@ -1,6 +1,8 @@
 // The water of a request: read, checked and named.
 #pragma once
 
+#include <string_view>
+
 #include "absl/status/statusor.h"
 #include "albtpu/v1/water.pb.h"
 #include "budget/water/known_water.h"
@@ -12,7 +14,8 @@ namespace albtpu::server {
 // other, `water` alone.
 absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state);
 
-// SHA-256 over the fields of `state` that this server knows. States with the same key are equal.
-Sha256Digest KeyOf(const v1::WaterState& state);
+// SHA-256 over the fields of `state` that this server knows, and the digest of the table that computes it. Waters with
+// the same key are equal.
+Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table_digest);
 
 }  // namespace albtpu::server

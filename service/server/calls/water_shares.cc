@@ -51,10 +51,8 @@ std::size_t BytesOf(const ServedWater& served) {
 
 }  // namespace
 
-WaterShares::WaterShares(std::shared_ptr<const WaterColumnTable> table, WaterMetrics& metrics, CallLog& log,
-                         const Limits& limits)
-    : table_(std::move(table)),
-      metrics_(metrics),
+WaterShares::WaterShares(WaterMetrics& metrics, CallLog& log, const Limits& limits)
+    : metrics_(metrics),
       log_(log),
       queue_(
           metrics,
@@ -62,22 +60,16 @@ WaterShares::WaterShares(std::shared_ptr<const WaterColumnTable> table, WaterMet
           "the server cannot take another water (too many wait to be computed); try again later",
           [this](const WantedWater& wanted) { return Make(wanted); }, BytesOf) {}
 
-absl::Status WaterShares::Check(const KnownWater& water) const {
-  if (table_ != nullptr || !water.bias.has_value()) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      "this server computes no water (it has no table of the water column); give the water's columns in aircraft, or "
-      "start the server with --water-table");
-}
-
 WaterShares::Result WaterShares::Make(const WantedWater& wanted) {
   const auto begin = std::chrono::steady_clock::now();
-  absl::StatusOr<CompiledWater> compiled = CompileHere(table_.get(), wanted.water);
+  const WaterColumnTable* const table = wanted.table == nullptr ? nullptr : &wanted.table->table;
+  absl::StatusOr<CompiledWater> compiled = CompileHere(table, wanted.water);
   if (!compiled.ok()) {
     metrics_.CountFailed();
     if (!absl::IsInvalidArgument(compiled.status())) return compiled.status();
     return FieldViolation("water", absl::StrCat("water: ", std::string(compiled.status().message())));
   }
-  v1::WaterSummary summary = SummaryOf(table_.get(), wanted.water, *compiled);
+  v1::WaterSummary summary = SummaryOf(table, wanted.water, *compiled);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   metrics_.CountCompiled(took);
   log_.Write(spdlog::level::info, "water compiled",

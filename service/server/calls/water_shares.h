@@ -1,4 +1,4 @@
-// The waters that requests carry, compiled from the server's table of the water column.
+// The waters that requests carry, compiled from the table of the water column.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,16 @@
 #include "service/server/ground/limits.h"
 #include "service/server/observe/log.h"
 #include "service/server/observe/metric_collectors.h"
+#include "service/server/tables/table_catalog.h"
 #include "tables/digest.h"
-#include "tables/water/water_column_table.h"
 
 namespace albtpu::server {
 
 // A water that a request needs.
 struct WantedWater {
-  Sha256Digest key;
+  Sha256Digest key;  // Of the water and of the table.
   KnownWater water;
+  std::shared_ptr<const TableCatalog::Water> table;  // Null if the server has none.
 };
 
 // A water that answers.
@@ -41,25 +42,20 @@ class WaterShares {
     std::size_t waiting = kMaxWaitingWaters;
   };
 
-  // `table` is null if the server has none. `metrics` and `log` must outlive this object. The log gets a line for each
-  // water that is compiled.
-  WaterShares(std::shared_ptr<const WaterColumnTable> table, WaterMetrics& metrics, CallLog& log)
-      : WaterShares(std::move(table), metrics, log, Limits()) {}
-  WaterShares(std::shared_ptr<const WaterColumnTable> table, WaterMetrics& metrics, CallLog& log, const Limits& limits);
-
-  // FAILED_PRECONDITION if the water needs a table and the server has none.
-  absl::Status Check(const KnownWater& water) const;
+  // `metrics` and `log` must outlive this object. The log gets a line for each water that is compiled.
+  WaterShares(WaterMetrics& metrics, CallLog& log) : WaterShares(metrics, log, Limits()) {}
+  WaterShares(WaterMetrics& metrics, CallLog& log, const Limits& limits);
 
   // The water with this key, if it is kept; else null.
   std::shared_ptr<const ServedWater> Find(const Sha256Digest& key) { return queue_.Find(key); }
 
-  // As CompileQueue. Check() must be OK. INVALID_ARGUMENT, for the field `water`: the table does not cover it.
+  // As CompileQueue. A water with a bias needs a table. INVALID_ARGUMENT, for the field `water`: the table does not
+  // cover it.
   void Compile(const WantedWater& wanted, Listener done) { queue_.Compile(wanted, std::move(done)); }
 
  private:
   Result Make(const WantedWater& wanted);
 
-  const std::shared_ptr<const WaterColumnTable> table_;
   WaterMetrics& metrics_;
   CallLog& log_;
   Queue queue_;  // Last, because its threads use all other members.

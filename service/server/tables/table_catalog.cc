@@ -21,6 +21,13 @@ absl::StatusOr<std::shared_ptr<const TableCatalog::Entry>> Read(const TableFile&
       TableCatalog::Entry{{file.FullName(), std::move(table)}, identity});
 }
 
+absl::StatusOr<std::shared_ptr<const TableCatalog::Water>> ReadWater(const std::filesystem::path& path) {
+  const FileIdentity identity = IdentityOf(path);
+  ASSIGN_OR_RETURN(Table table, ReadTable(path, kWaterColumn));
+  ASSIGN_OR_RETURN(WaterColumnTable water, WaterColumnTable::Create(std::move(table)));
+  return std::make_shared<const TableCatalog::Water>(TableCatalog::Water{path, std::move(water), identity});
+}
+
 // Joins the messages of several failures.
 class Failures {
  public:
@@ -54,6 +61,11 @@ absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& fol
   return std::move(first.catalog);
 }
 
+absl::Status TableCatalog::AddWater(const std::filesystem::path& file) {
+  ASSIGN_OR_RETURN(water_, ReadWater(file));
+  return absl::OkStatus();
+}
+
 absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
   ASSIGN_OR_RETURN(std::vector<TableFile> files, FindTables(folder_));
   RETURN_IF_ERROR(CheckNames(files, folder_, default_table_));
@@ -75,6 +87,17 @@ absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
     file.published = entry->table.is_published();
     catalog.files_.push_back(std::move(file));
     catalog.entries_.push_back(std::move(entry));
+  }
+  if (water_ != nullptr) {
+    const bool is_kept = water_->identity == IdentityOf(water_->path);
+    absl::StatusOr<std::shared_ptr<const Water>> read = is_kept ? water_ : ReadWater(water_->path);
+    if (read.ok()) {
+      catalog.water_ = *std::move(read);
+      const std::string& id = catalog.water_->table.table().provenance().id;
+      reloaded.changes.push_back({id, is_kept ? Kind::kKept : Kind::kLoaded});
+    } else {
+      failures.Add(read.status());
+    }
   }
   if (!failures.all().ok()) return failures.all();
   for (const std::shared_ptr<const Entry>& entry : entries_)

@@ -1,4 +1,4 @@
-// The tables of a server, by name, and their replacement when their folder has changed.
+// The tables of a server, and their replacement when their files have changed.
 #pragma once
 
 #include <condition_variable>
@@ -16,6 +16,7 @@
 #include "service/server/ground/file_value.h"
 #include "service/server/tables/wire_enums.h"
 #include "tables/file/table_folder.h"
+#include "tables/water/water_column_table.h"
 
 namespace albtpu::server {
 
@@ -31,7 +32,17 @@ class TableCatalog {
   // reason for each), if two tables have the same name, or if `default_table` does not exist.
   static absl::StatusOr<TableCatalog> Load(const std::filesystem::path& folder, std::string_view default_table);
 
-  // The change of a table when its folder was read again.
+  // The table of the water column. No request names it; it computes the waters that requests carry.
+  struct Water {
+    std::filesystem::path path;
+    WaterColumnTable table;
+    FileIdentity identity;
+  };
+
+  // Reads the table of the water column, which a catalog has only after this.
+  absl::Status AddWater(const std::filesystem::path& file);
+
+  // The change of a table when its file was read again.
   struct Change {
     enum class Kind {
       kLoaded,   // New, or its file has changed.
@@ -43,7 +54,7 @@ class TableCatalog {
   };
   struct Reloaded;
 
-  // Reads the folder again. If any table is invalid, the whole reload fails, as Load does. Tables whose files have not
+  // Reads the files again. If any table is invalid, the whole reload fails, as Load does. Tables whose files have not
   // changed are shared with the new catalog.
   absl::StatusOr<Reloaded> Reload() const;
 
@@ -55,6 +66,9 @@ class TableCatalog {
 
   const std::filesystem::path& folder() const { return folder_; }
 
+  // Null: without.
+  const std::shared_ptr<const Water>& water() const { return water_; }
+
  private:
   TableCatalog(const std::filesystem::path& folder, std::string_view default_table)
       : folder_(folder), default_table_(default_table) {}
@@ -65,16 +79,15 @@ class TableCatalog {
   std::string default_table_;
   std::vector<TableFile> files_;
   std::vector<std::shared_ptr<const Entry>> entries_;  // One for each file.
+  std::shared_ptr<const Water> water_;
 };
 
 struct TableCatalog::Reloaded {
   TableCatalog catalog;
-  std::vector<Change> changes;  // Sorted like entries(); removed tables come last.
+  std::vector<Change> changes;  // Sorted like entries(); then that of the water, by its id, and removed tables.
 };
 
-// The tables currently in use, and their replacement when the folder has changed.
-
-// Thread-safe.
+// The tables currently in use, and their replacement when their files have changed. Thread-safe.
 class LiveTables {
  public:
   // The change of each table, or why nothing changed.
@@ -91,7 +104,7 @@ class LiveTables {
   // Each call takes this once, at its beginning, and uses it to its end: tables live as long as a call uses them.
   std::shared_ptr<const TableCatalog> current() const;
 
-  // Reads the folder again, on a separate thread. On success its tables are used from then on; on any failure the
+  // Reads the files again, on a separate thread. On success its tables are used from then on; on any failure the
   // present tables stay in use. Then calls `done`. Requests that arrive before a reload has started share it.
   void Reload(Listener done);
 

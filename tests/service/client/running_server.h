@@ -23,13 +23,16 @@ class RunningServer {
  public:
   explicit RunningServer(const albtpu::testing::SyntheticOptions& options = {},
                          const std::string& listen = "127.0.0.1:0",
-                         const std::shared_ptr<const WaterColumnTable>& water = nullptr) {
+                         const std::optional<std::filesystem::path>& water = std::nullopt) {
     const absl::Status written =
         WriteTable(albtpu::testing::SyntheticTable(options), folder_ / "quick.h5", Existing::kReplace);
     EXPECT_TRUE(written.ok()) << written;
-    tables_.emplace(server::TableCatalog::Load(folder_ / "", "").value());
-    server_ = server::Server::Start({*tables_, water},
-                                    {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
+    server::TableCatalog catalog = server::TableCatalog::Load(folder_ / "", "").value();
+    if (water.has_value()) {
+      EXPECT_TRUE(catalog.AddWater(*water).ok());
+    }
+    tables_.emplace(std::move(catalog));
+    server_ = server::Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
                                     server::ListenAddress::Parse(listen).value())
                   .value();
   }

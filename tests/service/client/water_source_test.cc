@@ -69,7 +69,7 @@ void ExpectSame(const BudgetMemory& in_words, const BudgetMemory& in_columns, co
 }
 
 TEST(WaterSource, GivesTheBitsOfTheColumnsThatAClientComputes) {
-  const RunningServer server({}, "127.0.0.1:0", ShippedWaterTable());
+  const RunningServer server({}, "127.0.0.1:0", SHIPPED_WATER_TABLE);
   const auto remote = OpenServer(server.address(), "").value();
   LocalSource local("", SyntheticTable());
   std::size_t beyond = 0, answered = 0;
@@ -108,7 +108,7 @@ TEST(WaterSource, GivesTheBitsOfTheColumnsThatAClientComputes) {
 }
 
 TEST(WaterSource, TakesASeaAndAWaterTogether) {
-  const RunningServer server({}, "127.0.0.1:0", ShippedWaterTable());
+  const RunningServer server({}, "127.0.0.1:0", SHIPPED_WATER_TABLE);
   BudgetPulseMemory pulses = RandomBudgetPulses(300);
   const KnownSea sea = albtpu::testing::DescribedWaves();
   const auto remote = ServerSeas(server.address()).value()->Open(sea).value();
@@ -124,7 +124,7 @@ TEST(WaterSource, TakesASeaAndAWaterTogether) {
 }
 
 TEST(WaterSource, SaysWhatWasAssumed) {
-  const RunningServer server({}, "127.0.0.1:0", ShippedWaterTable());
+  const RunningServer server({}, "127.0.0.1:0", SHIPPED_WATER_TABLE);
   const auto remote = OpenServer(server.address(), "").value();
   const BudgetPulseMemory pulses = RandomBudgetPulses(3);
   BudgetMemory answers(pulses.size);
@@ -142,7 +142,7 @@ TEST(WaterSource, SaysWhatWasAssumed) {
 }
 
 TEST(WaterSource, RefusesWhatTheServerCannotCompile) {
-  const RunningServer with({}, "127.0.0.1:0", ShippedWaterTable());
+  const RunningServer with({}, "127.0.0.1:0", SHIPPED_WATER_TABLE);
   const RunningServer without;
   const BudgetPulseMemory pulses = RandomBudgetPulses(3);
   BudgetMemory answers(pulses.size);

@@ -52,23 +52,25 @@ inline std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
 // (all values times 2 and 3).
 class ServedTables : public ::testing::Test {
  protected:
-  // `water` is null for a server without a table of the water column.
-  explicit ServedTables(std::shared_ptr<const WaterColumnTable> water = nullptr)
-      : survey_(testing::SyntheticTable()),
-        published_(testing::SyntheticTable({.published = true})),
-        water_(std::move(water)) {
+  // `water` is the file of the table of the water column, if the server has one.
+  explicit ServedTables(const std::optional<std::filesystem::path>& water = std::nullopt)
+      : survey_(testing::SyntheticTable()), published_(testing::SyntheticTable({.published = true})) {
     WriteOrDie(survey_, folder_ / "survey.h5");
     WriteOrDie(published_, folder_ / "published.h5");
     WriteOrDie(testing::SyntheticTable({.version = "first", .factor = 2}), folder_.path() / "twice" / "1.h5");
     WriteOrDie(testing::SyntheticTable({.version = "second", .factor = 3}), folder_.path() / "twice" / "2.h5");
-    tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
+    TableCatalog catalog = OrDie(TableCatalog::Load(folder_.path(), ""));
+    if (water.has_value()) {
+      EXPECT_TRUE(catalog.AddWater(*water).ok());
+    }
+    tables_.emplace(std::move(catalog));
     server_ = OrDie(Start("127.0.0.1:0"));
     channel_ = ChannelTo(server_->address());
     stub_ = v1::UncertaintyService::NewStub(channel_);
   }
 
   absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
-    return Server::Start({*tables_, water_}, {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
+    return Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
                          OrDie(ListenAddress::Parse(address)));
   }
 
@@ -119,7 +121,6 @@ class ServedTables : public ::testing::Test {
   testing::TemporaryFolder folder_;
   UncertaintyTable survey_;
   UncertaintyTable published_;
-  std::shared_ptr<const WaterColumnTable> water_;
   ServerMetrics metrics_;
   CallLog log_;
   std::optional<LiveTables> tables_;

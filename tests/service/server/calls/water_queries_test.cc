@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class WaterQueries : public ServedTables {
  protected:
-  WaterQueries() : ServedTables(testing::ShippedWaterTable()) {}
+  WaterQueries() : ServedTables(SHIPPED_WATER_TABLE) {}
 
   // One number for all pulses, as a person types them.
   static v1::QueryBudgetRequest Request(const KnownWater& water, const std::vector<float>& depths = {8}) {

@@ -133,10 +133,11 @@ TEST(WaterRequest, NamesOpticsThatCannotBe) {
 
 TEST(WaterRequest, HasOneKeyForEqualWaters) {
   std::vector<Sha256Digest> keys;
-  for (const KnownWater& water : testing::WatersOfAllKinds()) keys.push_back(KeyOf(client::ToWire(water)));
+  for (const KnownWater& water : testing::WatersOfAllKinds()) keys.push_back(KeyOf(client::ToWire(water), "table"));
   v1::WaterState state = Coastal();
   state.GetReflection()->MutableUnknownFields(&state)->AddVarint(1000, 1);  // Of a newer client.
-  EXPECT_EQ(KeyOf(state), KeyOf(Coastal()));
+  EXPECT_EQ(KeyOf(state, "table"), KeyOf(Coastal(), "table"));
+  EXPECT_NE(KeyOf(state, "another"), KeyOf(Coastal(), "table"));
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());
 }

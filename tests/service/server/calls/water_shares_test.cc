@@ -15,14 +15,21 @@ namespace albtpu::server {
 namespace {
 
 KnownWater Secchi(double depth) { return testing::CoastalWater({.secchi = depth}); }
-Sha256Digest Key(const KnownWater& water) { return KeyOf(client::ToWire(water)); }
+Sha256Digest Key(const KnownWater& water) { return KeyOf(client::ToWire(water), ""); }
+
+std::shared_ptr<const TableCatalog::Water> ShippedTable() {
+  static const auto table = std::make_shared<const TableCatalog::Water>(
+      TableCatalog::Water{SHIPPED_WATER_TABLE, *testing::ShippedWaterTable(), IdentityOf(SHIPPED_WATER_TABLE)});
+  return table;
+}
 
 class WaterSharesTest : public ::testing::Test {
  protected:
   // Asks for a water and waits for the answer.
-  static WaterShares::Result Compile(WaterShares& waters, const KnownWater& water) {
+  static WaterShares::Result Compile(WaterShares& waters, const KnownWater& water,
+                                     const std::shared_ptr<const TableCatalog::Water>& table = ShippedTable()) {
     std::promise<WaterShares::Result> answer;
-    waters.Compile({Key(water), water}, [&](const WaterShares::Result& result) { answer.set_value(result); });
+    waters.Compile({Key(water), water, table}, [&](const WaterShares::Result& result) { answer.set_value(result); });
     return answer.get_future().get();
   }
 
@@ -43,7 +50,7 @@ class WaterSharesTest : public ::testing::Test {
 };
 
 TEST_F(WaterSharesTest, KeepAWater) {
-  WaterShares waters(testing::ShippedWaterTable(), metrics_, log_);
+  WaterShares waters(metrics_, log_);
   EXPECT_EQ(waters.Find(Key(Secchi(5))), nullptr);
   const WaterShares::Result water = Compile(waters, Secchi(5));
   ASSERT_TRUE(water.ok()) << water.status();
@@ -57,7 +64,7 @@ TEST_F(WaterSharesTest, KeepAWater) {
 }
 
 TEST_F(WaterSharesTest, DropTheWaterThatWasNotUsedLongest) {
-  WaterShares waters(testing::ShippedWaterTable(), metrics_, log_, {.waters = 2});
+  WaterShares waters(metrics_, log_, {.waters = 2});
   ASSERT_TRUE(Compile(waters, Secchi(4)).ok());
   ASSERT_TRUE(Compile(waters, Secchi(5)).ok());
   EXPECT_NE(waters.Find(Key(Secchi(4))), nullptr);
@@ -71,10 +78,10 @@ TEST_F(WaterSharesTest, DropTheWaterThatWasNotUsedLongest) {
 TEST_F(WaterSharesTest, RefuseWatersForWhichThereIsNoPlaceToWait) {
   constexpr int kWaters = 12;
   std::atomic<int> compiled = 0, refused = 0;
-  WaterShares waters(testing::ShippedWaterTable(), metrics_, log_, {.waiting = 2});
+  WaterShares waters(metrics_, log_, {.waiting = 2});
   for (int i = 0; i < kWaters; ++i) {
     const KnownWater water = Secchi(3 + 0.1 * i);
-    waters.Compile({Key(water), water}, [&](const WaterShares::Result& result) {
+    waters.Compile({Key(water), water, ShippedTable()}, [&](const WaterShares::Result& result) {
       if (result.ok()) ++compiled;
       if (absl::IsResourceExhausted(result.status())) ++refused;
     });
@@ -86,7 +93,7 @@ TEST_F(WaterSharesTest, RefuseWatersForWhichThereIsNoPlaceToWait) {
 }
 
 TEST_F(WaterSharesTest, SayWhatTheTableDoesNotCover) {
-  WaterShares waters(testing::ShippedWaterTable(), metrics_, log_);
+  WaterShares waters(metrics_, log_);
   KnownWater water = Secchi(5);
   water.bias = BiasTreatment{.handling = BiasHandling::kCalibrated, .calibration_depth = 100};
   const absl::Status status = Compile(waters, water).status();
@@ -95,14 +102,12 @@ TEST_F(WaterSharesTest, SayWhatTheTableDoesNotCover) {
   EXPECT_EQ(Value("albtpu_water_requests_total", "failed"), 1);
 }
 
-TEST_F(WaterSharesTest, NeedATableForTheColumnAlone) {
-  WaterShares waters(nullptr, metrics_, log_);
+TEST_F(WaterSharesTest, NeedNoTableForTheSurfaceAlone) {
+  WaterShares waters(metrics_, log_);
   KnownWater water = Secchi(5);
-  EXPECT_TRUE(absl::IsFailedPrecondition(waters.Check(water)));
   water.bias.reset();
   water.green_surface = true;
-  ASSERT_TRUE(waters.Check(water).ok());
-  const WaterShares::Result surface = Compile(waters, water);
+  const WaterShares::Result surface = Compile(waters, water, nullptr);
   ASSERT_TRUE(surface.ok()) << surface.status();
   EXPECT_GT((*surface)->summary.green_surface_range(), 0.02);
 }

@@ -5,12 +5,15 @@
 
 #include "service/server/tables/table_catalog.h"
 #include "tests/service/server/served_tables.h"
+#include "tests/tables/water/shipped_water.h"
 
 namespace albtpu::server {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 using Kind = TableCatalog::Change::Kind;
 
 class LiveTablesTest : public ::testing::Test {
@@ -108,6 +111,40 @@ TEST_F(LiveTablesTest, StayWhenTheGivenDefaultIsMissing) {
   std::filesystem::remove(folder_ / "quick.h5");
   EXPECT_THAT(std::string(Reload().status().message()), HasSubstr("quick"));
   EXPECT_TRUE(tables_->current()->Find("").ok());
+}
+
+TEST_F(LiveTablesTest, LoadTheTableOfTheWaterAgain) {
+  const testing::TemporaryFolder elsewhere;
+  const std::filesystem::path path = elsewhere / "water.h5";
+  const auto put = [&](const std::string& version) {
+    const Table& shipped = testing::ShippedWaterTable()->table();
+    Provenance provenance = shipped.provenance();
+    provenance.version = version;
+    Table::Variables variables;
+    for (std::size_t q = 0; q < kWaterQuantityCount; ++q) variables.emplace_back(*shipped.variable(q));
+    const Table table = OrDie(Table::Create(kWaterColumn, shipped.axes(), std::move(variables), provenance));
+    ASSERT_TRUE(WriteTable(table, path, Existing::kReplace).ok());
+  };
+  const auto version = [&] { return tables_->current()->water()->table.table().provenance().version; };
+  put("2");
+  TableCatalog catalog = OrDie(TableCatalog::Load(folder_.path(), ""));
+  EXPECT_EQ(catalog.water(), nullptr);
+  EXPECT_FALSE(catalog.AddWater(folder_ / "quick.h5").ok());
+  ASSERT_TRUE(catalog.AddWater(path).ok());
+  tables_.emplace(std::move(catalog));
+
+  const auto before = tables_->current();
+  EXPECT_THAT(Kinds(Reload()), Contains(Pair("water_column", Kind::kKept)));
+  EXPECT_EQ(tables_->current()->water(), before->water());
+  put("3");
+  EXPECT_THAT(Kinds(Reload()), Contains(Pair("water_column", Kind::kLoaded)));
+  EXPECT_EQ(version(), "3");
+  std::ofstream(path) << "not a table";
+  Put("quick.h5", 2);
+  EXPECT_THAT(std::string(Reload().status().message()), HasSubstr("water.h5"));
+  EXPECT_EQ(version(), "3");
+  std::filesystem::remove(path);
+  EXPECT_FALSE(Reload().ok());
 }
 
 TEST_F(LiveTablesTest, LiveWhileACallHoldsThem) {
