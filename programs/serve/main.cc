@@ -30,7 +30,6 @@
 #include "status/status_macros.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_folder.h"
-#include "tables/file/table_io.h"
 #include "tables/version.h"
 
 namespace albtpu::programs {
