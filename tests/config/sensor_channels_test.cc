@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "config/survey_settings.h"
+#include "tests/config/parsed_survey.h"
 
 namespace albtpu::config {
 namespace {
@@ -11,14 +12,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-SurveySettings Survey(const std::string& text) {
-  absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "/data");
-  EXPECT_TRUE(survey.ok()) << text << survey.status();
-  return survey.value_or(SurveySettings());
-}
-
-std::string ErrorOf(const std::string& text) { return std::string(ParseSurvey(text, "/data").status().message()); }
 
 constexpr char kTwo[] = R"([sensor]
 lever_arm = [1, 2, 3]

@@ -11,6 +11,7 @@
 #include "tables/coverage.h"
 #include "tests/budget/air/air_forward.h"
 #include "tests/budget/query/budget_memory.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
@@ -23,7 +24,7 @@ using testing::ReportedPoint;
 using Jacobian = Eigen::Matrix<double, 3, kAirUnknowns>;
 using Unknowns = Eigen::Matrix<double, kAirUnknowns, 1>;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 const AirErrors kOracle = testing::UsualOptions().errors;
 

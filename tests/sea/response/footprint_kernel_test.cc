@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "tests/sea/response/seas.h"
+
 namespace albtpu {
 namespace {
 
-const BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
-
-const HankelLattice& Lattice() { return HankelLattice::Shared(); }
-double LagOf(int j) { return Lattice().Lag(j * FootprintKernel::kLagStride); }
+double LagOf(int j) { return HankelLattice::Shared().Lag(j * FootprintKernel::kLagStride); }
 
 // Trapezoids in steps of 10 %, and the 1e-3 of a gaussian beam's overlap that lies beyond its last lag.
 TEST(FootprintKernel, HasAnOverlapOfUnitIntegral) {
