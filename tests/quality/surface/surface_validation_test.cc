@@ -68,13 +68,13 @@ class Places {
   std::span<const NodeSums> places_;
 };
 
+constexpr double kMiddleOfPlace = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
 constexpr double kMostFromMiddle = 6;  // m, of nodes along both axes.
 
 std::vector<SurfaceNode> NodesIn(const SimulatedPlace& place, const std::vector<SurfacePoint>& points, double cell) {
   std::vector<SurfacePoint> of_tile;
-  constexpr double kMiddle = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
   const auto inside = [&](double at) {
-    return std::abs(at - kMiddle) < kMostFromMiddle + 2 * cell && at >= -cell && at < (kTileCells + 1) * cell;
+    return std::abs(at - kMiddleOfPlace) < kMostFromMiddle + 2 * cell && at >= -cell && at < (kTileCells + 1) * cell;
   };
   for (const SurfacePoint& point : points)
     if (inside(point.x) && inside(point.y)) of_tile.push_back(point);
@@ -83,12 +83,11 @@ std::vector<SurfaceNode> NodesIn(const SimulatedPlace& place, const std::vector<
 
 // Those of the nodes whose neighbours have all their points, too. Of small cells, those in the middle tell enough.
 void AddNodes(const std::vector<SurfaceNode>& nodes, double cell, NodeSums& sums) {
-  constexpr double kMiddle = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
   const double most = std::min(kMostFromMiddle, SimulatedPlace::kWidth / 2 - SimulatedPlace::kMargin - 1.5 * cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vector2d at(cell * (static_cast<double>(i % kTileCells) + 0.5),
                       cell * (static_cast<double>(i / kTileCells) + 0.5));
-    if ((at - Vector2d::Constant(kMiddle)).cwiseAbs().maxCoeff() > most || nodes[i].points == 0) continue;
+    if ((at - Vector2d::Constant(kMiddleOfPlace)).cwiseAbs().maxCoeff() > most || nodes[i].points == 0) continue;
     sums.Add(nodes[i], SimulatedPlace::HeightAt(at));
   }
 }

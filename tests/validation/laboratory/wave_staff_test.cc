@@ -150,8 +150,9 @@ TEST(Dispersion, HasTheDerivativeOfTheFrequencyAsGroupSpeed) {
 
 TEST(FrequencySpectrum, HasTheVarianceOfTheSea) {
   double sum = 0;
-  constexpr double kStep = 0.01;  // Hz
-  for (double f = 0.5 * kStep; f < 1500; f += kStep) sum += FrequencySpectrum(StaffSea(), f) * kStep;
+  constexpr double kFrequencyStep = 0.01;  // Hz
+  for (double f = 0.5 * kFrequencyStep; f < 1500; f += kFrequencyStep)
+    sum += FrequencySpectrum(StaffSea(), f) * kFrequencyStep;
   EXPECT_NEAR(sum / ElevationVariance(StaffSea()), 1, 1e-3);  // 1e-4 for each of the ranges and of the sums
 }
 
