@@ -1,4 +1,5 @@
-// The point that a lidar reports, exactly, in real or complex arithmetic: what the derivatives of budget/air are held against.
+// The point that a lidar reports, exactly, in real or complex arithmetic: what the derivatives of budget/air are held
+// against.
 #pragma once
 
 #include <Eigen/Core>
