@@ -37,7 +37,7 @@ endfunction()
 include(CMakeDependentOption)
 # Half of the time of a file goes into what it includes, so that a release compiles several files at a time. Where
 # precompiled headers are disabled, to see whether each file includes what it needs, each file is compiled alone.
-cmake_dependent_option(ALBTPU_UNITY "Compile several files of a library at a time" ON
+cmake_dependent_option(ALBTPU_UNITY "Compile several files of a target at a time" ON
                        "NOT CMAKE_DISABLE_PRECOMPILE_HEADERS" OFF)
 
 # Compile options of all our own code; to be called once for each target. Headers that most of its files include, such
@@ -47,8 +47,12 @@ function(albtpu_target target)
   albtpu_warn(${target})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
-  if(ALBTPU_UNITY AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests(/|$)")  # Tests repeat names.
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  if(ALBTPU_UNITY)
+    set(batch 6)
+    if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests(/|$)")  # Tests have less code beside what they include.
+      set(batch 9)
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
   endif()
   # At the end of the folder it is known whether the target is position-independent.
   cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
@@ -124,6 +128,7 @@ endfunction()
 # released.
 function(albtpu_test name label)
   cmake_parse_arguments(ARG "ONE_PROCESS" "" "SOURCES;LIBRARIES" ${ARGN})
+  albtpu_skip_kernels(${ARG_SOURCES})
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
@@ -154,11 +159,17 @@ function(albtpu_sources variable)
     list(APPEND sources ${found})
   endforeach()
   list(FILTER sources EXCLUDE REGEX "(^|/|_)main\\.cc$")
-  foreach(source IN LISTS sources)
-    file(STRINGS ${source} kernels REGEX "^#include <hwy/foreach_target")
-    if(kernels)  # It includes itself, once for each instruction set.
+  albtpu_skip_kernels(${sources})
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
+# Compiles the sources that have kernels alone: each includes itself, once for each instruction set.
+function(albtpu_skip_kernels)
+  foreach(source IN LISTS ARGN)
+    file(REAL_PATH ${source} path BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    file(STRINGS ${path} kernels REGEX "^#include <hwy/foreach_target")
+    if(kernels)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
   endforeach()
-  set(${variable} ${sources} PARENT_SCOPE)
 endfunction()

@@ -67,7 +67,7 @@ std::string Section(const ListedKey& key) {
   return IsOfMany(key.section) ? absl::StrCat("[[", key.section, "]]\n") : absl::StrCat("[", key.section, "]\n");
 }
 
-std::string ErrorOf(const ListedKey& key, const std::string& value) {
+std::string ErrorOfKey(const ListedKey& key, const std::string& value) {
   const auto survey = ParseSurvey(absl::StrCat(Section(key), key.key, " = ", value, "\n"), "");
   return std::string(survey.status().message());
 }
@@ -75,7 +75,7 @@ std::string ErrorOf(const ListedKey& key, const std::string& value) {
 TEST(EachKey, IsRefusedWhereItsValueIsWrong) {
   for (const ListedKey& key : ListKeys()) {
     for (const Written& wrong : WrongValues(key.values)) {
-      const std::string error = ErrorOf(key, wrong.file);
+      const std::string error = ErrorOfKey(key, wrong.file);
       EXPECT_THAT(error, StartsWith(absl::StrCat("line 2: '", key.section, ".", key.key, "' "))) << wrong.file;
       EXPECT_THAT(error, HasSubstr("(expected ")) << wrong.file;
       EXPECT_THAT(error, HasSubstr("; ")) << wrong.file;
@@ -104,7 +104,7 @@ TEST(EachKey, TakesTheEndsOfItsRange) {
     if (key.values.type != "number") continue;
     for (const double end : {*key.values.least, *key.values.greatest}) {
       const std::string text = absl::StrCat(end);
-      EXPECT_THAT(ErrorOf(key, text), Not(HasSubstr("expected "))) << key.key;
+      EXPECT_THAT(ErrorOfKey(key, text), Not(HasSubstr("expected "))) << key.key;
       if (key.flag.empty()) continue;
       EXPECT_TRUE(ParseValue(*FindFlag(key.flag).declaration, text).ok()) << key.flag;
     }

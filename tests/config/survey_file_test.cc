@@ -6,6 +6,7 @@
 #include <string>
 
 #include "config/survey_settings.h"
+#include "tests/config/parsed_survey.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::config {
@@ -32,12 +33,6 @@ gamma = 7
 waves_from = 295
 spread = 18
 )";
-
-std::string ErrorOf(const std::string& text) {
-  const absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "");
-  EXPECT_FALSE(survey.ok()) << text;
-  return std::string(survey.status().message());
-}
 
 TEST(SurveyFile, HasASea) {
   const absl::StatusOr<SurveySettings> survey = ParseSurvey(kTwoWaves, "");

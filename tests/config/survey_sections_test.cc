@@ -4,6 +4,7 @@
 #include <string>
 
 #include "config/survey_settings.h"
+#include "tests/config/parsed_survey.h"
 
 namespace albtpu::config {
 namespace {
@@ -53,18 +54,6 @@ coverage = "p95"
 s44_order = "1b"
 details = true
 )";
-
-std::string ErrorOf(const std::string& text) {
-  const absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "/data");
-  EXPECT_FALSE(survey.ok()) << text;
-  return std::string(survey.status().message());
-}
-
-SurveySettings Survey(const std::string& text) {
-  absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "/data");
-  EXPECT_TRUE(survey.ok()) << text << survey.status();
-  return survey.value_or(SurveySettings());
-}
 
 TEST(SurveySections, SayAllOfASurvey) {
   const SurveySettings survey = Survey(kWhole);

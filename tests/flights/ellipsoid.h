@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <numbers>
 
-namespace albtpu::testing {
+#include "tests/degree.h"
 
-inline constexpr double kDegree = std::numbers::pi / 180;
+namespace albtpu::testing {
 
 // Radii of curvature of the ellipsoid [m] at `latitude` [rad]: along the meridian, and across it.
 double MeridianRadius(double latitude);

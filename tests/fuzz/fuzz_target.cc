@@ -1,19 +1,16 @@
-// The entry points of libFuzzer and of replay_main.cc, for the target ALBTPU_FUZZ_TARGET.
+// The entry points of libFuzzer and of replay_main.cc, for the target that the program is named after.
 #include "tests/fuzz/fuzz_target.h"
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace albtpu::fuzz {
 namespace {
 
-const Target& ThisTarget() {
-  static const auto target = std::ranges::find(kTargets, ALBTPU_FUZZ_TARGET, &Target::name);
-  ALBTPU_MUST(target != kTargets.end());
-  return *target;
-}
+const Target* this_target;
 
 std::string_view View(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
@@ -29,15 +26,25 @@ std::string MutateBytes(std::string bytes, std::size_t most) {
   return bytes;
 }
 
+// Is called first. The program is NAME_fuzz.
+extern "C" int LLVMFuzzerInitialize(int*, char*** arguments) {
+  const std::string program = std::filesystem::path(**arguments).filename();
+  const auto target =
+      std::ranges::find_if(kTargets, [&](const Target& each) { return program == std::string(each.name) + "_fuzz"; });
+  ALBTPU_MUST(target != kTargets.end());
+  this_target = &*target;
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  ThisTarget().run(View(data, size));
+  this_target->run(View(data, size));
   return 0;
 }
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   Random random(seed);
-  const auto mutate = ThisTarget().mutate;
+  const auto mutate = this_target->mutate;
   const std::string other = mutate == nullptr ? "" : mutate(View(data, size), max_size, random);
   if (other.empty() || other.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
   std::memcpy(data, other.data(), other.size());

@@ -23,6 +23,7 @@
 
 // What libFuzzer takes of a target, and what it gives to one, in fuzz_target.cc.
 extern "C" {
+int LLVMFuzzerInitialize(int* argument_count, char*** arguments);
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned int seed);
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
@@ -137,6 +138,7 @@ std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t m
 int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
   if (argc < 3) return 2;
+  LLVMFuzzerInitialize(&argc, &argv);
   const Clock::duration time = std::chrono::seconds(std::stoi(argv[1]));
   const std::vector<std::string> inputs = ReadInputs({argv + 2, argv + argc});
   if (inputs.empty()) return 1;

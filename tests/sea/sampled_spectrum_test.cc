@@ -92,23 +92,21 @@ TEST(SeaState, HasNoWavesIfAllAreCorrectedFor) {
   EXPECT_EQ(SlopeCovariance(sea).trace(), 0);
 }
 
-constexpr double kPi = std::numbers::pi;
-
 // The mean over the energy of f(psi), by a sum over the full turn, exact for smooth functions.
 template <typename Function>
 double Mean(const PositiveSpreading& spreading, const Function& f) {
   constexpr int kSteps = 2000;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
-    const double psi = 2 * kPi * (i + 0.3) / kSteps;
-    sum += spreading(psi) * f(psi) * 2 * kPi / kSteps;
+    const double psi = 2 * std::numbers::pi * (i + 0.3) / kSteps;
+    sum += spreading(psi) * f(psi) * 2 * std::numbers::pi / kSteps;
   }
   return sum;
 }
 
 double Least(const PositiveSpreading& spreading) {
   double least = 1;
-  for (double psi = 0; psi < kPi; psi += 0.001) least = std::min(least, spreading(psi));
+  for (double psi = 0; psi < std::numbers::pi; psi += 0.001) least = std::min(least, spreading(psi));
   return least;
 }
 
@@ -117,14 +115,14 @@ TEST(PositiveSpreading, IsTheSeriesWhereThatIsPositive) {
   for (const double psi : {0.0, 0.4, 2.0, -1.0, 5.0}) {
     const double series = 1 + 2 * (0.3 * std::cos(2 * psi) - 0.2 * std::sin(2 * psi) + 0.05 * std::cos(4 * psi) +
                                    0.1 * std::sin(4 * psi));
-    EXPECT_NEAR(spreading(psi), series / (2 * kPi), 1e-15);
+    EXPECT_NEAR(spreading(psi), series / (2 * std::numbers::pi), 1e-15);
   }
 }
 
 TEST(PositiveSpreading, LooksAlikeAfterHalfATurn) {
   for (const double a : {0.2, 0.8}) {
     const PositiveSpreading spreading({a}, {0.1});
-    for (const double psi : {0.0, 0.7, 2.5}) EXPECT_NEAR(spreading(psi), spreading(psi + kPi), 1e-12);
+    for (const double psi : {0.0, 0.7, 2.5}) EXPECT_NEAR(spreading(psi), spreading(psi + std::numbers::pi), 1e-12);
   }
 }
 

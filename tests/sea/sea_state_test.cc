@@ -8,11 +8,10 @@
 #include <set>
 
 #include "sea/response/closed_form.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 // The slow twin of SlopeCovariance: five times as many wavenumbers and four times as many directions, of half a turn:
 // the other half is the same.

@@ -13,8 +13,8 @@ namespace {
 using ::albtpu::testing::MakeAxis;
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfiniteNode = std::numeric_limits<double>::infinity();
+constexpr double kNoNode = std::numeric_limits<double>::quiet_NaN();
 
 std::string Problem(AxisId id, std::vector<double> nodes) {
   const absl::StatusOr<Axis> axis = Axis::Create(id, std::move(nodes));
@@ -42,8 +42,8 @@ TEST(Axis, RefusesNodesThatItCannotHave) {
         {AxisId::kDepth, {0, kLeastFloat}, "1.40129846e-45 m, too close to node 0 (0 m): nodes must be 1e-06 apart"},
         {AxisId::kDepth, {0, kMostFloat}, "node 1 is 3.40282347e+38 m: nodes must not be above 1e+09"},
         {AxisId::kFetch, {}, "'fetch' has no nodes"},
-        {AxisId::kFetch, {100, kInfinity}, "'fetch' node 1 is inf m: nodes must be finite"},
-        {AxisId::kWindSpeed, {kNaN}, "'wind_speed' node 0 is nan m s-1"},
+        {AxisId::kFetch, {100, kInfiniteNode}, "'fetch' node 1 is inf m: nodes must be finite"},
+        {AxisId::kWindSpeed, {kNoNode}, "'wind_speed' node 0 is nan m s-1"},
         {AxisId::kFootprint, {0.1}, "not representable in single precision"},
         {AxisId::kFetch, {1, 1e300}, "not representable"},
         {AxisId::kDepth, {-1, 0}, "'depth' node 0 is -1 m: nodes must not be negative"},
@@ -80,23 +80,24 @@ TEST(Axis, UsesTheGivenScale) {
 
 TEST(Axis, LocatesNothingOutsideItsNodes) {
   const Axis depth = MakeAxis(AxisId::kDepth, {1, 2});
-  for (double outside : {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfinity, -kInfinity, kNaN})
+  for (double outside :
+       {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfiniteNode, -kInfiniteNode, kNoNode})
     EXPECT_EQ(depth.Locate(outside), std::nullopt) << outside;
 }
 
 TEST(Axis, HoldsFetchAboveItsLastNode) {
   const Axis fetch = MakeAxis(AxisId::kFetch, {100, 1000});
   EXPECT_EQ(Place(fetch, 1001), 1);
-  EXPECT_EQ(Place(fetch, kInfinity), 1);
+  EXPECT_EQ(Place(fetch, kInfiniteNode), 1);
   EXPECT_EQ(fetch.Locate(99), std::nullopt);
-  EXPECT_EQ(fetch.Locate(kNaN), std::nullopt);
-  EXPECT_EQ(fetch.Locate(-kInfinity), std::nullopt);
+  EXPECT_EQ(fetch.Locate(kNoNode), std::nullopt);
+  EXPECT_EQ(fetch.Locate(-kInfiniteNode), std::nullopt);
 }
 
 TEST(Axis, WithOneFetchAnswersAtAnyFetchAboveZero) {
   const Axis fetch = MakeAxis(AxisId::kFetch, {1000});
-  for (double inside : {1e-3, 1000.0, 1e9, kInfinity}) EXPECT_EQ(Place(fetch, inside), 0) << inside;
-  for (double outside : {0.0, -1.0, kNaN}) EXPECT_EQ(fetch.Locate(outside), std::nullopt) << outside;
+  for (double inside : {1e-3, 1000.0, 1e9, kInfiniteNode}) EXPECT_EQ(Place(fetch, inside), 0) << inside;
+  for (double outside : {0.0, -1.0, kNoNode}) EXPECT_EQ(fetch.Locate(outside), std::nullopt) << outside;
 }
 
 TEST(Axis, WithOneNodeAnswersOnlyThere) {
@@ -111,7 +112,7 @@ TEST(Axis, FoldsAzimuth) {
     EXPECT_DOUBLE_EQ(FoldAzimuth(same), 30) << same;
     EXPECT_NEAR(Place(azimuth, same), 1.0 / 3, 1e-15) << same;
   }
-  EXPECT_EQ(azimuth.Locate(kInfinity), std::nullopt);
+  EXPECT_EQ(azimuth.Locate(kInfiniteNode), std::nullopt);
 }
 
 TEST(Axis, KeepsFoldedAzimuthsWithinAQuarterTurn) {
@@ -135,14 +136,14 @@ TEST(Axis, FoldsAzimuthIntoHalfATurn) {
     EXPECT_GE(FoldAzimuth(any, Fold::kHalfTurn), 0);
     EXPECT_LE(FoldAzimuth(any, Fold::kHalfTurn), 180);
   }
-  EXPECT_EQ(azimuth.Locate(kInfinity), std::nullopt);
+  EXPECT_EQ(azimuth.Locate(kInfiniteNode), std::nullopt);
   EXPECT_THAT(Axis::Create(schema, {0, 181}).status().message(), HasSubstr("above 180 degree"));
 }
 
 TEST(Axis, WithOneNodeOnAnEndlessLinearScaleAnswersFromZero) {
   const Axis wind_speed = *Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {6.5});
-  for (double inside : {0.0, 1.0, 6.5, 100.0, kInfinity}) EXPECT_EQ(Place(wind_speed, inside), 0) << inside;
-  for (double outside : {-1.0, -kInfinity, kNaN}) EXPECT_EQ(wind_speed.Locate(outside), std::nullopt) << outside;
+  for (double inside : {0.0, 1.0, 6.5, 100.0, kInfiniteNode}) EXPECT_EQ(Place(wind_speed, inside), 0) << inside;
+  for (double outside : {-1.0, -kInfiniteNode, kNoNode}) EXPECT_EQ(wind_speed.Locate(outside), std::nullopt) << outside;
 }
 
 }  // namespace

@@ -7,10 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "tests/tables/query/asked_columns.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {
 namespace {
+
+using ::albtpu::testing::kInfinity;
+using ::albtpu::testing::kNaN;
 
 using ::albtpu::testing::MakeAxis;
 using ::albtpu::testing::PartsOf;
@@ -39,7 +43,6 @@ TEST(UncertaintyTable, MayLackBiasesAndStandardErrors) {
 }
 
 TEST(UncertaintyTable, RefusesWhatIsNoTable) {
-  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
   struct Case {
     std::function<void(TableParts&)> change;
     ::testing::Matcher<std::string> problem;

@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 // Pulses at these depths, with a THU of 1/10 and a TVU of 1/100 of the depth. Negative depths are out of domain.
-struct Answers {
-  explicit Answers(const std::vector<float>& depths, std::uint8_t best_order = 1) {
+struct AnsweredPulses {
+  explicit AnsweredPulses(const std::vector<float>& depths, std::uint8_t best_order = 1) {
     pulses.size = depths.size();
     pulses[AxisId::kDepth] = depths;
     AnswerSelection selection{.quantities = {}, .standard_errors = true};
@@ -40,7 +40,7 @@ struct Answers {
 };
 
 TEST(UncertaintySummary, SortsPulsesIntoDepthBands) {
-  const Answers some({0, 0.125, 0.25, 7, 7.5, 60, -1});
+  const AnsweredPulses some({0, 0.125, 0.25, 7, 7.5, 60, -1});
   UncertaintySummary summary{AnswerStyle{}};
   summary.Add(some.pulses, some.answers);
   const Json json = summary.Json();
@@ -62,7 +62,7 @@ TEST(UncertaintySummary, SortsPulsesIntoDepthBands) {
 TEST(UncertaintySummary, CountsPulsesByTheStrictestOpenOrder) {
   UncertaintySummary summary{AnswerStyle{}};
   for (std::uint8_t order = 0; order <= 5; ++order) {
-    const Answers one({3}, order);
+    const AnsweredPulses one({3}, order);
     summary.Add(one.pulses, one.answers);
   }
   const Json json = summary.Json();
@@ -74,7 +74,7 @@ TEST(UncertaintySummary, CountsPulsesByTheStrictestOpenOrder) {
 }
 
 TEST(UncertaintySummary, MergesToTheSameSummaryAsOneBatch) {
-  const Answers first({1, 2, 4}), second({3, -1}), both({1, 2, 4, 3, -1});
+  const AnsweredPulses first({1, 2, 4}), second({3, -1}), both({1, 2, 4, 3, -1});
   UncertaintySummary a{AnswerStyle{}}, b{AnswerStyle{}}, all{AnswerStyle{}};
   a.Add(first.pulses, first.answers);
   b.Add(second.pulses, second.answers);
@@ -87,7 +87,7 @@ TEST(UncertaintySummary, MergesToTheSameSummaryAsOneBatch) {
 }
 
 TEST(UncertaintySummary, IsNullWhereTheTableHasNoStandardErrors) {
-  const Answers some({1});
+  const AnsweredPulses some({1});
   UncertaintySummary summary{AnswerStyle{.coverage = {}, .s44_order = {}, .standard_errors = true}};
   summary.Add(some.pulses, some.answers);
   const Json json = Json::parse(summary.Json().dump());
@@ -96,7 +96,7 @@ TEST(UncertaintySummary, IsNullWhereTheTableHasNoStandardErrors) {
 }
 
 TEST(UncertaintySummary, OmitsDepthsWhenNoPulseIsInterpolated) {
-  const Answers none({-1});
+  const AnsweredPulses none({-1});
   UncertaintySummary summary{AnswerStyle{}};
   summary.Add(none.pulses, none.answers);
   EXPECT_FALSE(summary.Json().contains("depth"));

@@ -6,6 +6,7 @@
 
 #include "annotate/beams/file_track.h"
 #include "tests/budget/beams/ray_flight.h"
+#include "tests/degree.h"
 
 namespace albtpu::annotate {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using testing::Ask;
 using testing::TrackAnswer;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 constexpr double kEarthRadius = 6.36e6;  // m, rounded down.
 
 std::shared_ptr<const formats::MapFrame> Map(const std::string& crs) {

@@ -6,11 +6,12 @@
 #include <numbers>
 
 #include "tables/axis.h"
+#include "tests/degree.h"
 
 namespace albtpu::annotate {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 // Points of these heights and scan angles at x = y = 0.
 SurveyPoints PointsOf(std::vector<double> z, std::vector<double> scan_angles) {

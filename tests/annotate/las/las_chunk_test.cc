@@ -23,7 +23,8 @@ using albtpu::testing::LasPoint;
 using albtpu::testing::LasSpec;
 using laz::Load;
 
-constexpr int kBottom = 40, kSurface = 41;
+using albtpu::testing::kBottom;
+using albtpu::testing::kSurface;
 
 // Pulses with a return from the surface, one from the bottom, or both, whose records are mixed with those of their
 // neighbours: the two of a pulse lie up to about 25 records apart, some of them beyond kPulseReach. Each surface return

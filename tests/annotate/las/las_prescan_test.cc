@@ -16,7 +16,8 @@ using albtpu::testing::LasPoint;
 using albtpu::testing::LasSpec;
 using albtpu::testing::TemporaryFolder;
 
-constexpr int kBottom = 40, kSurface = 41;
+using albtpu::testing::kBottom;
+using albtpu::testing::kSurface;
 const LasPrescanOptions kPairs = {.classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = {}};
 
 LasPrescan PrescanOf(const LasSpec& spec, const LasPrescanOptions& options) {

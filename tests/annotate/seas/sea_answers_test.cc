@@ -19,7 +19,8 @@
 namespace albtpu::annotate {
 namespace {
 
-constexpr double kHour = 3600, kStart = 1591588800;  // 2020-06-08T04:00Z
+using albtpu::testing::kHour;
+using albtpu::testing::kStart;
 
 // Counts how often seas are opened.
 class CountedSeas : public client::SeaSources {

@@ -9,6 +9,8 @@
 
 namespace albtpu::testing {
 
+inline constexpr double kHour = 3600, kStart = 1591588800;  // s; 2020-06-08T04:00Z
+
 struct SeaAtTime {
   double time;          // s since 1970
   double energy;        // of the peak, m^2/Hz

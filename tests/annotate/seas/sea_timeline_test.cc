@@ -14,7 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr double kHour = 3600, kStart = 1591588800;  // 2020-06-08T04:00Z
+using albtpu::testing::kHour;
+using albtpu::testing::kStart;
 
 class SeaTimelineTest : public ::testing::Test {
  protected:

@@ -43,7 +43,7 @@ Matrix3d SmallTurn(const Vector3d& degrees) {
   return turn;
 }
 
-TotalPlan Plan() {
+TotalPlan PlanOnLand() {
   TotalPlan plan;
   plan.options.errors = {.position = {0.03, 0.02, 0.05},
                          .attitude = {0.004, 0.006, 0.012},
@@ -127,7 +127,7 @@ TEST(DryTotals, AreThoseOfDraws) {
                             {0, 0, 0, 0, 0, {60, 0, 0}, {1, 2, -1}, {0.4, -0.1, 0.6}},
                             {35, 200, -8, 4, 310, {40, -40, 0}, {3, -2, 1}, {1.5, -0.3, 0.9}}};
   for (const Flight& flight : flights) {
-    TotalPlan plan = Plan();
+    TotalPlan plan = PlanOnLand();
     for (std::size_t axis = 0; axis < 3; ++axis)
       plan.options.lever_arm[axis] = flight.lever[static_cast<Eigen::Index>(axis)];
     const std::vector<Vector3d> errors = DrawnErrors(flight, plan, 400000);
@@ -155,7 +155,7 @@ TEST(DryTotals, AreThoseOfDraws) {
 
 // A pulse without water, sea and errors of the surface is dry: the limit of no depth.
 TEST(DryTotals, AreTheLimitOfNoDepth) {
-  TotalPlan plan = Plan();
+  TotalPlan plan = PlanOnLand();
   AirErrors& errors = plan.options.errors;
   errors.surface_range = errors.surface_height = errors.index = 0;
   errors.bottom_range = plan.hard_range;
@@ -183,7 +183,7 @@ TEST(DryTotals, AreTheLimitOfNoDepth) {
 
 TEST(DrySummary, CountsByRootMeanSquares) {
   const Flight flight = {20, 30, 0, 0, 0, {60, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  const TotalBatch totals = Computed(flight, Plan());
+  const TotalBatch totals = Computed(flight, PlanOnLand());
   DrySummary summary;
   summary.Add(totals, 0);
   summary.Add(totals, 0);

@@ -33,7 +33,7 @@ AnswerBatch Sea(std::size_t size) {
   return sea;
 }
 
-TotalPlan Plan() {
+TotalPlan PlanOfNumbers() {
   TotalPlan plan;
   plan.options.errors = {.position = {0.02, 0.03, 0.06},
                          .attitude = {0.005, 0.005, 0.008},
@@ -63,7 +63,7 @@ SourceSums Sampled(const TotalPlan& plan, std::size_t size, double without_total
 
 // Two computations: the sources in double precision, one by one, and the total of the columns.
 TEST(SourceSums, AddUpToTheTotal) {
-  const SourceSums sums = Sampled(Plan(), 1000);
+  const SourceSums sums = Sampled(PlanOfNumbers(), 1000);
   EXPECT_EQ(sums.samples, kSourceSamples);
   AxisVariances all;
   for (const AxisVariances& source : sums.sources) all.Add(source);
@@ -72,7 +72,7 @@ TEST(SourceSums, AddUpToTheTotal) {
 }
 
 TEST(SourceSums, AssumedIsThatOfTheAssumedSources) {
-  const SourceSums sums = Sampled(Plan(), 1000);
+  const SourceSums sums = Sampled(PlanOfNumbers(), 1000);
   AxisVariances expected;
   for (const auto index : {Index(&AirErrors::lever_arm), Index(&AirErrors::scan)}) expected.Add(sums.sources[index]);
   EXPECT_GT(expected.vertical, 0);
@@ -86,10 +86,10 @@ TEST(SourceSums, AssumedIsThatOfTheAssumedSources) {
 }
 
 TEST(SourceSums, CountPulsesWithATotalAlone) {
-  const SourceSums all = Sampled(Plan(), 2000), half = Sampled(Plan(), 2000, 0.5);
+  const SourceSums all = Sampled(PlanOfNumbers(), 2000), half = Sampled(PlanOfNumbers(), 2000, 0.5);
   EXPECT_EQ(half.samples, kSourceSamples / 2);
   EXPECT_NEAR(half[OtherSource::kDatum].vertical / all[OtherSource::kDatum].vertical, 0.5, 1e-3);
-  EXPECT_EQ(Sampled(Plan(), 10, 1).samples, 0);
+  EXPECT_EQ(Sampled(PlanOfNumbers(), 10, 1).samples, 0);
 }
 
 }  // namespace

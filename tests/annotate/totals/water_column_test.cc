@@ -42,7 +42,7 @@ const std::string kOptics = "kd = 0.15\nkd_kind = \"diffuse532\"\n";
 const std::string kReceiver = "detector = \"peak\"\nfield_of_view = 16\npulse_length = 5\n";
 const std::string kNone = "bias = \"none\"\n";
 
-PulseBatch Pulses() {
+PulseBatch PulsesInWater() {
   PulseBatch pulses{.size = 4, .axis = {}};
   pulses[AxisId::kIncidence] = {20, 20, 40, 10};
   pulses[AxisId::kDepth] = {2, 200, 5, 5};
@@ -92,7 +92,7 @@ TEST_F(WaterColumnPlan, LeavesOutWhatIsNotAskedFor) {
   EXPECT_EQ(numbers.back().name, "water_column");
   AnswerBatch answers = Answers();
   WaterBatch water;
-  AddWater(*plan, Pulses(), answers, water);
+  AddWater(*plan, PulsesInWater(), answers, water);
   EXPECT_TRUE(water.noise.empty());
   EXPECT_EQ(answers[Quantity::kBiasVertical][0], 0.1f);
 }
@@ -102,7 +102,7 @@ TEST_F(WaterColumnPlan, AddsBiasesToThoseOfTheSeaAndMarksPulsesBeyond) {
   ASSERT_TRUE(plan.ok()) << plan.status();
   AnswerBatch answers = Answers();
   WaterBatch water;
-  AddWater(*plan, Pulses(), answers, water);
+  AddWater(*plan, PulsesInWater(), answers, water);
   const WaterAnswerOfSurvey expected = *plan->share->At(20, 2);
   EXPECT_NEAR(answers[Quantity::kBiasVertical][0], 0.1 + expected.bias_vertical, 1e-6);
   // The sea's 0.1 m is of the spot on a level bottom; a point 0.1 m too shallow is reported less far out.
@@ -129,14 +129,14 @@ TEST_F(WaterColumnPlan, AddsTheBiasOfAnotherIndex) {
   EXPECT_NEAR(answers[Quantity::kBiasVertical][0], 0.1 - 0.2515, 1e-4);
 }
 
-config::SurveySettings Survey(const std::string& text) {
+config::SurveySettings SurveyWith(const std::string& text) {
   const absl::StatusOr<config::SurveySettings> survey = config::ParseSurvey(text, ".");
   EXPECT_TRUE(survey.ok()) << survey.status();
   return *survey;
 }
 
 TEST_F(WaterColumnPlan, AddsTheSurfaceThatAGreenLaserFinds) {
-  const config::SurveySettings survey = Survey("[surface]\nchannel = \"green\"\n[water]\n" + kOptics + kReceiver);
+  const config::SurveySettings survey = SurveyWith("[surface]\nchannel = \"green\"\n[water]\n" + kOptics + kReceiver);
   WaterPlan plan;
   BudgetOptions options = {.errors = {.surface_range = 0.02}};
   std::vector<StatedNumber> numbers;
@@ -146,7 +146,7 @@ TEST_F(WaterColumnPlan, AddsTheSurfaceThatAGreenLaserFinds) {
   EXPECT_GT(surface.mean, 0.1);  // of a pulse of 5 ns
   AnswerBatch answers = Answers();
   WaterBatch water;
-  AddWater(plan, Pulses(), answers, water);
+  AddWater(plan, PulsesInWater(), answers, water);
   const ShiftBySurface shift = ShiftBySurfaceOf(RadiansOfDegrees(20), 1.34);
   const double of_point = 0.1 - 0.1 * std::tan(std::asin(std::sin(RadiansOfDegrees(20)) / 1.34));
   EXPECT_NEAR(answers[Quantity::kBiasAlongBeam][0], of_point + shift.along * surface.mean, 1e-6);
@@ -160,11 +160,11 @@ TEST_F(WaterColumnPlan, AddsTheSurfaceThatAGreenLaserFinds) {
   plan = *Plan(kOptics + kReceiver + kNone);
   WaterBatch column, both;
   answers = Answers();
-  AddWater(plan, Pulses(), answers, column);
+  AddWater(plan, PulsesInWater(), answers, column);
   ASSERT_EQ(PlanGreenSurface(survey, options, plan, numbers), absl::OkStatus());
   EXPECT_EQ(options.errors.surface_range, 0.02);
   answers = Answers();
-  AddWater(plan, Pulses(), answers, both);
+  AddWater(plan, PulsesInWater(), answers, both);
   const auto covariance = [](const WaterBatch& batch) {
     return batch.correlation[0] * batch.sigma_along[0] * batch.sigma_vertical[0];
   };
@@ -179,7 +179,7 @@ TEST_F(WaterColumnPlan, SaysWhyAGreenSurfaceCannotBeFound) {
     BudgetOptions options = {.located = located};
     std::vector<StatedNumber> numbers;
     const absl::Status status =
-        PlanGreenSurface(Survey("[surface]\nchannel = \"green\"\n[water]\n" + water), options, plan, numbers);
+        PlanGreenSurface(SurveyWith("[surface]\nchannel = \"green\"\n[water]\n" + water), options, plan, numbers);
     EXPECT_TRUE(formats::IsUsageError(status)) << status;
     return std::string(status.message());
   };
@@ -197,7 +197,7 @@ TEST_F(WaterColumnPlan, IsAShareOfTheTotal) {
   plan.water = *Plan(kOptics + kReceiver + kNone);
   AnswerBatch answers = Answers();
   TotalBatch totals;
-  const PulseBatch pulses = Pulses();
+  const PulseBatch pulses = PulsesInWater();
   AddWater(plan.water, pulses, answers, totals.water);
   AircraftColumns aircraft;
   aircraft[BudgetInput::kAltitude] = {400};

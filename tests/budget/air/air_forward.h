@@ -1,13 +1,14 @@
-// The point that a lidar reports, exactly, in any arithmetic: what the derivatives of budget/air are held against.
+// The point that a lidar reports, exactly, in real or complex arithmetic: what the derivatives of budget/air are held
+// against.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "budget/air/air_sources.h"
+#include "tests/degree.h"
 
 namespace albtpu::testing {
 
@@ -57,7 +58,6 @@ Eigen::Matrix<T, 3, 3> Turn(int axis, const T& angle) {
 template <typename T>
 Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<T, kAirUnknowns, 1>& errors) {
   using std::sqrt;
-  constexpr double kDegree = std::numbers::pi / 180;
   const double incidence = pulse.incidence * kDegree, azimuth = pulse.beam_azimuth * kDegree;
   const Eigen::Matrix3d attitude = Turn<double>(2, pulse.heading * kDegree) * Turn<double>(1, pulse.pitch * kDegree) *
                                    Turn<double>(0, pulse.roll * kDegree);
@@ -68,7 +68,8 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
                            -std::sin(incidence));
   const Eigen::Vector3d b0(-std::sin(azimuth), std::cos(azimuth), 0);
   const Vector3<T> scanned = u0.cast<T>() + a0.cast<T>() * errors[kScanA] + b0.cast<T>() * errors[kScanB];
-  const Vector3<T> in_aircraft = attitude.transpose().cast<T>() * (scanned / scanned.norm());
+  const T length = sqrt(scanned.cwiseProduct(scanned).sum());  // The norm of complex vectors is not analytic.
+  const Vector3<T> in_aircraft = attitude.transpose().cast<T>() * (scanned / length);
   const Eigen::Matrix<T, 3, 3> boresight =
       Turn<T>(2, errors[kBoresightZ]) * Turn<T>(1, errors[kBoresightY]) * Turn<T>(0, errors[kBoresightX]);
   // The laser's time is late by errors[kTime]: the aircraft has moved and turned.

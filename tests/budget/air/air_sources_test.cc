@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <complex>
 #include <random>
-#include <unsupported/Eigen/AutoDiff>
 
 #include "tables/coverage.h"
 #include "tests/budget/air/air_forward.h"
 #include "tests/budget/query/budget_memory.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
@@ -23,7 +24,7 @@ using testing::ReportedPoint;
 using Jacobian = Eigen::Matrix<double, 3, kAirUnknowns>;
 using Unknowns = Eigen::Matrix<double, kAirUnknowns, 1>;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 const AirErrors kOracle = testing::UsualOptions().errors;
 
@@ -73,13 +74,17 @@ Jacobian ByDifferences(const AirPulse& pulse, bool given, const Unknowns& sigma)
   return columns;
 }
 
-Jacobian ByAutomaticDifferentiation(const AirPulse& pulse, bool given, const Unknowns& sigma) {
-  using Scalar = Eigen::AutoDiffScalar<Unknowns>;
-  Eigen::Matrix<Scalar, kAirUnknowns, 1> errors;
-  for (int i = 0; i < kAirUnknowns; ++i) errors[i] = Scalar(0, kAirUnknowns, i);
-  const testing::Vector3<Scalar> point = ReportedPoint<Scalar>(pulse, given, errors);
+// Exact to rounding: f(x + ih) = f(x) + ih f'(x) of an analytic function, up to h^2 (Squire and Trapp 1998,
+// doi:10.1137/S003614459631241X).
+Jacobian ByComplexSteps(const AirPulse& pulse, bool given, const Unknowns& sigma) {
+  using Complex = std::complex<double>;
+  constexpr double kStep = 1e-30;
   Jacobian columns;
-  for (int row = 0; row < 3; ++row) columns.row(row) = point[row].derivatives().cwiseProduct(sigma).transpose();
+  for (int i = 0; i < kAirUnknowns; ++i) {
+    Eigen::Matrix<Complex, kAirUnknowns, 1> errors = Eigen::Matrix<Complex, kAirUnknowns, 1>::Zero();
+    errors[i] = Complex(0, kStep);
+    columns.col(i) = ReportedPoint<Complex>(pulse, given, errors).imag() / kStep * sigma[i];
+  }
   return columns;
 }
 
@@ -98,7 +103,7 @@ TEST(AirSources, AreTheDerivativesOfTheReportedPoint) {
     const AirPulse pulse = RandomPulse(random);
     for (const bool given : {false, true}) {
       const Jacobian ours = Ours(pulse, given ? SurfaceLocation::kLevel : SurfaceLocation::kPulse, kOracle);
-      Jacobian exact = ByAutomaticDifferentiation(pulse, given, sigma), near = ByDifferences(pulse, given, sigma);
+      Jacobian exact = ByComplexSteps(pulse, given, sigma), near = ByDifferences(pulse, given, sigma);
       // A lever arm errs alike on all axes of the aircraft: its three columns are those of the aircraft's axes.
       ASSERT_LT(Difference(ours, exact), 1e-9) << i << " " << given;
       ASSERT_LT(Difference(ours, near), 1e-6) << i << " " << given;

@@ -12,6 +12,7 @@
 #include "budget/total/error_ellipse.h"
 #include "sea/response/closed_form.h"
 #include "tests/budget/total/total_memory.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 using testing::TotalInputs;
 using testing::TotalMemory;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 // Pulses of all kinds, over seas of all kinds.
 TotalInputs RandomPulses(std::size_t size, unsigned seed) {

@@ -7,11 +7,13 @@
 #include <numbers>
 #include <random>
 
+#include "tests/degree.h"
+
 namespace albtpu {
 namespace {
 
 constexpr int kDraws = 200'000;
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 // 4 standard errors of a variance from normal draws, of itself.
 const double kFourErrors = 4 * std::sqrt(2.0 / kDraws);
 

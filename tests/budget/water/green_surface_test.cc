@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "sea/response/closed_form.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLightSpeed = 0.299792458;  // m/ns
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 WaterReceiver Receiver(EchoDetector detector, double pulse_length) {

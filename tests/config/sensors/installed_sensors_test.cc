@@ -25,7 +25,7 @@ class InstalledIn {
   InstalledIn& operator=(const InstalledIn&) = delete;
 };
 
-std::string ErrorOf(const std::string& name) {
+std::string ErrorOfName(const std::string& name) {
   const absl::StatusOr<Sensor> sensor = FindSensor(name);
   EXPECT_FALSE(sensor.ok()) << name;
   return std::string(sensor.status().message());
@@ -89,22 +89,22 @@ TEST(FindSensor, TakesANameOrAPath) {
   {
     const InstalledIn installed(path.parent_path());
     EXPECT_EQ(FindSensor("mine").value().title, "Mine");
-    EXPECT_EQ(ErrorOf("mime"), "'mime' is no sensor; did you mean mine?");
-    EXPECT_EQ(ErrorOf("riegl-vq-880-g"), "'riegl-vq-880-g' is no sensor; there are mine");
-    EXPECT_THAT(ErrorOf("a\nb"), StartsWith("'a?b' is no sensor"));
-    EXPECT_THAT(ErrorOf(""), StartsWith("'' is no sensor"));
-    EXPECT_THAT(ErrorOf("mine.toml"), StartsWith("mine.toml: does not exist"));
+    EXPECT_EQ(ErrorOfName("mime"), "'mime' is no sensor; did you mean mine?");
+    EXPECT_EQ(ErrorOfName("riegl-vq-880-g"), "'riegl-vq-880-g' is no sensor; there are mine");
+    EXPECT_THAT(ErrorOfName("a\nb"), StartsWith("'a?b' is no sensor"));
+    EXPECT_THAT(ErrorOfName(""), StartsWith("'' is no sensor"));
+    EXPECT_THAT(ErrorOfName("mine.toml"), StartsWith("mine.toml: does not exist"));
   }
   EXPECT_EQ(FindSensor(path.string()).value().name, "mine");
-  EXPECT_THAT(ErrorOf("no/such"), StartsWith("no/such: does not exist"));
+  EXPECT_THAT(ErrorOfName("no/such"), StartsWith("no/such: does not exist"));
 }
 
 TEST(FindSensor, SaysWhereItLooked) {
   const albtpu::testing::TemporaryFolder folder;
   const InstalledIn installed(folder / "absent");
   EXPECT_TRUE(ListSensors().value().empty());
-  EXPECT_THAT(ErrorOf("mine"), HasSubstr((folder / "absent").string()));
-  EXPECT_THAT(ErrorOf("mine"), HasSubstr("ALBTPU_SENSORS"));
+  EXPECT_THAT(ErrorOfName("mine"), HasSubstr((folder / "absent").string()));
+  EXPECT_THAT(ErrorOfName("mine"), HasSubstr("ALBTPU_SENSORS"));
 }
 
 TEST(ListSensors, NamesTheFileThatIsWrong) {

@@ -9,13 +9,14 @@
 #include <thread>
 
 #include "formats/crs/proj_crs.h"
+#include "tests/degree.h"
 
 namespace albtpu::formats {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 constexpr double kUsFoot = 1200.0 / 3937;  // m, exact.
 
 // As a real file of 2016 has it: metres as the unit of angles, and a height among the axes of a projected system.

@@ -7,13 +7,14 @@
 
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
+#include "tests/degree.h"
 
 namespace albtpu::formats {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 // Entries with values in the record of real numbers where `real` is set.
 struct Entry {

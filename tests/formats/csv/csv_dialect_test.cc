@@ -12,7 +12,9 @@ using albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
 CsvDialect Of(const std::string& text) { return DialectOf("in.csv", text).value(); }
-std::string ErrorOf(const std::string& text) { return std::string(DialectOf("in.csv", text).status().message()); }
+std::string ErrorOfDialect(const std::string& text) {
+  return std::string(DialectOf("in.csv", text).status().message());
+}
 
 TEST(CsvDialect, IsThatOfHeaderAndNumbers) {
   const struct {
@@ -44,10 +46,10 @@ TEST(CsvDialect, IsThatOfHeaderAndNumbers) {
 }
 
 TEST(CsvDialect, IsNotGuessed) {
-  EXPECT_THAT(ErrorOf("a;b,c\n1;2,3\n"), HasSubstr("in.csv line 1: has as many commas as semicolons"));
-  EXPECT_THAT(ErrorOf("a;b\n1,5;2\n3;2.5\n"),
+  EXPECT_THAT(ErrorOfDialect("a;b,c\n1;2,3\n"), HasSubstr("in.csv line 1: has as many commas as semicolons"));
+  EXPECT_THAT(ErrorOfDialect("a;b\n1,5;2\n3;2.5\n"),
               HasSubstr("in.csv: has a number with a comma in line 2 and one with a point in line 3"));
-  EXPECT_THAT(ErrorOf("a;b\n1,500;2.5\n"), HasSubstr("in line 2 and one with a point in line 2"));
+  EXPECT_THAT(ErrorOfDialect("a;b\n1,500;2.5\n"), HasSubstr("in line 2 and one with a point in line 2"));
 }
 
 TEST(CsvDialect, GivesNumbersTheirPoint) {

@@ -12,6 +12,8 @@
 
 namespace albtpu::testing {
 
+inline constexpr int kBottom = 40, kSurface = 41;  // Classes of points with a bathymetric domain profile.
+
 struct LasPoint {
   std::int32_t x = 0, y = 0, z = 0;  // In steps of LasSpec::scale.
   int classification = 0;

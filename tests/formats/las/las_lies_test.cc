@@ -28,7 +28,7 @@ using ::testing::StartsWith;
 
 constexpr double kGpsTime = 1'447'532'420.25;  // GPS seconds, in November 2025.
 
-LasSpec Spec(int version_minor, int point_format) {
+LasSpec SpecOfTwoPoints(int version_minor, int point_format) {
   LasSpec spec;
   spec.version_minor = version_minor;
   spec.point_format = point_format;
@@ -85,7 +85,7 @@ TEST_F(LasLies, OfNumbersAreRefused) {
       {"a later version", Put<std::uint8_t>(las_field::kVersionMinor, 5), "has header size 375", "393 bytes"},
       {"an earlier version", Put<std::uint8_t>(las_field::kVersionMinor, 3), "has point format 6 in LAS 1.3", "0 to 5"},
   };
-  LasSpec spec = Spec(4, 6);
+  LasSpec spec = SpecOfTwoPoints(4, 6);
   spec.vlrs = {{"LASF_Spec", 3, "a text"}, {"LASF_Projection", 2112, albtpu::testing::kMetricWkt}};
   spec.evlrs = {{"LASF_Spec", 7, "a text"}, {"LASF_Spec", 7, "a text"}};
   const std::string right = BuildLas(spec);
@@ -101,7 +101,7 @@ TEST_F(LasLies, OfNumbersAreRefused) {
 
 // A box is never believed, and bytes between records that are none of the specification's are kept.
 TEST_F(LasLies, ThatDoNotMatterAreRead) {
-  LasSpec spec = Spec(4, 6);
+  LasSpec spec = SpecOfTwoPoints(4, 6);
   spec.gap = std::string(100, 'x');
   for (const auto& tell : {Put(las_field::kBounds, 0.0), Put(las_field::kBounds + 8, 1e300),
                            Put(las_field::kBounds + 32, std::numeric_limits<double>::quiet_NaN()),
@@ -128,7 +128,7 @@ TEST_F(LasLies, TimesOfLas15AreThoseOfLas14) {
                              {false, std::nullopt, 224'420.25, 224'420.25},
                              {true, 1400, 0, 0}}) {
     for (const int format : {6, 7, 8, 9, 10}) {
-      LasSpec spec = Spec(5, format);
+      LasSpec spec = SpecOfTwoPoints(5, format);
       spec.adjusted_time = clock.adjusted;
       spec.time_offset = clock.offset;
       spec.points[0].gps_time = clock.stored;
@@ -143,7 +143,7 @@ TEST_F(LasLies, TimesOfLas15AreThoseOfLas14) {
 }
 
 TEST_F(LasLies, OfTimesOfLas15AreRefused) {
-  LasSpec spec = Spec(5, 6);
+  LasSpec spec = SpecOfTwoPoints(5, 6);
   spec.adjusted_time = true;
   spec.time_offset = 1400;
   const std::string right = BuildLas(spec);
@@ -181,7 +181,7 @@ TEST_F(LasLies, PointsOfLas14InTheFormOfOlderFormatsAreNamed) {
   for (const int format : {1, 3, 4, 5}) {
     for (const std::vector<LasRecord>& records :
          {std::vector{mode, described}, {described, mode}, {mode}, {described}}) {
-      LasSpec spec = Spec(format > 3 ? 3 : 2, format);
+      LasSpec spec = SpecOfTwoPoints(format > 3 ? 3 : 2, format);
       spec.extra_bytes = 5;
       spec.vlrs = records;
       EXPECT_THAT(ErrorOf(BuildLas(spec)), AllOf(HasSubstr("compatibility mode of LASzip (lascompatible)"),
@@ -189,7 +189,7 @@ TEST_F(LasLies, PointsOfLas14InTheFormOfOlderFormatsAreNamed) {
     }
   }
   // The record is of no importance where the points have a format of LAS 1.4.
-  LasSpec spec = Spec(4, 6);
+  LasSpec spec = SpecOfTwoPoints(4, 6);
   spec.extra_bytes = 5;
   spec.vlrs = {mode, described};
   EXPECT_TRUE(Open(BuildLas(spec)).ok());
@@ -197,7 +197,7 @@ TEST_F(LasLies, PointsOfLas14InTheFormOfOlderFormatsAreNamed) {
 
 TEST_F(LasLies, WithheldIsAFlagOfEveryFormat) {
   for (int format = 0; format <= kLargestPointFormat; ++format) {
-    LasSpec spec = Spec(4, format);
+    LasSpec spec = SpecOfTwoPoints(4, format);
     const std::size_t size = albtpu::testing::PointSize(format);
     spec.points[1].withheld = true;
     const absl::StatusOr<LasReader> reader = Open(BuildLas(spec));

@@ -38,7 +38,7 @@ constexpr char kPredictions[] = "Date Time, Prediction\n2016-05-11 14:00,0.213\n
 
 const double kStart = *ParseUtc("2016-05-11T14:00Z") - kAdjustedGpsOffset;
 
-CoopsLevels Read(const std::string& text) {
+CoopsLevels ReadLevels(const std::string& text) {
   EXPECT_TRUE(AreCoopsLevels(text)) << text;
   const absl::StatusOr<CoopsLevels> levels = ReadCoopsLevels("co.csv", text);
   EXPECT_TRUE(levels.ok()) << levels.status();
@@ -48,7 +48,7 @@ CoopsLevels Read(const std::string& text) {
 absl::StatusOr<WaterLevelSeries> Series(const std::string& text, const LevelReference& reference) {
   return ParseWaterLevels("co.csv", text, reference);
 }
-std::string ErrorOf(const std::string& text, const LevelReference& reference = {.datum = "MLLW"}) {
+std::string ErrorOfSeries(const std::string& text, const LevelReference& reference = {.datum = "MLLW"}) {
   return std::string(Series(text, reference).status().message());
 }
 
@@ -56,7 +56,7 @@ TEST(CoopsLevels, AreReadInEveryForm) {
   for (const std::string& text : {kCsv, kJson, kXml, kTable, "\xEF\xBB\xBF" + kCsv, "\xEF\xBB\xBF" + kJson,
                                   absl::StrReplaceAll(kTable, {{"\n", "\r\n"}})}) {
     SCOPED_TRACE(text);
-    const CoopsLevels found = Read(text);
+    const CoopsLevels found = ReadLevels(text);
     ASSERT_EQ(found.levels.size(), 2u);
     EXPECT_EQ(found.levels[0].time, kStart + kAdjustedGpsOffset);
     EXPECT_EQ(found.levels[0].level, 0.213);
@@ -66,12 +66,12 @@ TEST(CoopsLevels, AreReadInEveryForm) {
     EXPECT_EQ(found.preliminary, 1u);
     EXPECT_FALSE(found.predicted);
   }
-  EXPECT_EQ(Read(kJson).station, "8723214 Virginia Key");
-  EXPECT_EQ(Read(kXml).station, "8723214 Virginia Key");
-  EXPECT_EQ(Read(kTable).metres, 0.3048);
-  EXPECT_EQ(Read(kTable).zone, CoopsLevels::Zone::kGmt);
-  EXPECT_EQ(Read(kCsv).metres, std::nullopt);
-  EXPECT_TRUE(Read(kPredictions).predicted);
+  EXPECT_EQ(ReadLevels(kJson).station, "8723214 Virginia Key");
+  EXPECT_EQ(ReadLevels(kXml).station, "8723214 Virginia Key");
+  EXPECT_EQ(ReadLevels(kTable).metres, 0.3048);
+  EXPECT_EQ(ReadLevels(kTable).zone, CoopsLevels::Zone::kGmt);
+  EXPECT_EQ(ReadLevels(kCsv).metres, std::nullopt);
+  EXPECT_TRUE(ReadLevels(kPredictions).predicted);
 }
 
 TEST(CoopsLevels, AreNotTheFormOfThisProject) {
@@ -80,7 +80,7 @@ TEST(CoopsLevels, AreNotTheFormOfThisProject) {
 }
 
 TEST(CoopsLevels, NeedTheNameOfTheirDatum) {
-  EXPECT_THAT(ErrorOf(kCsv, {}), HasSubstr("does not state the datum of its levels; name the one"));
+  EXPECT_THAT(ErrorOfSeries(kCsv, {}), HasSubstr("does not state the datum of its levels; name the one"));
   const auto series = Series(kCsv, {.datum = "MLLW", .offset = -26.5});
   ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_NEAR(series->At(kStart).value(), 0.213 - 26.5, 1e-12);
@@ -97,10 +97,10 @@ TEST(CoopsLevels, HaveTheTimeZoneThatTheyStateOrTheUserDoes) {
   EXPECT_EQ(local->start(), kStart + 4 * 3600);
   EXPECT_THAT(local->description(), Not(HasSubstr("GMT")));
   const std::string table = absl::StrReplaceAll(kTable, {{"(GMT)", "(LST/LDT)"}});
-  EXPECT_THAT(ErrorOf(table), HasSubstr("has times of a local zone; give its hours from UTC"));
+  EXPECT_THAT(ErrorOfSeries(table), HasSubstr("has times of a local zone; give its hours from UTC"));
   EXPECT_EQ(Series(table, {.datum = "MLLW", .hours_from_utc = -4})->start(), kStart + 4 * 3600);
-  EXPECT_THAT(ErrorOf(kTable, {.datum = "MLLW", .hours_from_utc = -4}), HasSubstr("states times in GMT"));
-  EXPECT_THAT(ErrorOf("time,water_level\n1,2\n2,3\n", {.hours_from_utc = 1}),
+  EXPECT_THAT(ErrorOfSeries(kTable, {.datum = "MLLW", .hours_from_utc = -4}), HasSubstr("states times in GMT"));
+  EXPECT_THAT(ErrorOfSeries("time,water_level\n1,2\n2,3\n", {.hours_from_utc = 1}),
               HasSubstr("leave out --level-hours-from-utc"));
 }
 
@@ -114,19 +114,19 @@ TEST(CoopsLevels, BecomeThoseOfTheUnitOfThePoints) {
 }
 
 TEST(CoopsLevels, NameWhatIsWrong) {
-  EXPECT_THAT(ErrorOf("{\"error\": {\"message\":\" No data was found.\"}}"),
+  EXPECT_THAT(ErrorOfSeries("{\"error\": {\"message\":\" No data was found.\"}}"),
               HasSubstr("co.csv: is an error of CO-OPS and no water levels ('No data was found.')"));
-  EXPECT_THAT(ErrorOf("<error> Wrong Datum </error>"), HasSubstr("('Wrong Datum')"));
-  EXPECT_THAT(ErrorOf("{\"data\":"), HasSubstr("is no sound JSON"));
-  EXPECT_THAT(ErrorOf("{\"a\":1}"), HasSubstr("neither data nor predictions"));
-  EXPECT_THAT(ErrorOf("<html><body>Not found</body></html>"), HasSubstr("has no elements wl"));
-  EXPECT_THAT(ErrorOf("<data><wl t=\"2016"), HasSubstr("ends within an element"));
-  EXPECT_THAT(ErrorOf(absl::StrReplaceAll(kCsv, {{"0.245", "x"}})), HasSubstr("line 4: 'x' is no water level"));
-  EXPECT_THAT(ErrorOf(absl::StrReplaceAll(kCsv, {{"14:12", "25:12"}})), HasSubstr("line 4: '2016-05-11 25:12'"));
-  EXPECT_THAT(ErrorOf(absl::StrReplaceAll(kCsv, {{"14:12", "13:12"}})), HasSubstr("sort it by time"));
-  EXPECT_THAT(ErrorOf(absl::StrReplaceAll(kJson, {{"0.245", "x"}})), HasSubstr("value 3: 'x' is no water level"));
-  EXPECT_THAT(ErrorOf("Date Time, Speed\n2016-05-11 14:00,1\n"), HasSubstr("no column of water levels"));
-  EXPECT_THAT(ErrorOf("Dates,Time (GMT),Verified (m)\n"), HasSubstr("no columns of dates"));
+  EXPECT_THAT(ErrorOfSeries("<error> Wrong Datum </error>"), HasSubstr("('Wrong Datum')"));
+  EXPECT_THAT(ErrorOfSeries("{\"data\":"), HasSubstr("is no sound JSON"));
+  EXPECT_THAT(ErrorOfSeries("{\"a\":1}"), HasSubstr("neither data nor predictions"));
+  EXPECT_THAT(ErrorOfSeries("<html><body>Not found</body></html>"), HasSubstr("has no elements wl"));
+  EXPECT_THAT(ErrorOfSeries("<data><wl t=\"2016"), HasSubstr("ends within an element"));
+  EXPECT_THAT(ErrorOfSeries(absl::StrReplaceAll(kCsv, {{"0.245", "x"}})), HasSubstr("line 4: 'x' is no water level"));
+  EXPECT_THAT(ErrorOfSeries(absl::StrReplaceAll(kCsv, {{"14:12", "25:12"}})), HasSubstr("line 4: '2016-05-11 25:12'"));
+  EXPECT_THAT(ErrorOfSeries(absl::StrReplaceAll(kCsv, {{"14:12", "13:12"}})), HasSubstr("sort it by time"));
+  EXPECT_THAT(ErrorOfSeries(absl::StrReplaceAll(kJson, {{"0.245", "x"}})), HasSubstr("value 3: 'x' is no water level"));
+  EXPECT_THAT(ErrorOfSeries("Date Time, Speed\n2016-05-11 14:00,1\n"), HasSubstr("no column of water levels"));
+  EXPECT_THAT(ErrorOfSeries("Dates,Time (GMT),Verified (m)\n"), HasSubstr("no columns of dates"));
 }
 
 }  // namespace

@@ -3,29 +3,14 @@
 #include <gmock/gmock.h>
 
 #include "sea/sea_time.h"
+#include "tests/formats/trajectories/written_times.h"
 
 namespace albtpu::formats {
 namespace {
 
 using ::testing::HasSubstr;
 
-double Utc(const char* text) { return ParseSeaTime(text).value(); }
-
-TimeSpan Span(const char* first, const char* last) { return {Utc(first), Utc(last)}; }
-
-// The same half hour, Wednesday 2016-05-11 from 14:00:00 UTC, by every clock. GPS is 17 s ahead of UTC.
-constexpr double kUnix = 1462975200;  // s since 1970, of the calendar
-constexpr double kGpsTime = kUnix - 315964800 + 17;
-constexpr double kOfWeek = kGpsTime - 1896 * kSecondsPerWeek;
-constexpr double kOfDay = 14 * 3600 + 17;
-
-struct Written {
-  TimeFormat format;
-  PointTimeForm header;  // What the file states, wrongly unless the format is kAuto.
-  double first, unit;
-  const char* description;
-};
-const Written kWritten[] = {
+const Written kDated[] = {
     {TimeFormat::kWeek, PointTimeForm::kAdjustedStandard, kOfWeek, 1, "seconds of the GPS week"},
     {TimeFormat::kAdjusted, PointTimeForm::kWeekSeconds, kGpsTime - 1e9, 1, "adjusted standard GPS times"},
     {TimeFormat::kGps, PointTimeForm::kWeekSeconds, kGpsTime, 1, "GPS seconds since 1980"},
@@ -35,11 +20,11 @@ const Written kWritten[] = {
     {TimeFormat::kMilliseconds, PointTimeForm::kAdjustedStandard, 1e3 * kUnix, 1e3, "Unix milliseconds"},
 };
 
-PointTimes TimesOf(const Written& written) {
+PointTimes DatedTimes(const Written& written) {
   return {{written.first, written.first + 1800 * written.unit}, written.header};
 }
 
-PointTimes OfWeek(double first, std::optional<double> created = std::nullopt) {
+PointTimes HalfHourOfWeek(double first, std::optional<double> created = std::nullopt) {
   return {{first, first + 1800}, PointTimeForm::kWeekSeconds, created};
 }
 
@@ -48,7 +33,7 @@ absl::StatusOr<UtcClock> Find(const PointTimes& points, const TimeSpan& known, s
   return FindUtcClock("in.las", points, format, known, "sea.csv", note);
 }
 
-std::string ErrorOf(const PointTimes& points, const TimeSpan& known) {
+std::string ErrorOfClock(const PointTimes& points, const TimeSpan& known) {
   std::string note;
   const absl::StatusOr<UtcClock> clock = Find(points, known, note);
   EXPECT_FALSE(clock.ok());
@@ -57,8 +42,8 @@ std::string ErrorOf(const PointTimes& points, const TimeSpan& known) {
 
 TEST(DatedClock, IsFoundByTheTimesOfASea) {
   const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
-  for (const Written& written : kWritten) {
-    const PointTimes stated = TimesOf(written);
+  for (const Written& written : kDated) {
+    const PointTimes stated = DatedTimes(written);
     std::string note;
     for (const TimeFormat format : {TimeFormat::kAuto, written.format}) {
       const absl::StatusOr<UtcClock> clock = Find(stated, known, note, format);
@@ -77,20 +62,20 @@ TEST(DatedClock, IsFoundByTheTimesOfASea) {
 TEST(DatedClock, IsThatOfTheHeaderWhereItFits) {
   std::string note = "none";
   const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
-  EXPECT_TRUE(Find(OfWeek(kOfWeek), known, note).ok());
+  EXPECT_TRUE(Find(HalfHourOfWeek(kOfWeek), known, note).ok());
   EXPECT_EQ(note, "");
 }
 
 TEST(DatedClock, IsNoneWhereTheUserNamesAnother) {
   std::string note;
   const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
-  EXPECT_THAT(std::string(Find(OfWeek(kOfWeek), known, note, TimeFormat::kUnix).status().message()),
+  EXPECT_THAT(std::string(Find(HalfHourOfWeek(kOfWeek), known, note, TimeFormat::kUnix).status().message()),
               HasSubstr("outside of sea.csv if --time-format unix is right"));
 }
 
 TEST(DatedClock, IsNotGuessedWhereSeveralDaysFit) {
   const TimeSpan known = Span("2016-05-09T00:00Z", "2016-05-14T00:00Z");
-  const std::string error = ErrorOf(OfWeek(kOfDay), known);
+  const std::string error = ErrorOfClock(HalfHourOfWeek(kOfDay), known);
   EXPECT_THAT(error, HasSubstr("seconds of the day, a Tuesday (2016-05-10) or as seconds of the day, a Wednesday "));
 }
 
@@ -100,7 +85,7 @@ TEST(DatedClock, IsThatOfTheCreationOfTheFile) {
   // 2016-05-11 is the day 132 of a leap year. Export on the day of the flight, or before the next flight.
   for (const int day : {132, 137}) {
     const absl::StatusOr<UtcClock> clock =
-        Find(OfWeek(kOfWeek, GpsTimeOfDay(2016, day)), {month.first + 6 * 86400, month.last}, note);
+        Find(HalfHourOfWeek(kOfWeek, GpsTimeOfDay(2016, day)), {month.first + 6 * 86400, month.last}, note);
     ASSERT_TRUE(clock.ok()) << clock.status();
     EXPECT_EQ((*clock)(kOfWeek), kUnix);
     EXPECT_THAT(note, ::testing::AllOf(HasSubstr("2016-05-11 is taken because of the creation of the file on 2016-05-"),
@@ -108,7 +93,7 @@ TEST(DatedClock, IsThatOfTheCreationOfTheFile) {
   }
   // Seconds of a day of several.
   const TimeSpan days = Span("2016-05-09T00:00Z", "2016-05-14T00:00Z");
-  const absl::StatusOr<UtcClock> clock = Find(OfWeek(kOfDay, GpsTimeOfDay(2016, 132)), days, note);
+  const absl::StatusOr<UtcClock> clock = Find(HalfHourOfWeek(kOfDay, GpsTimeOfDay(2016, 132)), days, note);
   ASSERT_TRUE(clock.ok()) << clock.status();
   EXPECT_EQ((*clock)(kOfDay), kUnix);
   EXPECT_THAT(note, HasSubstr("--time-format day says so; of the dates"));
@@ -118,17 +103,17 @@ TEST(DatedClock, IsNotThatOfACreationThatDecidesNothing) {
   const TimeSpan month = Span("2016-05-01T00:00Z", "2016-05-31T00:00Z");
   // Export a year later, before all of them, on no day at all.
   for (const auto& created : {GpsTimeOfDay(2017, 200), GpsTimeOfDay(2001, 1), GpsTimeOfDay(2016, 0)})
-    EXPECT_THAT(ErrorOf(OfWeek(kOfWeek, created), month), HasSubstr("2016-05-18"));
+    EXPECT_THAT(ErrorOfClock(HalfHourOfWeek(kOfWeek, created), month), HasSubstr("2016-05-18"));
   // Where the clock of the header fits, its creation changes nothing.
   std::string note;
   const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
-  EXPECT_TRUE(Find(OfWeek(kOfWeek, GpsTimeOfDay(2001, 1)), known, note).ok());
+  EXPECT_TRUE(Find(HalfHourOfWeek(kOfWeek, GpsTimeOfDay(2001, 1)), known, note).ok());
   EXPECT_EQ(note, "");
 }
 
 TEST(DatedClock, DoesNotBeginAgain) {
   const TimeSpan month = Span("2016-05-01T00:00Z", "2016-05-31T00:00Z");
-  EXPECT_THAT(ErrorOf({{5, 604790}, PointTimeForm::kWeekSeconds, GpsTimeOfDay(2016, 132)}, month),
+  EXPECT_THAT(ErrorOfClock({{5, 604790}, PointTimeForm::kWeekSeconds, GpsTimeOfDay(2016, 132)}, month),
               HasSubstr("seconds of a week that they do not name"));
 }
 

@@ -6,16 +6,14 @@
 
 #include "formats/trajectories/dated_clock.h"
 #include "sea/sea_time.h"
+#include "tests/formats/trajectories/written_times.h"
 
 namespace albtpu::formats {
 namespace {
 
 using ::testing::HasSubstr;
 
-double Utc(const char* text) { return ParseSeaTime(text).value(); }
 double Gps(const char* text) { return ParseUtc(text).value(); }
-
-TimeSpan Span(const char* first, const char* last) { return {Utc(first), Utc(last)}; }
 
 PointTimes Adjusted(const char* first, const char* last) {
   return {{Gps(first) - kAdjustedGpsOffset, Gps(last) - kAdjustedGpsOffset}, PointTimeForm::kAdjustedStandard};
@@ -64,18 +62,6 @@ TEST(UtcOfPoints, LieOutsideOfWhatIsKnown) {
               HasSubstr("the file 2020-06-07T12:00:00Z to 2020-06-09T12:00:00Z"));
 }
 
-// The same half hour, Wednesday 2016-05-11 from 14:00:00 UTC, by every clock. GPS is 17 s ahead of UTC.
-constexpr double kUnix = 1462975200;  // s since 1970, of the calendar
-constexpr double kGpsTime = kUnix - 315964800 + 17;
-constexpr double kOfWeek = kGpsTime - 1896 * kSecondsPerWeek;
-constexpr double kOfDay = 14 * 3600 + 17;
-
-struct Written {
-  TimeFormat format;
-  PointTimeForm header;  // What the file states wrongly.
-  double first, unit;
-  const char* description;
-};
 const Written kWritten[] = {
     {TimeFormat::kWeek, PointTimeForm::kAdjustedStandard, kOfWeek, 1, "seconds of the GPS week"},
     {TimeFormat::kAdjusted, PointTimeForm::kWeekSeconds, kGpsTime - 1e9, 1, "adjusted standard GPS times"},

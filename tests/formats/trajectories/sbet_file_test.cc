@@ -214,7 +214,7 @@ TEST_F(SbetFileTest, SaysHowMuchDisagreesWhereNoCauseIsKnown) {
 
 constexpr double kArcMinute = std::numbers::pi / 10800;
 
-std::string ErrorOf(const std::string& bytes) {
+std::string ErrorOfSmrmsg(const std::string& bytes) {
   return std::string(SmrmsgFile::Parse("errors.out", bytes).status().message());
 }
 
@@ -268,31 +268,32 @@ TEST(Smrmsg, GoesOnWhereTheWeekEnds) {
   const absl::StatusOr<SmrmsgFile> file = SmrmsgFile::Parse("errors.out", bytes);
   EXPECT_EQ(file->TimeAt(4), 604802);
   EXPECT_TRUE(file->SigmaAt(604799.5).has_value());
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(604798, 2) + SmrmsgBytes(0, 3) + SmrmsgBytes(0, 1)),
+  EXPECT_THAT(ErrorOfSmrmsg(SmrmsgBytes(604798, 2) + SmrmsgBytes(0, 3) + SmrmsgBytes(0, 1)),
               HasSubstr("times must increase"));
 }
 
 TEST(Smrmsg, RefusesWhatIsNoSmrmsg) {
-  EXPECT_THAT(ErrorOf(""), HasSubstr("errors.out: is empty"));
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 3).substr(0, 3 * 80 - 1)), HasSubstr("239 bytes are not a multiple of 80"));
-  EXPECT_THAT(ErrorOf(std::string(3 * 136, '\1')), HasSubstr("its size fits an SBET"));
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 3) + SmrmsgBytes(101, 1)),
+  EXPECT_THAT(ErrorOfSmrmsg(""), HasSubstr("errors.out: is empty"));
+  EXPECT_THAT(ErrorOfSmrmsg(SmrmsgBytes(100, 3).substr(0, 3 * 80 - 1)),
+              HasSubstr("239 bytes are not a multiple of 80"));
+  EXPECT_THAT(ErrorOfSmrmsg(std::string(3 * 136, '\1')), HasSubstr("its size fits an SBET"));
+  EXPECT_THAT(ErrorOfSmrmsg(SmrmsgBytes(100, 3) + SmrmsgBytes(101, 1)),
               HasSubstr("record 4: time 101.000000 s follows 102.000000 s: times must increase"));
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 1) + SmrmsgBytes(100, 1)), HasSubstr("record 2"));
-  EXPECT_THAT(ErrorOf(SmrmsgBytes(100, 1) + Bytes({101, 1, 1, NAN, 1, 1, 1, 1, 1, 1})),
+  EXPECT_THAT(ErrorOfSmrmsg(SmrmsgBytes(100, 1) + SmrmsgBytes(100, 1)), HasSubstr("record 2"));
+  EXPECT_THAT(ErrorOfSmrmsg(SmrmsgBytes(100, 1) + Bytes({101, 1, 1, NAN, 1, 1, 1, 1, 1, 1})),
               HasSubstr("record 2, sigma down: not a finite number"));
-  EXPECT_THAT(ErrorOf(Bytes({101, 1, 1, 1, 1, -0.1, 1, 1, 1, 1})),
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({101, 1, 1, 1, 1, -0.1, 1, 1, 1, 1})),
               HasSubstr("record 1, sigma of the velocity east: -0.1 m/s is negative"));
-  EXPECT_THAT(ErrorOf(Bytes({101, 1, 1, 1, 1, 1, 1, 1, 1, 20000})),
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({101, 1, 1, 1, 1, 1, 1, 1, 1, 20000})),
               HasSubstr("record 1, sigma of heading: 20000 arc-minutes is implausibly large"));
-  EXPECT_THAT(ErrorOf(std::string(160, 'x')), HasSubstr("give an SMRMSG"));
+  EXPECT_THAT(ErrorOfSmrmsg(std::string(160, 'x')), HasSubstr("give an SMRMSG"));
 }
 
 TEST(Smrmsg, DoubtsErrorsThatNoTrajectoryHas) {
-  EXPECT_THAT(ErrorOf(Bytes({100, .02, .02, .05, .01, .01, .01, .005, .005, .02})),
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, .02, .02, .05, .01, .01, .01, .005, .005, .02})),
               HasSubstr("0.005 arc minutes, less than any inertial system has (they are in degrees or radians)"));
-  EXPECT_THAT(ErrorOf(Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0})), HasSubstr("all its errors of position are 0"));
-  EXPECT_THAT(ErrorOf(Bytes({100, .02, .02, .05, 0, 0, 0, 0, 0, .5})),
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0})), HasSubstr("all its errors of position are 0"));
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, .02, .02, .05, 0, 0, 0, 0, 0, .5})),
               HasSubstr("all its errors of roll and pitch are 0"));
   // One record without errors is no such file, nor are velocities without.
   EXPECT_TRUE(SmrmsgFile::Parse("errors.out",

@@ -20,7 +20,7 @@ absl::StatusOr<WaterLevelSeries> Parse(const std::string& text, PointTimeForm fo
   return series.ok() ? series->In(form) : series;
 }
 
-std::string ErrorOf(const std::string& text, PointTimeForm form = kAdjustedStandard) {
+std::string ErrorOfLevels(const std::string& text, PointTimeForm form = kAdjustedStandard) {
   return std::string(Parse(text, form).status().message());
 }
 
@@ -98,7 +98,7 @@ TEST(WaterLevels, RefuseOtherDates) {
                            "2016-13-01T00:00:00Z", "2016-05-11T24:00:00Z", "2016-05-11T14:60:00Z",
                            "2016-05-11T14:00:60Z", "2016-05-11T14:00:nanZ", "2016-05-11T14:00:Z", "11.5.2016 14:00",
                            "2016-05-11T14Z", "2016/05/11 14:00Z", "nan", "inf", "", "1e300", "infinite-future"}) {
-    EXPECT_THAT(ErrorOf(absl::StrCat("time,water_level\n", text, ",1\n")),
+    EXPECT_THAT(ErrorOfLevels(absl::StrCat("time,water_level\n", text, ",1\n")),
                 HasSubstr("tide.csv line 2, column 'time': '"))
         << text;
   }
@@ -114,7 +114,7 @@ TEST(WaterLevels, BecomeSecondsOfTheWeekForPointsThatStateThem) {
   EXPECT_EQ(saturday->At(7 * 86400 - 1800 + 17), 1);
   EXPECT_EQ(saturday->At(17), 1.5);
   EXPECT_EQ(saturday->At(7 * 86400 + 17), 1.5);
-  EXPECT_THAT(ErrorOf("time,water_level\n2016-05-01T14:00:00Z,1\n2016-05-11T15:00:00Z,2\n", kWeekSeconds),
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n2016-05-01T14:00:00Z,1\n2016-05-11T15:00:00Z,2\n", kWeekSeconds),
               HasSubstr("covers more than a week"));
 }
 
@@ -126,21 +126,23 @@ TEST(WaterLevels, GoOnWhereTheWeekEnds) {
 }
 
 TEST(WaterLevels, NameWhatIsWrong) {
-  EXPECT_THAT(ErrorOf(""), HasSubstr("tide.csv: is empty"));
-  EXPECT_THAT(ErrorOf("time,water_level\n"), HasSubstr("fewer than two"));
-  EXPECT_THAT(ErrorOf("time,water_level\n1,2\n"), HasSubstr("fewer than two"));
-  EXPECT_THAT(ErrorOf("time,level\n1,2\n"), HasSubstr("line 1: there is no column 'water_level'"));
-  EXPECT_THAT(ErrorOf("water_level\n1\n"), HasSubstr("line 1: there is no column 'time'"));
-  EXPECT_THAT(ErrorOf("time,water_level,time\n"), HasSubstr("column 'time': occurs twice"));
-  EXPECT_THAT(ErrorOf("time,water_level\n1,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,x\n"), HasSubstr("line 2, column 'water_level': 'x' is not a water level"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,nan\n"), HasSubstr("line 2, column 'water_level'"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5\n"), HasSubstr("line 2: has 1 cells"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,-2,5\n"), HasSubstr("line 2: has 3 cells"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,-2,5\n"), HasSubstr("a decimal comma"));
-  EXPECT_THAT(ErrorOf("time,water_level\n5,1\n2016-05-11T14:00:00Z,1\n"), HasSubstr("line 3, column 'time'"));
-  EXPECT_THAT(ErrorOf("time,water_level\n\"5,1\n"), HasSubstr("line 2: the record that begins here does not end"));
+  EXPECT_THAT(ErrorOfLevels(""), HasSubstr("tide.csv: is empty"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n"), HasSubstr("fewer than two"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n1,2\n"), HasSubstr("fewer than two"));
+  EXPECT_THAT(ErrorOfLevels("time,level\n1,2\n"), HasSubstr("line 1: there is no column 'water_level'"));
+  EXPECT_THAT(ErrorOfLevels("water_level\n1\n"), HasSubstr("line 1: there is no column 'time'"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level,time\n"), HasSubstr("column 'time': occurs twice"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n1,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,2\n1,3\n"), HasSubstr("line 3, column 'time': '1' is not after"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,x\n"),
+              HasSubstr("line 2, column 'water_level': 'x' is not a water level"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,nan\n"), HasSubstr("line 2, column 'water_level'"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5\n"), HasSubstr("line 2: has 1 cells"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,-2,5\n"), HasSubstr("line 2: has 3 cells"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,-2,5\n"), HasSubstr("a decimal comma"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n5,1\n2016-05-11T14:00:00Z,1\n"), HasSubstr("line 3, column 'time'"));
+  EXPECT_THAT(ErrorOfLevels("time,water_level\n\"5,1\n"),
+              HasSubstr("line 2: the record that begins here does not end"));
 }
 
 TEST(WaterLevels, AreReadFromAFile) {

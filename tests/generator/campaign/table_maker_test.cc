@@ -66,7 +66,7 @@ TEST(TableMaker, AnswersFromACalmOn) {
     EXPECT_FLOAT_EQ(light[quantity], wind[quantity] / 4);
   }
   const Provenance& provenance = table->provenance();
-  EXPECT_THAT(std::get<std::string>(provenance.attributes.at("spectrum")), testing::HasSubstr("Elfouhaily"));
+  EXPECT_THAT(std::get<std::string>(provenance.attributes.at("spectrum")), ::testing::HasSubstr("Elfouhaily"));
   EXPECT_EQ(std::get<std::vector<double>>(provenance.attributes.at("realizations")), (std::vector<double>{40, 40}));
 }
 

@@ -10,13 +10,14 @@
 #include "generator/math/random_stream.h"
 #include "generator/surface/sea_surface.h"
 #include "sea/response/closed_form.h"
+#include "tests/degree.h"
 #include "tests/instruction_sets.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kN = kRefractiveIndex;
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr double kHeightTolerance = 1e-6;        // m, on surfaces about a metre wide
 constexpr double kSumRounding = 64 * 0x1p-24;    // relative, of 64 numbers of one sign in single precision
 constexpr double kNumberRounding = 8 * 0x1p-24;  // relative, of one number after a few operations

@@ -11,7 +11,7 @@
 namespace albtpu {
 namespace {
 
-Eigen::ArrayXd Normals(int count, std::uint32_t realization) {
+Eigen::ArrayXd NormalSample(int count, std::uint32_t realization) {
   Eigen::ArrayXd sample(count);
   NormalStream(11, 0, realization).Fill(std::span<double>(sample.data(), count));
   return sample;
@@ -38,7 +38,7 @@ TEST(Statistics, OfAConstantSampleAreZero) {
 TEST(Statistics, OfANormalSampleHaveTheTextbookStandardErrors) {
   constexpr int kCount = 100000;
   constexpr double kSigma = 3;
-  const Eigen::ArrayXd x = kSigma * Normals(kCount, 0) + 7, y = kSigma * Normals(kCount, 1);
+  const Eigen::ArrayXd x = kSigma * NormalSample(kCount, 0) + 7, y = kSigma * NormalSample(kCount, 1);
   EXPECT_NEAR(Mean(x).value, 7, 4 * kSigma / std::sqrt(kCount));
   EXPECT_NEAR(Mean(x).standard_error / (kSigma / std::sqrt(kCount)), 1, 0.02);
   EXPECT_NEAR(TwoSigma(x).value, 2 * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
@@ -55,7 +55,7 @@ TEST(Statistics, OfRepeatedSamplesScatterByTheirStandardErrors) {
   Eigen::ArrayXd of_normal(kRepetitions), of_square(kRepetitions);
   double claimed_of_normal = 0, claimed_of_square = 0;
   for (int i = 0; i < kRepetitions; ++i) {
-    const Eigen::ArrayXd sample = Normals(kCount, 100 + i);
+    const Eigen::ArrayXd sample = NormalSample(kCount, 100 + i);
     const Estimate normal = TwoSigma(sample), square = TwoSigma(sample.square());
     of_normal[i] = normal.value;
     of_square[i] = square.value;  // chi-squared, as vertical errors at nadir nearly are
@@ -68,7 +68,7 @@ TEST(Statistics, OfRepeatedSamplesScatterByTheirStandardErrors) {
 }
 
 TEST(Statistics, OfAMultipleOfTheControlAreExact) {
-  const Eigen::ArrayXd c = Normals(100, 0);
+  const Eigen::ArrayXd c = NormalSample(100, 0);
   const Control of_squares{c.square(), 1};
   EXPECT_NEAR(TwoSigmaOfSquares(9 * c.square(), 0, of_squares).value, 6, 1e-12);
   EXPECT_NEAR(TwoSigmaOfSquares(9 * c.square(), 0, of_squares).standard_error, 0, 1e-12);
@@ -78,7 +78,7 @@ TEST(Statistics, OfAMultipleOfTheControlAreExact) {
 
 // With fewer than 64 realizations, the fit would make the standard error too small.
 TEST(Statistics, OfFewRealizationsIgnoreTheControl) {
-  const Eigen::ArrayXd c = Normals(63, 0), sample = c + 0.1 * Normals(63, 1);
+  const Eigen::ArrayXd c = NormalSample(63, 0), sample = c + 0.1 * NormalSample(63, 1);
   const Estimate with = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});
   const Estimate without = TwoSigmaOfSquares(sample.square(), 0);
   EXPECT_EQ(with.value, without.value);
@@ -90,7 +90,7 @@ TEST(Statistics, WithAControlAreUnbiasedAndScatterByTheirStandardErrors) {
   Eigen::ArrayXd variances(kRepetitions), values(kRepetitions), means(kRepetitions);
   double claimed = 0, claimed_of_mean = 0, claimed_without = 0;
   for (int i = 0; i < kRepetitions; ++i) {
-    const Eigen::ArrayXd c = Normals(kCount, 2 * i), rest = 0.1 * Normals(kCount, 2 * i + 1);
+    const Eigen::ArrayXd c = NormalSample(kCount, 2 * i), rest = 0.1 * NormalSample(kCount, 2 * i + 1);
     const Eigen::ArrayXd sample = 0.97 * c + rest + 0.02 * (c.square() - 1);
     const Estimate spread = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});  // the mean is known
     const Estimate mean = Mean(sample, Control{c, 0});

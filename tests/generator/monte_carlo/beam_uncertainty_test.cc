@@ -14,12 +14,12 @@ namespace {
 // and m is normal with the weight 1 + tau m. Control variates leave the product of the weight's imbalance with both
 // orders.
 TEST(BeamUncertainty, HasNoBiasFromTheWeightOfTheSurface) {
-  constexpr double kVariance = 0.02, kN = kRefractiveIndex;
+  constexpr double kVariance = 0.02, kIndex = kRefractiveIndex;
   constexpr int kRealizations = 20000;
   const BeamOptions beam{.incidence = 0.15, .footprint = 0.5};
-  const double tau = std::tan(beam.incidence), refracted = StillWaterRefraction(beam.incidence, kN);
-  const double gain = SmallSlopeGain(beam.incidence, kN).in_plane;
-  const Eigen::Matrix2d form = SecantCurvature(beam.incidence, 0, kN);
+  const double tau = std::tan(beam.incidence), refracted = StillWaterRefraction(beam.incidence, kIndex);
+  const double gain = SmallSlopeGain(beam.incidence, kIndex).in_plane;
+  const Eigen::Matrix2d form = SecantCurvature(beam.incidence, 0, kIndex);
   const double a = -std::sin(refracted) * std::cos(refracted) * gain;
   const double b = -0.5 * std::cos(refracted) * form(0, 0);
   std::mt19937_64 bits(1);
@@ -49,8 +49,8 @@ TEST(BeamUncertainty, HasNoBiasFromTheWeightOfTheSurface) {
   const double square =
       a * a * kVariance + 3 * std::pow(b * kVariance, 2) + 2 * a * b * 3 * tau * kVariance * kVariance;
   const double exact = 2 * std::sqrt(square - mean * mean);
-  const Estimate plain = UncertaintyOf(sample, beam, kN, {}, {1}).tvu[0];
-  const Estimate controlled = UncertaintyOf(sample, beam, kN, known, {1}).tvu[0];
+  const Estimate plain = UncertaintyOf(sample, beam, kIndex, {}, {1}).tvu[0];
+  const Estimate controlled = UncertaintyOf(sample, beam, kIndex, known, {1}).tvu[0];
   EXPECT_NEAR(plain.value, exact, 4 * plain.standard_error);
   EXPECT_NEAR(controlled.value, exact, 4 * controlled.standard_error);
   EXPECT_LT(controlled.standard_error, 0.001 * exact);  // the control explains nearly all

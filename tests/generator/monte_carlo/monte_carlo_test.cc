@@ -11,11 +11,12 @@
 
 #include "generator/campaign/unit.h"
 #include "sea/response/closed_form.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 
 SeaCase ModerateSea(std::vector<BeamOptions> beams) {
   SeaCase sea_case;

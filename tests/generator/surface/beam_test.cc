@@ -6,10 +6,12 @@
 #include <complex>
 #include <string>
 
+#include "tests/degree.h"
+
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr int kRays = 20000;
 
 // Mean squares of the coordinates at which rays cross z = 0, along and across the azimuth of the beam.
@@ -26,8 +28,8 @@ Spread SpreadOf(const Beam& beam) {
   return spread;
 }
 
-class BeamOfProfile : public testing::TestWithParam<BeamProfile> {};
-INSTANTIATE_TEST_SUITE_P(, BeamOfProfile, testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
+class BeamOfProfile : public ::testing::TestWithParam<BeamProfile> {};
+INSTANTIATE_TEST_SUITE_P(, BeamOfProfile, ::testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
 TEST_P(BeamOfProfile, HasThePowerOfItsProfileWithinEveryRadius) {

@@ -4,10 +4,10 @@
 
 #include <limits>
 
+#include "sea/spectra/wind_sea.h"
+
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 TEST(WidestBeam, HasTheGreatestIncidence) {
   EXPECT_EQ(WidestBeam({{.incidence = 0.1}, {.incidence = 0.4, .azimuth = 1}, {.incidence = 0.2}}).azimuth, 1);

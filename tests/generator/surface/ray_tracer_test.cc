@@ -11,12 +11,13 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kN = kRefractiveIndex;
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr double kRounding = 1e-13;  // of sums over a thousand rays
 
 HeightField Plane(const Eigen::Vector2d& slope) {

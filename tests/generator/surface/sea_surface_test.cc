@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "generator/surface/discretization.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 const auto kEverything = [](double, double) { return 1.0; };
 
 struct SeaAndBeam {
@@ -90,7 +90,7 @@ TEST(SurfaceModel, HasAPatchWiderThanTheLocalSurface) {
   }
 }
 
-class ModerateSea : public testing::Test {
+class ModerateSea : public ::testing::Test {
  protected:
   const SeaState sea_{7, 1e4};
   const BeamOptions options_{.incidence = 0.35, .azimuth = 0.8, .footprint = 0.5};

@@ -8,7 +8,7 @@ namespace albtpu {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-const auto kEverything = [](double, double) { return 1.0; };
+const auto kAllWaves = [](double, double) { return 1.0; };
 
 SeaState Sea() { return SeaState(5, std::numeric_limits<double>::infinity()); }
 
@@ -114,7 +114,7 @@ TEST(WavePatch, HasTheVariancesOfItsSpectrum) {
     }
     moments.row(draw) = sum / (size * size);
   }
-  const Eigen::Matrix2d slopes = model.FacetSlopeCovariance(kEverything);
+  const Eigen::Matrix2d slopes = model.FacetSlopeCovariance(kAllWaves);
   const Eigen::Vector4d expected(model.elevation_variance(), slopes(0, 0), slopes(1, 1), slopes(0, 1));
   for (int m = 0; m < 4; ++m) {
     const Eigen::ArrayXd column = moments.col(m).array();
@@ -136,7 +136,7 @@ TEST(WavePatch, HasTheMeanSquareSlopeOfItsWavesOnItsTriangles) {
     }
   }
   const WavePatchModel model(sea, length, size, AllPatch());
-  EXPECT_NEAR(model.FacetSlopeCovariance(kEverything).trace() / slopes, 1, 1e-12);
+  EXPECT_NEAR(model.FacetSlopeCovariance(kAllWaves).trace() / slopes, 1, 1e-12);
 }
 
 // A patch much longer than its waves on a grid much finer holds them all: the sum over the lattice is the integral.

@@ -66,10 +66,10 @@ TEST(BottomDetector, KnowsHowATiltChangesItsTime) {
 // Light that is lost at a time leaves an echo as if the rest had been there alone.
 TEST(BottomDetector, SeesLostLightAlone) {
   const auto echo = [](double tilt) {
-    Echo echo(0.0005);
-    echo.Add(0, 0, 2, {});
-    echo.Add(0.05, 0, 1 - tilt, {.loss = 1});
-    return echo;
+    Echo tilted(0.0005);
+    tilted.Add(0, 0, 2, {});
+    tilted.Add(0.05, 0, 1 - tilt, {.loss = 1});
+    return tilted;
   };
   Echo level = echo(0), by_loss(0.0005);
   by_loss.Add(0, 0, 2, {});

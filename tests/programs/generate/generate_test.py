@@ -28,6 +28,10 @@ depth = [0, 10]
 [effort]
 realizations = 40
 """
+ONE_BEAM = CAMPAIGN  # One cell, where a test asks for any table.
+for several, one in (("[3, 6]", "[5]"), ("[5000, inf]", "[inf]"), ("[0, 20]", "[10]"), ("[0, 90]", "[0]"),
+                     ("[0.25, 1]", "[0.5]")):
+    ONE_BEAM = ONE_BEAM.replace(several, one)
 POINT = ["point", "--wind-speed", "7", "--incidence", "12", "--azimuth", "45", "--footprint", "0.6",
          "--depth", "1,5", "--relative-error", "0.2"]
 
@@ -125,7 +129,7 @@ class Table(GenerateTest):
         self.refused(2, *of_sea, "--azimuth", "0", "--beam-azimuth", "45", *beam)
 
     def test_states_the_spectrum_in_the_table(self):
-        campaign = self.write("other.toml", CAMPAIGN + '[sea]\nspectrum = "elfouhaily"\ncorrected_above = 30\n')
+        campaign = self.write("other.toml", ONE_BEAM + '[sea]\nspectrum = "elfouhaily"\ncorrected_above = 30\n')
         self.assert_succeeds(generate("table", "--campaign", campaign, "--output", self.folder / "other.h5"))
         with netCDF4.Dataset(self.folder / "other.h5") as data:
             self.assertIn("Elfouhaily", data.spectrum)
@@ -140,6 +144,7 @@ class Table(GenerateTest):
             self.assertIn(problem, self.refused(1, "table", "--campaign", self.campaign, "--output", output, *flags))
         self.assertEqual(there.read_text(), "precious")
         self.assertEqual(self.names(), ["small.toml", "there.h5"])
+        self.write("small.toml", ONE_BEAM)
         self.assert_succeeds(generate("table", "--campaign", self.campaign, "--output", there, "--overwrite"))
 
     def test_refuses_bad_campaigns(self):
@@ -172,11 +177,7 @@ class Table(GenerateTest):
         self.assertIn("give its axes more nodes", self.said.stderr)
 
     def test_does_not_warn_of_a_fine_table(self):
-        text = CAMPAIGN
-        for coarse, one in (("[3, 6]", "[5]"), ("[5000, inf]", "[inf]"), ("[0, 20]", "[10]"), ("[0, 90]", "[0]"),
-                            ("[0.25, 1]", "[0.5]")):
-            text = text.replace(coarse, one)
-        result = generate("table", "--campaign", self.write("fine.toml", text), "--output", self.folder / "fine.h5")
+        result = generate("table", "--campaign", self.write("fine.toml", ONE_BEAM), "--output", self.folder / "fine.h5")
         self.assert_succeeds(result)
         self.assertNotIn("coarse", result.stderr)
 

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <ostream>
@@ -21,6 +20,7 @@
 #include "quality/checkpoints/point_check.h"
 #include "quality/crosscheck/pulse_part.h"
 #include "quality/surface/cell_plane.h"
+#include "tests/every_case.h"
 #include "tests/quality/surface/simulated_place.h"
 
 namespace albtpu::quality {
@@ -28,9 +28,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+using albtpu::testing::EveryCase;
 
-struct Case {
+struct SurveyCase {
   std::string name;
   ScanPattern pattern;
   int surveys;  // Of a quick run; 0: none.
@@ -38,7 +38,7 @@ struct Case {
   // Of lines, survey and check points. Without them, waves are nearly all that is left.
   double shared = 1;
 
-  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+  friend std::ostream& operator<<(std::ostream& out, const SurveyCase& c) { return out << c.name; }
 };
 
 struct CheckOfSurvey {
@@ -50,7 +50,7 @@ struct CheckOfSurvey {
 // Ten places, two of them on each pair of lines, with four check points each.
 class Surveys {
  public:
-  explicit Surveys(const Case& c)
+  explicit Surveys(const SurveyCase& c)
       : radius_(c.radius),
         shared_(c.shared),
         place_({{.pattern = c.pattern, .number = 1, .heading = 30, .aside = 60, .start = 0},
@@ -141,10 +141,10 @@ class Surveys {
   SimulatedPlace place_;
 };
 
-class CheckPointsOfSurveys : public testing::TestWithParam<Case> {};
+class CheckPointsOfSurveys : public ::testing::TestWithParam<SurveyCase> {};
 
 TEST_P(CheckPointsOfSurveys, LieAsFarFromTheSurfaceAsPredicted) {
-  const Case& c = GetParam();
+  const SurveyCase& c = GetParam();
   const int count = EveryCase() ? 1000 : c.surveys;
   if (count == 0) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   const Surveys surveys(c);
@@ -186,13 +186,13 @@ TEST_P(CheckPointsOfSurveys, LieAsFarFromTheSurfaceAsPredicted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, CheckPointsOfSurveys,
-                         testing::Values(Case{"palmer", ScanPattern::kPalmer, 50},
-                                         Case{"raster", ScanPattern::kRaster, 0},
-                                         Case{"random", ScanPattern::kRandom, 0},
-                                         Case{"palmer_within_1_m", ScanPattern::kPalmer, 0, 1},
-                                         Case{"waves_of_palmer", ScanPattern::kPalmer, 0, kDefaultRadius, 0},
-                                         Case{"waves_of_raster", ScanPattern::kRaster, 0, kDefaultRadius, 0},
-                                         Case{"waves_of_random", ScanPattern::kRandom, 0, kDefaultRadius, 0}),
+                         ::testing::Values(SurveyCase{"palmer", ScanPattern::kPalmer, 50},
+                                           SurveyCase{"raster", ScanPattern::kRaster, 0},
+                                           SurveyCase{"random", ScanPattern::kRandom, 0},
+                                           SurveyCase{"palmer_within_1_m", ScanPattern::kPalmer, 0, 1},
+                                           SurveyCase{"waves_of_palmer", ScanPattern::kPalmer, 0, kDefaultRadius, 0},
+                                           SurveyCase{"waves_of_raster", ScanPattern::kRaster, 0, kDefaultRadius, 0},
+                                           SurveyCase{"waves_of_random", ScanPattern::kRandom, 0, kDefaultRadius, 0}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
 
 #include "quality/crosscheck/cross_check.h"
+#include "tests/every_case.h"
 #include "tests/quality/crosscheck/simulated_lines.h"
 #include "tests/quality/crosscheck/travelling_sea.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using testing::SimulatedLines;
 
-const int kBlocks = std::getenv("ALBTPU_EVERY_CASE") != nullptr ? 200 : 10;
+const int kBlocks = albtpu::testing::EveryCase() ? 200 : 10;
 
 SimulatedLines Block(std::uint64_t seed) {
   return {.seed = seed,

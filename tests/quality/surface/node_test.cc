@@ -148,7 +148,7 @@ TEST(Node, PredictsTheScatterOfItsPoints) {
 
 // Tiles.
 
-class Tile : public testing::Test {
+class Tile : public ::testing::Test {
  protected:
   // 9 points a cell on a plane, of all cells of a tile and its border.
   static std::vector<SurfacePoint> OnAPlane(double slope_x, double slope_y) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PointTilesTest : public testing::Test {
+class PointTilesTest : public ::testing::Test {
  protected:
   PointTilesTest() {
     std::mt19937 random(1);

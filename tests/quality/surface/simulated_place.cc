@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kFootprint = 0.6, kIndex = 1.34;
 constexpr double kShortest = 30;  // rad/m: the footprint hides what is shorter, of the waves that are drawn and stated.
-constexpr double kAltitude = 400, kSpeed = 50;  // m, m/s
-constexpr double kDepth = 8;                    // m, in the middle
+constexpr double kFlightHeight = 400, kFlightSpeed = 50;  // m, m/s
+constexpr double kDepth = 8;                              // m, in the middle
 const Vector2d kSlope(0.15, -0.1);
 const Vector2d kMiddle = Vector2d::Constant(SimulatedPlace::kWest + SimulatedPlace::kWidth / 2);
 const Vector3d kPulseSigma(0.04, 0.04, 0.03), kLineSigma(0.03, 0.03, 0.03), kSurveySigma(0.03, 0.02, 0.015);
@@ -154,15 +154,15 @@ class Scan {
     const Vector2d inside = (at - kMiddle).cwiseAbs();
     if (inside.maxCoeff() > SimulatedPlace::kWidth / 2) return;
     look.push_back({.at = at,
-                    .time = line_.start + along / kSpeed,
+                    .time = line_.start + along / kFlightSpeed,
                     .azimuth = std::atan2(offset.y(), offset.x()),
-                    .incidence = std::atan2(offset.norm(), kAltitude)});
+                    .incidence = std::atan2(offset.norm(), kFlightHeight)});
   }
 
   // Turns lie `spacing_` apart along the line, pulses about as far apart on a turn. `side` is 1 for the fore part.
   void AddPalmer(int side, double first, double phase) {
-    const double long_side = kAltitude * std::tan(RadiansOfDegrees(14)),
-                 wide_side = kAltitude * std::tan(RadiansOfDegrees(20));
+    const double long_side = kFlightHeight * std::tan(RadiansOfDegrees(14)),
+                 wide_side = kFlightHeight * std::tan(RadiansOfDegrees(20));
     const double middle = std::asin(line_.aside / wide_side);
     const double turn = side > 0 ? middle : std::numbers::pi - middle;
     const double step = spacing_ / std::hypot(long_side * std::sin(turn), wide_side * std::cos(turn));
@@ -182,8 +182,8 @@ class Scan {
 
   // Each sweep to the other side takes the time in which the aircraft flies `spacing_`.
   void AddRaster(double first, double phase) {
-    const double middle = std::atan(line_.aside / kAltitude), most = RadiansOfDegrees(20);
-    const double step = spacing_ / kAltitude * std::pow(std::cos(middle), 2);
+    const double middle = std::atan(line_.aside / kFlightHeight), most = RadiansOfDegrees(20);
+    const double step = spacing_ / kFlightHeight * std::pow(std::cos(middle), 2);
     Look look;
     const auto sweeps = static_cast<int>(std::ceil(kReach / spacing_)) + 1;
     for (int j = -sweeps; j <= sweeps; ++j)
@@ -192,7 +192,7 @@ class Scan {
         const double angle = middle + (i + shift - std::floor(shift)) * step;
         const double of_sweep = (angle + most) / (2 * most);
         const double along = spacing_ * (j + first + (j % 2 == 0 ? of_sweep : 1 - of_sweep));
-        Add(along, 0, kAltitude * std::tan(angle), look);
+        Add(along, 0, kFlightHeight * std::tan(angle), look);
       }
     looks_.push_back(std::move(look));
   }
@@ -205,7 +205,7 @@ class Scan {
     for (int i = count(random); i > 0; --i) {
       const Vector2d at(within(random), within(random));
       look.push_back({.at = kMiddle + at,
-                      .time = line_.start + at.dot(ahead_) / kSpeed,
+                      .time = line_.start + at.dot(ahead_) / kFlightSpeed,
                       .azimuth = std::atan2(ahead_.y(), ahead_.x()),
                       .incidence = RadiansOfDegrees(20)});
     }

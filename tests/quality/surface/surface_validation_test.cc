@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <ostream>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "quality/surface/surface_tile.h"
+#include "tests/every_case.h"
 #include "tests/quality/surface/simulated_place.h"
 
 namespace albtpu::quality {
@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector2d;
 
 const std::vector<double> kCells = {0.5, 1, 2, 5};
-bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+using albtpu::testing::EveryCase;
 // Places far from each other, with waves and errors of their own, by sets of seeds.
 int Sets() { return EveryCase() ? 4 : 1; }
 int PlacesOfSet() { return EveryCase() ? 1000 : 200; }
@@ -68,13 +68,13 @@ class Places {
   std::span<const NodeSums> places_;
 };
 
+constexpr double kMiddleOfPlace = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
 constexpr double kMostFromMiddle = 6;  // m, of nodes along both axes.
 
 std::vector<SurfaceNode> NodesIn(const SimulatedPlace& place, const std::vector<SurfacePoint>& points, double cell) {
   std::vector<SurfacePoint> of_tile;
-  constexpr double kMiddle = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
   const auto inside = [&](double at) {
-    return std::abs(at - kMiddle) < kMostFromMiddle + 2 * cell && at >= -cell && at < (kTileCells + 1) * cell;
+    return std::abs(at - kMiddleOfPlace) < kMostFromMiddle + 2 * cell && at >= -cell && at < (kTileCells + 1) * cell;
   };
   for (const SurfacePoint& point : points)
     if (inside(point.x) && inside(point.y)) of_tile.push_back(point);
@@ -83,17 +83,16 @@ std::vector<SurfaceNode> NodesIn(const SimulatedPlace& place, const std::vector<
 
 // Those of the nodes whose neighbours have all their points, too. Of small cells, those in the middle tell enough.
 void AddNodes(const std::vector<SurfaceNode>& nodes, double cell, NodeSums& sums) {
-  constexpr double kMiddle = SimulatedPlace::kWest + SimulatedPlace::kWidth / 2;
   const double most = std::min(kMostFromMiddle, SimulatedPlace::kWidth / 2 - SimulatedPlace::kMargin - 1.5 * cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vector2d at(cell * (static_cast<double>(i % kTileCells) + 0.5),
                       cell * (static_cast<double>(i / kTileCells) + 0.5));
-    if ((at - Vector2d::Constant(kMiddle)).cwiseAbs().maxCoeff() > most || nodes[i].points == 0) continue;
+    if ((at - Vector2d::Constant(kMiddleOfPlace)).cwiseAbs().maxCoeff() > most || nodes[i].points == 0) continue;
     sums.Add(nodes[i], SimulatedPlace::HeightAt(at));
   }
 }
 
-struct Case {
+struct NodeCase {
   std::string name;
   ScanPattern pattern;
   double spacing;  // m between the pulses of a pass
@@ -101,7 +100,7 @@ struct Case {
   // What all nodes of a place share hides what these share by waves: without it, a tenth as many places tell as much.
   double shared = 1;
 
-  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+  friend std::ostream& operator<<(std::ostream& out, const NodeCase& c) { return out << c.name; }
   // Two lines overlap, flown the opposite ways; of a raster, one has the place at nadir.
   std::vector<SimulatedLine> Lines() const {
     return {{.pattern = pattern, .number = 1, .heading = 30, .aside = 60, .start = 0},
@@ -113,10 +112,10 @@ struct Case {
   }
 };
 
-class NodesOfSurveys : public testing::TestWithParam<Case> {};
+class NodesOfSurveys : public ::testing::TestWithParam<NodeCase> {};
 
 TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
-  const Case& c = GetParam();
+  const NodeCase& c = GetParam();
   if (!c.always && !EveryCase()) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   const SimulatedPlace place(c.Lines(), c.spacing, kCells, c.shared);
   // What all nodes of a place share is most of the variance of large cells: it is drawn several times over its waves.
@@ -159,18 +158,18 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, NodesOfSurveys,
-                         testing::Values(Case{"palmer_dense", ScanPattern::kPalmer, 0.45},
-                                         Case{"palmer_sparse", ScanPattern::kPalmer, 1, true},
-                                         Case{"raster_dense", ScanPattern::kRaster, 0.45},
-                                         Case{"raster_sparse", ScanPattern::kRaster, 1},
-                                         Case{"random_dense", ScanPattern::kRandom, 0.45},
-                                         Case{"random_sparse", ScanPattern::kRandom, 1},
-                                         Case{"waves_of_palmer_dense", ScanPattern::kPalmer, 0.45, false, 0},
-                                         Case{"waves_of_palmer_sparse", ScanPattern::kPalmer, 1, false, 0},
-                                         Case{"waves_of_raster_dense", ScanPattern::kRaster, 0.45, false, 0},
-                                         Case{"waves_of_raster_sparse", ScanPattern::kRaster, 1, true, 0},
-                                         Case{"waves_of_random_dense", ScanPattern::kRandom, 0.45, false, 0},
-                                         Case{"waves_of_random_sparse", ScanPattern::kRandom, 1, false, 0}),
+                         ::testing::Values(NodeCase{"palmer_dense", ScanPattern::kPalmer, 0.45},
+                                           NodeCase{"palmer_sparse", ScanPattern::kPalmer, 1, true},
+                                           NodeCase{"raster_dense", ScanPattern::kRaster, 0.45},
+                                           NodeCase{"raster_sparse", ScanPattern::kRaster, 1},
+                                           NodeCase{"random_dense", ScanPattern::kRandom, 0.45},
+                                           NodeCase{"random_sparse", ScanPattern::kRandom, 1},
+                                           NodeCase{"waves_of_palmer_dense", ScanPattern::kPalmer, 0.45, false, 0},
+                                           NodeCase{"waves_of_palmer_sparse", ScanPattern::kPalmer, 1, false, 0},
+                                           NodeCase{"waves_of_raster_dense", ScanPattern::kRaster, 0.45, false, 0},
+                                           NodeCase{"waves_of_raster_sparse", ScanPattern::kRaster, 1, true, 0},
+                                           NodeCase{"waves_of_random_dense", ScanPattern::kRandom, 0.45, false, 0},
+                                           NodeCase{"waves_of_random_sparse", ScanPattern::kRandom, 1, false, 0}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace

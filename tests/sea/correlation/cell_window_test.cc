@@ -10,14 +10,12 @@
 namespace albtpu {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // By its definition, at many directions.
 double WindowMean(double k, double side, int m) {
   constexpr int kDirections = 20000;
   double sum = 0;
   for (int d = 0; d < kDirections; ++d) {
-    const double psi = 2 * kPi * (d + 0.5) / kDirections;
+    const double psi = 2 * std::numbers::pi * (d + 0.5) / kDirections;
     const double x = k * side / 2 * std::cos(psi), y = k * side / 2 * std::sin(psi);
     sum += std::pow(std::sin(x) / x * std::sin(y) / y, 2) * std::cos(4 * m * psi);
   }

@@ -38,11 +38,6 @@ OneWave WaveAlong(double axis) {
 // Of a phase in proportion to k the cosine is that of phase cosh(h / 2) times the cosine of phase sinh(h / 2).
 double AllowedAt(double phase) { return 1e-4 + 0.05 * 0.05 / 8 * (phase + phase * phase); }
 
-// Few waves of a lattice, whose twin is a sum over all of them.
-HarmonicSpectrum LongSea() {
-  return WeightedSum(Swell(2e-3, 1.5, 1.0, 0.6, 0.3), 1, Swell(1e-3, 0.6, -0.3, 0.8, 0.5), 1);
-}
-
 HarmonicSpectrum Finer(const HarmonicSpectrum& sea, int parts) {
   std::vector<double> k;
   const double first = sea.k.front(), ratio = std::log(sea.k.back() / first);

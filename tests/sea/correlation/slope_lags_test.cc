@@ -11,10 +11,6 @@
 namespace albtpu {
 namespace {
 
-HarmonicSpectrum LongSea() {
-  return WeightedSum(Swell(2e-3, 1.5, 1.0, 0.6, 0.3), 1, Swell(1e-3, 0.6, -0.3, 0.8, 0.5), 1);
-}
-
 Eigen::Array3d Elements(const Eigen::Matrix2d& slopes) { return {slopes(0, 0), slopes(0, 1), slopes(1, 1)}; }
 
 // MovingWaves is tested against sums over waves.

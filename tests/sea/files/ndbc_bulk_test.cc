@@ -8,6 +8,7 @@
 
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wind_sea.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 const std::string kSummary =
     "#YY  MM DD hh mm WVHT  SwH  SwP  WWH  WWP SwD WWD  STEEPNESS  APD MWD\n"

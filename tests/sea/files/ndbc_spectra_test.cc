@@ -7,6 +7,8 @@
 #include <string>
 
 #include "sea/files/ndbc_table.h"
+#include "tests/degree.h"
+#include "tests/sea/files/foreign_texts.h"
 
 namespace albtpu {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 const std::string kEnergyHeader =
     "#YY  MM DD hh mm Sep_Freq  < spec_1 (freq_1) spec_2 (freq_2) spec_3 (freq_3) ... >\n";
@@ -29,8 +31,6 @@ const std::string kDirection =
     "#YY  MM DD hh mm alpha2_1 (freq_1) alpha2_2 (freq_2) alpha2_3 (freq_3) ... >\n"
     "2020 06 08 03 50 30.0 (0.100) 999.0 (0.200) 120.0 (0.400)\n"
     "2020 06 08 02 50 30.0 (0.100) 90.0 (0.200) 120.0 (0.400)\n";
-
-const BinnedSpectrum& Bins(const SeaRecord& record) { return *std::get<BinnedWaves>(record.waves); }
 
 std::string ErrorOf(const NdbcTexts& texts) { return std::string(ReadNdbcSpectra(texts).status().message()); }
 

@@ -11,15 +11,16 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "sea/spectra/apel_spectrum.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
-std::string ErrorOf(const std::string& text) { return std::string(ReadSeaCsv(text).status().message()); }
+std::string ErrorOfCsv(const std::string& text) { return std::string(ReadSeaCsv(text).status().message()); }
 
 TEST(SeaCsvByFrequency, HasEnergyAndDirections) {
   const auto series =
@@ -68,22 +69,23 @@ TEST(SeaCsvByWavenumber, IsTheSpectrumThatWasWritten) {
 }
 
 TEST(SeaCsv, RefusesWhatIsNoSea) {
-  EXPECT_THAT(ErrorOf("f,S\n1,2\n"), HasSubstr("line 1: has the columns 'f,S' (expected f,E,r2,alpha2 or k,S,a2,b2"));
-  EXPECT_THAT(ErrorOf("k,S,a2\n1,2,3\n"), HasSubstr("line 1: has the columns"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2\n"), HasSubstr("line 3: has 1 cells (expected 2)"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.1,2\n"), HasSubstr("line 3: f is 0.1 (expected more than the line before"));
-  EXPECT_THAT(ErrorOf("f,E\n1e-300,2\n0.1,2\n"), HasSubstr("line 2: f is 1e-300 (expected 0.0001 to 100)"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,-1\n"), HasSubstr("line 3: E is -1 (expected 0 to 1e+12)"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,nan\n"), HasSubstr("'nan' is no number"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,\n"), HasSubstr("'' is no number"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,1\n"), HasSubstr("a sea of 1 lines"));
-  EXPECT_THAT(ErrorOf("f,E\n"), HasSubstr("a sea of 0 lines"));
-  EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,41,230\n"),
+  EXPECT_THAT(ErrorOfCsv("f,S\n1,2\n"),
+              HasSubstr("line 1: has the columns 'f,S' (expected f,E,r2,alpha2 or k,S,a2,b2"));
+  EXPECT_THAT(ErrorOfCsv("k,S,a2\n1,2,3\n"), HasSubstr("line 1: has the columns"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,2\n0.2\n"), HasSubstr("line 3: has 1 cells (expected 2)"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,2\n0.1,2\n"), HasSubstr("line 3: f is 0.1 (expected more than the line before"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n1e-300,2\n0.1,2\n"), HasSubstr("line 2: f is 1e-300 (expected 0.0001 to 100)"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,2\n0.2,-1\n"), HasSubstr("line 3: E is -1 (expected 0 to 1e+12)"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,2\n0.2,nan\n"), HasSubstr("'nan' is no number"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,\n"), HasSubstr("'' is no number"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,1\n"), HasSubstr("a sea of 1 lines"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n"), HasSubstr("a sea of 0 lines"));
+  EXPECT_THAT(ErrorOfCsv("f,E,r2,alpha2\n0.1,1,41,230\n"),
               HasSubstr("r2 is 41 (expected a fraction from 0 to 1); divide r2 by 100 if it is in hundredths"));
-  EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,0.4,361\n"), HasSubstr("alpha2 is 361"));
-  EXPECT_THAT(ErrorOf("k,S,a2,b2\n0.1,1,0.9,0.9\n"), HasSubstr("harmonic 2 is 0.9, 0.9"));
-  EXPECT_THAT(ErrorOf("time,f,E\n2020-06-08 03:50,0.1,1\n"), HasSubstr("is no time (expected UTC such as"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,1\n0.2,3"), HasSubstr("its last line, 3, has no end"));
+  EXPECT_THAT(ErrorOfCsv("f,E,r2,alpha2\n0.1,1,0.4,361\n"), HasSubstr("alpha2 is 361"));
+  EXPECT_THAT(ErrorOfCsv("k,S,a2,b2\n0.1,1,0.9,0.9\n"), HasSubstr("harmonic 2 is 0.9, 0.9"));
+  EXPECT_THAT(ErrorOfCsv("time,f,E\n2020-06-08 03:50,0.1,1\n"), HasSubstr("is no time (expected UTC such as"));
+  EXPECT_THAT(ErrorOfCsv("f,E\n0.1,1\n0.2,3"), HasSubstr("its last line, 3, has no end"));
 }
 
 std::string Compressed(std::string text) {

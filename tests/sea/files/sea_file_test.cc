@@ -19,13 +19,13 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kEnergy =
+const std::string kBuoyEnergy =
     "#YY  MM DD hh mm Sep_Freq  < spec_1 (freq_1) spec_2 (freq_2) spec_3 (freq_3) ... >\n"
     "2020 06 08 03 50 0.225 0.218 (0.100) 0.641 (0.200) 0.100 (0.400)\n";
-const std::string kSpread =
+const std::string kBuoySpread =
     "#YY  MM DD hh mm r2_1 (freq_1) r2_2 (freq_2) r2_3 (freq_3) ... >\n"
     "2020 06 08 03 50 0.33 (0.100) 0.50 (0.200) 0.20 (0.400)\n";
-const std::string kDirection =
+const std::string kBuoyDirection =
     "#YY  MM DD hh mm alpha2_1 (freq_1) alpha2_2 (freq_2) alpha2_3 (freq_3) ... >\n"
     "2020 06 08 03 50 30.0 (0.100) 90.0 (0.200) 120.0 (0.400)\n";
 const std::string kHistory = "#YY  MM DD hh mm  .0500  .1000  .2000\n2019 02 06 00 40 ";
@@ -44,14 +44,14 @@ class SeaFile : public ::testing::Test {
 };
 
 TEST_F(SeaFile, TakesSpreadAndDirectionFromTheFilesBesideIt) {
-  const auto path = Write("41010.data_spec", kEnergy);
+  const auto path = Write("41010.data_spec", kBuoyEnergy);
   EXPECT_THAT(ReadSeaFile(path)->assumed, Contains(HasSubstr("no r2 or alpha2")));
-  Write("41010.swr2", kSpread);
-  Write("41010.swdir2", kDirection);
+  Write("41010.swr2", kBuoySpread);
+  Write("41010.swdir2", kBuoyDirection);
   const auto series = ReadSeaFile(path);
   EXPECT_THAT(series->assumed, Not(Contains(HasSubstr("no r2 or alpha2"))));
   EXPECT_NEAR(std::get<BinnedWaves>(series->records[0].waves)->bin(1).cosine[0], -0.641 * 0.5, 1e-12);
-  Write("41010.swr2", kSpread.substr(0, 100));
+  Write("41010.swr2", kBuoySpread.substr(0, 100));
   EXPECT_THAT(ErrorOf(path), ::testing::StartsWith("beside it, 41010.swr2: its last line, 2, has no end"));
 }
 
@@ -66,7 +66,7 @@ TEST_F(SeaFile, FindsTheHistoryByTheLetterBeforeTheYear) {
 
 TEST_F(SeaFile, IsKnownByItsFirstLine) {
   EXPECT_TRUE(ReadSeaFile(Write("sea", "# made by hand\n\nf,E\n0.1,1\n0.2,2\n")).ok());
-  EXPECT_TRUE(ReadSeaFile(Write("marked", "\xEF\xBB\xBF" + kEnergy)).ok());
+  EXPECT_TRUE(ReadSeaFile(Write("marked", "\xEF\xBB\xBF" + kBuoyEnergy)).ok());
   EXPECT_EQ(ErrorOf(Write("wide", std::string("\xFF\xFE#\0Y\0", 6))), "is UTF-16 text; save it as UTF-8");
   EXPECT_THAT(ErrorOf(Write("a", "Some other text\n")), HasSubstr("begins with 'Some other text' (expected a file of"));
   EXPECT_EQ(ErrorOf(Write("b", "")), "is empty; get another copy of the file");

@@ -53,7 +53,7 @@ TEST(SortByTime, OrdersByPointAndTimeAndKeepsTheFirstOfEqualTimes) {
   EXPECT_EQ(series.records[0].time, 3);
   EXPECT_EQ(series.records[1].significant_wave_height(), 2);
   EXPECT_EQ(series.records[2].point, 1u);
-  EXPECT_THAT(series.assumed, testing::ElementsAre(testing::HasSubstr("1 records repeat")));
+  EXPECT_THAT(series.assumed, ::testing::ElementsAre(::testing::HasSubstr("1 records repeat")));
 }
 
 }  // namespace

@@ -8,15 +8,17 @@
 
 #include "absl/strings/str_cat.h"
 #include "sea/spectra/wave_spreading.h"
+#include "tests/degree.h"
+#include "tests/sea/files/foreign_texts.h"
 
 namespace albtpu {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
-const std::string kHeader =
+const std::string kWw3Header =
     "'WAVEWATCH III SPECTRA'      2     8     1 'spectral resolution for points'\n"
     " 0.100E+00 0.200E+00\n"
     "  0.157E+01  0.785E+00  0.000E+00  0.550E+01  0.471E+01  0.393E+01  0.314E+01\n"
@@ -30,17 +32,12 @@ const std::string kRecord =
     "  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00\n"
     "  0.000E+00  0.000E+00\n";
 
-const BinnedSpectrum& Bins(const SeaRecord& record) { return *std::get<BinnedWaves>(record.waves); }
-std::string ErrorOf(const std::string& text) { return std::string(ReadWw3Points(text).status().message()); }
-
-std::string Replaced(std::string text, std::string_view what, std::string_view with) {
-  return text.replace(text.find(what), what.size(), with);
-}
+std::string ErrorOfWw3(const std::string& text) { return std::string(ReadWw3Points(text).status().message()); }
 
 // Densities per rad, frequency after frequency for each direction, and directions in rad: read otherwise, the energy
 // would be 57 times less, at another frequency, or along another axis.
 TEST(Ww3Points, HasDensitiesPerRadAndDirectionsInRad) {
-  const auto series = ReadWw3Points(kHeader + kRecord);
+  const auto series = ReadWw3Points(kWw3Header + kRecord);
   const BinnedSpectrum& bins = Bins(series->records[0]);
   EXPECT_EQ(bins.bin(0).energy, 0);
   EXPECT_NEAR(bins.bin(1).energy, 0.6 * 2 * std::numbers::pi / 8, 1e-12);
@@ -49,7 +46,7 @@ TEST(Ww3Points, HasDensitiesPerRadAndDirectionsInRad) {
 }
 
 TEST(Ww3Points, HasPlaceTimeDepthAndWind) {
-  const auto series = ReadWw3Points(kHeader + kRecord);
+  const auto series = ReadWw3Points(kWw3Header + kRecord);
   EXPECT_EQ(series->points[0].name, "44097");
   EXPECT_EQ(series->points[0].latitude, 40.98);
   EXPECT_EQ(series->points[0].longitude, -71.12);
@@ -62,7 +59,7 @@ TEST(Ww3Points, HasPlaceTimeDepthAndWind) {
 
 // Waves towards 0.785 rad with a wind from the opposite direction run along the frame's x axis.
 TEST(Ww3Points, HasWavesTowardsAndWindFrom) {
-  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "225.6", "225.0"));
+  const auto series = ReadWw3Points(kWw3Header + Replaced(kRecord, "225.6", "225.0"));
   const HarmonicSpectrum spectrum = Describe(series->records[0], {.tail = TailRule::kNone}).spectrum;
   std::size_t i = 0;
   while (spectrum.s[i] == 0) ++i;
@@ -71,18 +68,18 @@ TEST(Ww3Points, HasWavesTowardsAndWindFrom) {
 }
 
 TEST(Ww3Points, MayHaveNumbersThatTouch) {
-  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "40.98 -71.12", "40.98-171.12"));
+  const auto series = ReadWw3Points(kWw3Header + Replaced(kRecord, "40.98 -71.12", "40.98-171.12"));
   EXPECT_EQ(series->points[0].longitude, -171.12);
   EXPECT_EQ(series->records[0].water_depth, 46.6);
 }
 
 TEST(Ww3Points, MayHaveExponentsOfThreeDigits) {
-  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "0.000E+00\n", "0.123-104\n"));
+  const auto series = ReadWw3Points(kWw3Header + Replaced(kRecord, "0.000E+00\n", "0.123-104\n"));
   EXPECT_TRUE(series.ok()) << series.status();
 }
 
 TEST(Ww3Points, TellsItsPointsApart) {
-  std::string text = Replaced(kHeader, "8     1", "8     2");
+  std::string text = Replaced(kWw3Header, "8     1", "8     2");
   const std::string second = Replaced(kRecord.substr(kRecord.find('\'')), "44097", "44098");
   text += kRecord + second + Replaced(kRecord, "060000", "050000") + second;
   const auto series = ReadWw3Points(text);
@@ -95,8 +92,8 @@ TEST(Ww3Points, TellsItsPointsApart) {
 }
 
 TEST(Ww3Points, IsRefusedWhereItWasCut) {
-  const std::string text = kHeader + kRecord + Replaced(kRecord, "060000", "070000");
-  const std::size_t first = (kHeader + kRecord).size();
+  const std::string text = kWw3Header + kRecord + Replaced(kRecord, "060000", "070000");
+  const std::size_t first = (kWw3Header + kRecord).size();
   for (std::size_t size = 0; size < text.size(); ++size) {
     const auto series = ReadWw3Points(std::string_view(text).substr(0, size));
     // The end of the last line alone may be missing: its last number ends where one of the line before does.
@@ -106,24 +103,27 @@ TEST(Ww3Points, IsRefusedWhereItWasCut) {
 }
 
 TEST(Ww3Points, RefusesDirectionsInDegrees) {
-  EXPECT_THAT(ErrorOf(Replaced(kHeader, "0.550E+01", "315.0E+00") + kRecord),
+  EXPECT_THAT(ErrorOfWw3(Replaced(kWw3Header, "0.550E+01", "315.0E+00") + kRecord),
               HasSubstr("a direction is 315 rad (expected 0 to 2 pi); write directions in radians"));
 }
 
 TEST(Ww3Points, RefusesWhatIsDamaged) {
-  EXPECT_THAT(ErrorOf(Replaced(kHeader, "8     1", "0     1") + kRecord),
+  EXPECT_THAT(ErrorOfWw3(Replaced(kWw3Header, "8     1", "0     1") + kRecord),
               HasSubstr("line 1: does not state the numbers of"));
-  EXPECT_THAT(ErrorOf(Replaced(kHeader, "2     8", "9999999 8") + kRecord),
+  EXPECT_THAT(ErrorOfWw3(Replaced(kWw3Header, "2     8", "9999999 8") + kRecord),
               HasSubstr("line 1: does not state the numbers of"));
-  EXPECT_THAT(ErrorOf(Replaced(kHeader, "0.200E+00", "0.100E+00") + kRecord),
+  EXPECT_THAT(ErrorOfWw3(Replaced(kWw3Header, "0.200E+00", "0.100E+00") + kRecord),
               HasSubstr("frequency 2 is 0.1 Hz (expected 0.0001 to 100 Hz, increasing)"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "20220912", "20221312")),
+  EXPECT_THAT(ErrorOfWw3(kWw3Header + Replaced(kRecord, "20220912", "20221312")),
               HasSubstr("line 5: '20221312 060000' is no"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")), HasSubstr("line 6: does not state a possible"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")), HasSubstr("line 6: does not state a possible"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "-.600E+00")), HasSubstr("a density of -0.6"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "NaN")), HasSubstr("'NaN' is not a spectral density"));
-  EXPECT_THAT(ErrorOf(kHeader), HasSubstr("a header and no record"));
+  EXPECT_THAT(ErrorOfWw3(kWw3Header + Replaced(kRecord, "46.6", "-1.0")),
+              HasSubstr("line 6: does not state a possible"));
+  EXPECT_THAT(ErrorOfWw3(kWw3Header + Replaced(kRecord, "1.45", "1E99")),
+              HasSubstr("line 6: does not state a possible"));
+  EXPECT_THAT(ErrorOfWw3(kWw3Header + Replaced(kRecord, "0.600E+00", "-.600E+00")), HasSubstr("a density of -0.6"));
+  EXPECT_THAT(ErrorOfWw3(kWw3Header + Replaced(kRecord, "0.600E+00", "NaN")),
+              HasSubstr("'NaN' is not a spectral density"));
+  EXPECT_THAT(ErrorOfWw3(kWw3Header), HasSubstr("a header and no record"));
 }
 
 constexpr double kTurn = 2 * std::numbers::pi;

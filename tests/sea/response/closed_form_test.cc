@@ -6,11 +6,13 @@
 #include <numbers>
 #include <string>
 
+#include "sea/spectra/wind_sea.h"
+#include "tests/degree.h"
+
 namespace albtpu {
 namespace {
 
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 
 SmallSlopeUncertainty Of(double wind_speed, BeamOptions beam) {
   return ClosedForm(SeaState(wind_speed, kFullyDeveloped), beam, kRefractiveIndex);
@@ -84,8 +86,8 @@ TEST(ClosedForm, FallsAsMoreWavesAreCorrectedFor) {
 
 constexpr double kPi = std::numbers::pi;
 
-class FootprintOfProfile : public testing::TestWithParam<BeamProfile> {};
-INSTANTIATE_TEST_SUITE_P(, FootprintOfProfile, testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
+class FootprintOfProfile : public ::testing::TestWithParam<BeamProfile> {};
+INSTANTIATE_TEST_SUITE_P(, FootprintOfProfile, ::testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
 // The integral of the relative irradiance over the plane, in squared diameters.

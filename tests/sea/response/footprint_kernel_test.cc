@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "tests/sea/response/seas.h"
+
 namespace albtpu {
 namespace {
 
-const BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
-
-const HankelLattice& Lattice() { return HankelLattice::Shared(); }
-double LagOf(int j) { return Lattice().Lag(j * FootprintKernel::kLagStride); }
+double LagOf(int j) { return HankelLattice::Shared().Lag(j * FootprintKernel::kLagStride); }
 
 // Trapezoids in steps of 10 %, and the 1e-3 of a gaussian beam's overlap that lies beyond its last lag.
 TEST(FootprintKernel, HasAnOverlapOfUnitIntegral) {
@@ -63,11 +62,11 @@ TEST(FootprintKernel, KnowsTheHeightDifferencesOnTheEdgeOfAUniformDisc) {
   ASSERT_EQ(kernel.irradiance_rings().size(), 1);
   const SpectrumRing& ring = kernel.irradiance_rings()[0];
   EXPECT_DOUBLE_EQ(ring.weight, 8 / (kDiameter * kDiameter));
-  for (int i = 0; i < Lattice().size(); ++i) {
-    const double k = Lattice().wavenumbers()[i], x = k * kDiameter / 2, w = kernel.average()[i];
+  for (int i = 0; i < HankelLattice::Shared().size(); ++i) {
+    const double k = HankelLattice::Shared().wavenumbers()[i], x = k * kDiameter / 2, w = kernel.average()[i];
     // Waves whose phase on the edge turns by more than a radian in a step are averaged.
-    if (Lattice().step() * x > 1) break;
-    const double allowed = std::pow(Lattice().step() * std::max(x, 2.0), 4);
+    if (HankelLattice::Shared().step() * x > 1) break;
+    const double allowed = std::pow(HankelLattice::Shared().step() * std::max(x, 2.0), 4);
     EXPECT_NEAR(k * k * ring.value(i, 0) / (1 - w * ::j0(x)), 1, allowed) << k;
     EXPECT_NEAR(k * k * ring.slope(i, 0), x * w * ::j1(x), allowed * x * x * std::abs(w) + 1e-7) << k;
   }

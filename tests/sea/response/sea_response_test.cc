@@ -12,8 +12,6 @@ namespace albtpu {
 namespace {
 
 constexpr double kN = kRefractiveIndex;
-const BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
-
 void ExpectSame(const BeamResponse& a, const BeamResponse& b, double relative) {
   EXPECT_LT((a.covariance_per_depth - b.covariance_per_depth).norm(), relative * b.covariance_per_depth.norm());
   EXPECT_LT((a.covariance_at_surface - b.covariance_at_surface).norm(), 10 * relative * b.covariance_at_surface.norm());

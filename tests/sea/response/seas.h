@@ -1,4 +1,4 @@
-// Seas on which tests try the response theory.
+// Seas and beams on which tests try the response theory.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,8 @@
 #include "sea/spectra/harmonic_spectrum.h"
 
 namespace albtpu {
+
+inline constexpr BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
 
 inline HarmonicSpectrum WindSeaOf(double wind_speed_10m, const SpectrumModel& model = kElfouhailyModel,
                                   double slope_scale = 1) {
@@ -36,6 +38,11 @@ inline HarmonicSpectrum Swell(double variance, double peak, double axis, double 
 }
 
 inline HarmonicSpectrum CrossingSea() { return WeightedSum(WindSeaOf(7), 1, Swell(0.03, 0.4, 1.0, 0.8, 0.5), 1); }
+
+// Few waves of a lattice, whose twin is a sum over all of them.
+inline HarmonicSpectrum LongSea() {
+  return WeightedSum(Swell(2e-3, 1.5, 1.0, 0.6, 0.3), 1, Swell(1e-3, 0.6, -0.3, 0.8, 0.5), 1);
+}
 
 // The sea in a mirror along the x axis.
 inline HarmonicSpectrum Mirrored(HarmonicSpectrum sea) {

@@ -12,8 +12,6 @@
 namespace albtpu {
 namespace {
 
-const BeamProfile kProfiles[] = {BeamProfile::kUniform, BeamProfile::kGaussian};
-
 // The covariance in x and y turned along and across the azimuth.
 Eigen::Matrix2d AlongAzimuth(const Eigen::Matrix2d& covariance, double azimuth) {
   const double c = std::cos(azimuth), s = std::sin(azimuth);

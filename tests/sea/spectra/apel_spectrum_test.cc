@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
+#include "sea/spectra/wind_sea.h"
+
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 // Integral of k^power S dk by the trapezoidal rule in log k, fine enough to count as exact.
 double Moment(const ApelSpectrum& spectrum, int power) {

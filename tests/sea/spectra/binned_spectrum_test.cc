@@ -7,12 +7,13 @@
 #include <numbers>
 
 #include "sea/spectra/spectrum_moments.h"
+#include "tests/degree.h"
+#include "tests/sea/spectra/deep_water.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDeep = std::numeric_limits<double>::infinity();
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 BinnedSpectrum Bins(std::vector<double> f, const std::vector<double>& energy, double axis = 0, double r2 = 0.5) {
   std::vector<DirectionalEnergy> bins;

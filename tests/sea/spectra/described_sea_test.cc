@@ -12,12 +12,13 @@
 #include "sea/spectra/sea_error.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wind_sea.h"
+#include "tests/degree.h"
+#include "tests/sea/spectra/deep_water.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDeep = std::numeric_limits<double>::infinity();
-constexpr double kDegree = std::numbers::pi / 180;
+using albtpu::testing::kDegree;
 
 std::shared_ptr<const FrequencySpectrum> Swell(double hs = 1, double towards = 0.5) {
   return std::make_shared<JonswapSpectrum>(std::vector{JonswapWaves{.significant_wave_height = hs,

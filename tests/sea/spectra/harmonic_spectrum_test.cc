@@ -8,11 +8,10 @@
 
 #include "sea/spectra/apel_spectrum.h"
 #include "sea/spectra/elfouhaily_spectrum.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 TEST(SeaWavenumbers, IncreaseByAtMost5PerCent) {
   const std::vector<double> k = SeaWavenumbers();

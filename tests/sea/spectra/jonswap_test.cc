@@ -6,11 +6,10 @@
 
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/spectra/wave_spreading.h"
+#include "tests/sea/spectra/deep_water.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 JonswapWaves Waves(double hs, double tp, double gamma) {
   return {.significant_wave_height = hs, .peak_period = tp, .gamma = gamma};

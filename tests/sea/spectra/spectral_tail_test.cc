@@ -8,11 +8,10 @@
 
 #include "sea/spectra/binned_spectrum.h"
 #include "sea/spectra/spectrum_moments.h"
+#include "tests/sea/spectra/deep_water.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 TEST(TailWeight, RisesThroughOneHalfAtTheCutoff) {
   EXPECT_EQ(TailWeight(0.6, 0.6), 0.5);

@@ -9,11 +9,11 @@
 #include "sea/spectra/apel_spectrum.h"
 #include "sea/spectra/elfouhaily_spectrum.h"
 #include "sea/spectra/wave_spectrum.h"
+#include "sea/spectra/wind_sea.h"
+#include "tests/sea/spectra/deep_water.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 HarmonicSpectrum PowerLaw(double power) {
   HarmonicSpectrum spectrum = FlatSea(SeaWavenumbers(), 1);
@@ -58,8 +58,6 @@ TEST(SpectrumMoments, AreThoseOfTheWindSea) {
     EXPECT_NEAR(below(elfouhaily, 20), c.elfouhaily_20, kRounding + kTrapezoids) << c.wind_speed;
   }
 }
-
-constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 TEST(DispersionRelation, IsSolvedToTwelveDigitsAtEachDepth) {
   for (double f = 0.001; f < 10; f *= 1.3) {

@@ -21,7 +21,7 @@
 namespace albtpu {
 namespace {
 
-UncertaintyTable Compiled(const SeaDescription& sea, double index) {
+UncertaintyTable CompiledAt(const SeaDescription& sea, double index) {
   static const SeaCompiler compiler;
   return compiler.Compile(sea, 1800, index).value();
 }
@@ -52,7 +52,7 @@ Differences Compare(const UncertaintyTable& ours, const UncertaintyTable& exact,
 }
 
 TEST(TableAtIndex, IsTheSameTableAtItsOwnIndex) {
-  const UncertaintyTable table = Compiled(SeaOf(6), 1.33);
+  const UncertaintyTable table = CompiledAt(SeaOf(6), 1.33);
   EXPECT_EQ(IndexOfTable(table), 1.33);
   const UncertaintyTable same = AtIndex(table, 1.33);
   EXPECT_EQ(same.digest(), table.digest());
@@ -62,9 +62,9 @@ TEST(TableAtIndex, IsTheSameTableAtItsOwnIndex) {
 // Wind seas are those of which tables have many winds.
 TEST(TableAtIndex, IsThatOfAWindSeaComputedAtThisIndexWithinATenthOfAPercent) {
   for (const double wind_speed : {3.0, 7.0, 15.0}) {
-    const UncertaintyTable table = Compiled(SeaOf(wind_speed), 1.33);
+    const UncertaintyTable table = CompiledAt(SeaOf(wind_speed), 1.33);
     for (const double index : {1.34, 1.345, 1.36}) {
-      const UncertaintyTable exact = Compiled(SeaOf(wind_speed), index), scaled = AtIndex(table, index);
+      const UncertaintyTable exact = CompiledAt(SeaOf(wind_speed), index), scaled = AtIndex(table, index);
       EXPECT_EQ(IndexOfTable(scaled), index);
       for (const Quantity quantity : kQuantities) {
         const Differences found = Compare(scaled, exact, quantity);
@@ -79,7 +79,7 @@ TEST(TableAtIndex, IsThatOfAWindSeaComputedAtThisIndexWithinATenthOfAPercent) {
 // hundredth of the slopes, too, which scaling neglects.
 TEST(TableAtIndex, IsThatOfAnySeaWithinATenthOfAPercentRms) {
   for (const auto& [name, sea] : TableSeas()) {
-    const UncertaintyTable scaled = AtIndex(Compiled(sea, 1.33), 1.36), exact = Compiled(sea, 1.36);
+    const UncertaintyTable scaled = AtIndex(CompiledAt(sea, 1.33), 1.36), exact = CompiledAt(sea, 1.36);
     for (const Quantity quantity : kQuantities) {
       const Differences found = Compare(scaled, exact, quantity);
       EXPECT_LT(found.rms, 1e-3) << name << " " << Describe(quantity).name;
@@ -89,7 +89,7 @@ TEST(TableAtIndex, IsThatOfAnySeaWithinATenthOfAPercentRms) {
 }
 
 TEST(TableAtIndex, ScalesStandardErrorsAsTheirValues) {
-  const UncertaintyTable table = Compiled(SeaOf(6), 1.33), scaled = AtIndex(table, 1.36);
+  const UncertaintyTable table = CompiledAt(SeaOf(6), 1.33), scaled = AtIndex(table, 1.36);
   for (const Quantity quantity : kQuantities) {
     const Variable &before = Of(table, quantity), &after = Of(scaled, quantity);
     for (std::size_t i = 0; i < before.values.size(); ++i) {
@@ -114,7 +114,7 @@ TEST(TableAtIndex, TakesTheIndexOfThePaperWhereATableStatesNone) {
 TEST(TableAtIndex, IsAValidTableAtAnyIndex) {
   for (const Scale scale : {Scale::kLinear, Scale::kLog})
     for (const double index : {1.0, 1.2, 2.0}) AtIndex(testing::TinyTable(scale, kSeaSurface), index);
-  const UncertaintyTable none = AtIndex(Compiled(SeaOf(6), 1.33), 1);
+  const UncertaintyTable none = AtIndex(CompiledAt(SeaOf(6), 1.33), 1);
   for (const float thu : Of(none, Quantity::kThu).values) EXPECT_LT(thu, 1e-6);
   AtIndex(testing::SyntheticTable({.published = true}), 1.34);
 }

@@ -3,12 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "tables/query/column_query.h"
 
 namespace albtpu::testing {
+
+inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Columns = std::array<std::vector<float>, kAxisCount>;
 

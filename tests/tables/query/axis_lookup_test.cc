@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/instruction_sets.h"
+#include "tests/tables/query/asked_columns.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {
@@ -15,7 +16,7 @@ namespace {
 
 using ::albtpu::testing::MakeAxis;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using ::albtpu::testing::kInfinity;
 
 class AxisLookupTest : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(AxisLookupTest);

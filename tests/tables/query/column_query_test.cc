@@ -30,8 +30,8 @@ using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TablesOfEachKind;
 using ::albtpu::testing::TinyTable;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using ::albtpu::testing::kInfinity;
+using ::albtpu::testing::kNaN;
 constexpr double kTolerance = 1e-5;  // relative
 constexpr double kCancelled = 4e-7;  // of the largest value of a quantity
 

@@ -15,8 +15,8 @@ using ::albtpu::testing::MakeAxis;
 using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TinyTable;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using ::albtpu::testing::kInfinity;
+using ::albtpu::testing::kNaN;
 
 // A result is rounded to single precision once, by at most half an ulp. Twice that allows for the errors of the
 // double arithmetic before.

@@ -13,8 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 const std::vector<std::vector<double>> kNodes = {{0.01, 0.0175, 0.03},     {0.75, 1.5, 3, 6, 12},
                                                  {0, 4, 9, 16, 25},        {0.0625, 0.125, 0.5, 1, 2, 4},
                                                  {0.0625, 0.25, 1, 4, 16}, {0.0078125, 0.03125, 0.125, 0.5, 1.5}};
@@ -114,7 +112,7 @@ TEST(WaterColumnTable, IsInProportionToScatteringInTheShallowsAndHoldsWhatIsWide
   WaterBeam beam{.incidence = 10, .optical_depth = 0.0625, .field_of_view = 16, .pulse_length = 1.5};
   const WaterAnswer first = *water.At(beam);
   beam.optical_depth /= 8;
-  beam.field_of_view = kInfinity;
+  beam.field_of_view = std::numeric_limits<double>::infinity();
   beam.pulse_length = 100;
   const WaterAnswer shallow = *water.At(beam);
   for (std::size_t q = 0; q < 6; ++q) EXPECT_NEAR(shallow[q], first[q] / 8, 1e-9);

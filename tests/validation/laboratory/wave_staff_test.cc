@@ -17,24 +17,24 @@ constexpr int kRecords = 200;
 constexpr int kSamples = 1200;
 constexpr double kRate = 30;  // Hz
 
-const SeaState& Sea() {
+const SeaState& StaffSea() {
   static const SeaState sea(5.25, 8.5);
   return sea;
 }
 
 // The autocovariance of the elevation at a point, the integral of S(k) cos(omega lag) dk.
 double Autocovariance(double lag) {
-  const auto [lowest, highest] = Sea().energetic_range();
+  const auto [lowest, highest] = StaffSea().energetic_range();
   constexpr double kLogStep = 1e-4;
   double sum = 0;
   for (double k = lowest; k < highest; k *= 1 + kLogStep)
-    sum += Sea().S(k) * std::cos(AngularFrequency(k) * lag) * k * kLogStep;
+    sum += StaffSea().S(k) * std::cos(AngularFrequency(k) * lag) * k * kLogStep;
   return sum;
 }
 
 // Sampling changes no moment: with the aliased waves the record has all the variance of the sea.
 TEST(WaveStaff, HasTheAutocovarianceOfItsSpectrum) {
-  const WaveStaff staff(Sea(), kSamples, kRate);
+  const WaveStaff staff(StaffSea(), kSamples, kRate);
   std::vector<std::vector<double>> records;
   for (int r = 0; r < kRecords; ++r) records.push_back(staff.Draw(NormalStream(3, 0, static_cast<std::uint32_t>(r))));
   for (const int lag : {0, 1, 3, 7}) {
@@ -51,7 +51,7 @@ TEST(WaveStaff, HasTheAutocovarianceOfItsSpectrum) {
 }
 
 TEST(WaveStaff, DoesNotRepeatWithinTheRecord) {
-  const WaveStaff staff(Sea(), kSamples, kRate);
+  const WaveStaff staff(StaffSea(), kSamples, kRate);
   Eigen::ArrayXd correlation(kRecords);
   for (int r = 0; r < kRecords; ++r) {
     const std::vector<double> record = staff.Draw(NormalStream(4, 0, static_cast<std::uint32_t>(r)));
@@ -150,15 +150,16 @@ TEST(Dispersion, HasTheDerivativeOfTheFrequencyAsGroupSpeed) {
 
 TEST(FrequencySpectrum, HasTheVarianceOfTheSea) {
   double sum = 0;
-  constexpr double kStep = 0.01;  // Hz
-  for (double f = 0.5 * kStep; f < 1500; f += kStep) sum += FrequencySpectrum(Sea(), f) * kStep;
-  EXPECT_NEAR(sum / ElevationVariance(Sea()), 1, 1e-3);  // 1e-4 for each of the ranges and of the sums
+  constexpr double kFrequencyStep = 0.01;  // Hz
+  for (double f = 0.5 * kFrequencyStep; f < 1500; f += kFrequencyStep)
+    sum += FrequencySpectrum(StaffSea(), f) * kFrequencyStep;
+  EXPECT_NEAR(sum / ElevationVariance(StaffSea()), 1, 1e-3);  // 1e-4 for each of the ranges and of the sums
 }
 
 TEST(FrequencySpectrum, HasItsMaximumAtThePeakFrequency) {
-  const double peak = PeakFrequency(Sea());
+  const double peak = PeakFrequency(StaffSea());
   for (const double aside : {0.9, 0.99, 1.01, 1.1})
-    EXPECT_LT(FrequencySpectrum(Sea(), aside * peak), FrequencySpectrum(Sea(), peak)) << aside;
+    EXPECT_LT(FrequencySpectrum(StaffSea(), aside * peak), FrequencySpectrum(StaffSea(), peak)) << aside;
 }
 
 }  // namespace

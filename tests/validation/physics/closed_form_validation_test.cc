@@ -13,12 +13,11 @@
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
+#include "sea/spectra/wind_sea.h"
 #include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
 std::string Describe(const SeaCase& sea_case, const BeamOptions& beam) {
   const WindSea& waves = std::get<WindSea>(sea_case.sea.waves);

@@ -16,37 +16,40 @@
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/discretization.h"
 #include "generator/surface/sea_surface.h"
+#include "sea/spectra/wind_sea.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr double kAllowed = 0.01;
 
-struct Case {
+struct ConvergenceCase {
   double wind_speed, fetch, footprint, incidence;  // of the slanted beam, degrees; the other beam is at nadir
   BeamProfile profile = BeamProfile::kUniform;
 };
-std::ostream& operator<<(std::ostream& out, const Case& c) {
+std::ostream& operator<<(std::ostream& out, const ConvergenceCase& c) {
   return out << c.wind_speed << " m/s, " << c.fetch << " m of fetch, " << c.footprint << " m of footprint";
 }
 
 // Footprints below, among and above the wavelengths; light and strong wind, short and unlimited fetch.
-const std::vector<Case> kCases = {
+const std::vector<ConvergenceCase> kCases = {
     {5, kFullyDeveloped, 0.25, 20},           {3, 1e3, 1, 20},
     {10, 1e4, 2, 20, BeamProfile::kGaussian}, {15, kFullyDeveloped, 5, 25},
     {12, kFullyDeveloped, 0.25, 20},
 };
 
-std::vector<BeamOptions> Beams(const Case& c) {
+std::vector<BeamOptions> Beams(const ConvergenceCase& c) {
   const BeamOptions nadir{.azimuth = 30 * kDegree, .footprint = c.footprint, .profile = c.profile};
   BeamOptions slanted = nadir;
   slanted.incidence = c.incidence * kDegree;
   return {nadir, slanted};
 }
 
-Discretization Chosen(const Case& c) { return ChooseDiscretization(SeaState(c.wind_speed, c.fetch), Beams(c)); }
+Discretization Chosen(const ConvergenceCase& c) {
+  return ChooseDiscretization(SeaState(c.wind_speed, c.fetch), Beams(c));
+}
 
 Discretization WithTwiceThePatch(Discretization choice) {
   choice.patch_per_beam *= 2;
@@ -61,7 +64,7 @@ Discretization WithTwiceTheRays(Discretization choice) {
   return choice;
 }
 
-std::vector<BeamUncertainty> Simulated(const Case& c, const Discretization& discretization, int realizations,
+std::vector<BeamUncertainty> Simulated(const ConvergenceCase& c, const Discretization& discretization, int realizations,
                                        std::uint32_t cell) {
   SeaCase sea_case;
   sea_case.sea.waves = WindSea{.wind_speed_10m = c.wind_speed, .fetch = c.fetch};
@@ -71,11 +74,11 @@ std::vector<BeamUncertainty> Simulated(const Case& c, const Discretization& disc
   return Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations}, 7, cell).beams;
 }
 
-struct Quantity {
+struct ConvergingQuantity {
   const char* name;
   std::function<Estimate(const BeamUncertainty&)> of;
 };
-const std::vector<Quantity> kQuantities = {
+const std::vector<ConvergingQuantity> kConvergingQuantities = {
     {"refraction along wind", [](const BeamUncertainty& beam) { return beam.refraction_along_wind; }},
     {"refraction cross wind", [](const BeamUncertainty& beam) { return beam.refraction_cross_wind; }},
     {"THU", [](const BeamUncertainty& beam) { return beam.thu[0]; }},
@@ -88,14 +91,14 @@ enum class Waves { kSame, kOther };
 void ExpectNoMoreThanAPercent(const std::function<Discretization(Discretization)>& refined, Waves waves) {
   constexpr int kRealizations = 600;
   for (std::size_t i = 0; i < kCases.size(); ++i) {
-    const Case& c = kCases[i];
+    const ConvergenceCase& c = kCases[i];
     const Discretization chosen = Chosen(c);
     const auto cell = static_cast<std::uint32_t>(2 * i);
     const std::vector<BeamUncertainty> coarse = Simulated(c, chosen, kRealizations, cell);
     const std::vector<BeamUncertainty> fine =
         Simulated(c, refined(chosen), kRealizations, waves == Waves::kSame ? cell : cell + 1);
     for (const std::size_t beam : {0, 1}) {
-      for (const Quantity& quantity : kQuantities) {
+      for (const ConvergingQuantity& quantity : kConvergingQuantities) {
         const Estimate before = quantity.of(coarse[beam]), after = quantity.of(fine[beam]);
         const double standard_error = waves == Waves::kSame ? 0
                                                             : std::hypot(before.standard_error / before.value,
@@ -122,7 +125,7 @@ TEST(Convergence, DoublingTheRaysChangesNothingByMoreThanOnePercent) {
 
 // Standard deviations scale with the root of the slope variance, along and across the wind.
 TEST(Convergence, TheSlopesThatTheFootprintSeesChangeByLessThanOnePercent) {
-  for (const Case& c : kCases) {
+  for (const ConvergenceCase& c : kCases) {
     const SeaState sea(c.wind_speed, c.fetch);
     const std::vector<BeamOptions> beams = Beams(c);
     const Discretization chosen = Chosen(c);

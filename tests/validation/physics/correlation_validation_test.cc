@@ -8,24 +8,24 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <vector>
 
 #include "sea/angle.h"
 #include "sea/correlation/pulse_correlation.h"
 #include "sea/samples.h"
+#include "tests/every_case.h"
 #include "tests/validation/physics/moving_sea.h"
 #include "validation/studies/response_comparison.h"
 
 namespace albtpu {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261126;
+constexpr std::uint64_t kMovingSeaSeed = 20261126;
 constexpr int kRays = 60;
-constexpr int kSeas = 12;  // of ResponseSeas()
+constexpr int kSeaCount = 12;  // of ResponseSeas()
 
-bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+using albtpu::testing::EveryCase;
 
 struct Lag {
   Eigen::Vector2d apart;
@@ -43,32 +43,32 @@ const std::array<Lag, 8> kLags = {{{{0.5, 0}, 0},
 constexpr std::array kSides = {0.5, 1.0, 2.0, 4.0, 8.0};  // m
 constexpr int kPulses = 6;                                // in a cell
 
-struct Case {
+struct PulsePair {
   BeamOptions beam;
   WaveMotion motion;
   double orientation;  // of cells
 };
 
-Case CaseOf(int sea) {
+PulsePair CaseOf(int sea) {
   constexpr std::array kIncidence = {0.0, 20.0, 10.0, 20.0};
   const bool gaussian = sea % 3 == 1;
-  Case made{{.incidence = RadiansOfDegrees(kIncidence[sea % 4]),
-             .azimuth = RadiansOfDegrees(50.0 * sea),
-             .footprint = gaussian ? 0.5 + 0.1 * (sea % 2) : 0.6 + 0.2 * (sea % 3),
-             .profile = gaussian ? BeamProfile::kGaussian : BeamProfile::kUniform},
-            {.travel = sea % 4 == 3 ? WaveTravel::kBothWays : WaveTravel::kOneWay},
-            0.3 * sea};
+  PulsePair made{{.incidence = RadiansOfDegrees(kIncidence[sea % 4]),
+                  .azimuth = RadiansOfDegrees(50.0 * sea),
+                  .footprint = gaussian ? 0.5 + 0.1 * (sea % 2) : 0.6 + 0.2 * (sea % 3),
+                  .profile = gaussian ? BeamProfile::kGaussian : BeamProfile::kUniform},
+                 {.travel = sea % 4 == 3 ? WaveTravel::kBothWays : WaveTravel::kOneWay},
+                 0.3 * sea};
   return made;
 }
 
-// Sums over the pulses of some realizations, and the covariances and variances that follow.
-constexpr int kQuantities = 3;  // horizontal, vertical, height
-using Values = Eigen::Array<double, kQuantities, 1>;
+// PulseSums over the pulses of some realizations, and the covariances and variances that follow.
+constexpr int kErrors = 3;  // horizontal, vertical, height
+using Values = Eigen::Array<double, kErrors, 1>;
 Values Product(const TracedPulse& a, const TracedPulse& b) {
   return {a[0] * b[0] + a[1] * b[1], a[2] * b[2], a[3] * b[3]};
 }
 
-struct Sums {
+struct PulseSums {
   double pulses = 0, pairs = 0, cells = 0;
   TracedPulse mean = TracedPulse::Zero();
   // Products of two pulses and squares of means over cells, each with the mean square of the same pulses: a ratio of
@@ -76,11 +76,11 @@ struct Sums {
   std::array<Values, kLags.size()> pair, square_of_pair;
   std::array<Values, kSides.size()> cell, square_of_cell;
 
-  Sums() {
+  PulseSums() {
     for (auto* each : {&pair, &square_of_pair}) each->fill(Values::Zero());
     for (auto* each : {&cell, &square_of_cell}) each->fill(Values::Zero());
   }
-  void Add(const Sums& other, double sign = 1) {
+  void Add(const PulseSums& other, double sign = 1) {
     pulses += sign * other.pulses;
     pairs += sign * other.pairs;
     cells += sign * other.cells;
@@ -97,8 +97,8 @@ struct Sums {
 };
 
 // Of lags and of means over cells, over the variance of a pulse.
-using Ratios = Eigen::Array<double, kQuantities, kLags.size() + kSides.size()>;
-Ratios RatiosOf(const Sums& sums) {
+using Ratios = Eigen::Array<double, kErrors, kLags.size() + kSides.size()>;
+Ratios RatiosOf(const PulseSums& sums) {
   const TracedPulse mean = sums.mean / sums.pulses;
   const Values bias = Product(mean, mean);
   Ratios ratios;
@@ -109,18 +109,18 @@ Ratios RatiosOf(const Sums& sums) {
   return ratios;
 }
 
-Sums SumsOf(const MovingSea& sea, const Case& made, std::uint32_t cell, std::uint32_t realization) {
+PulseSums SumsOf(const MovingSea& sea, const PulsePair& made, std::uint32_t cell, std::uint32_t realization) {
   constexpr int kAnchors = 60, kCells = 30;
-  const std::vector<HeightField> surfaces = sea.Draw(NormalStream(kSeed, cell, realization), kTimes);
+  const std::vector<HeightField> surfaces = sea.Draw(NormalStream(kMovingSeaSeed, cell, realization), kTimes);
   const PulseTracer tracer(made.beam, kRefractiveIndex, kRays);
-  UniformStream random(kSeed, cell, realization, 5000);
+  UniformStream random(kMovingSeaSeed, cell, realization, 5000);
   // A metre and a half is left beside the edge, for the footprint and for the heights of the waves.
   const auto place = [&](double margin) {
     const double room = MovingSea::kLength / 2 - 1.5 - margin;
     const double x = room * (2 * random.Next() - 1), y = room * (2 * random.Next() - 1);
     return Eigen::Vector2d(x, y);
   };
-  Sums sums;
+  PulseSums sums;
   const auto count = [&](const TracedPulse& pulse) {
     sums.pulses += 1;
     sums.mean += pulse;
@@ -156,7 +156,7 @@ Sums SumsOf(const MovingSea& sea, const Case& made, std::uint32_t cell, std::uin
   return sums;
 }
 
-Ratios Theory(const HarmonicSpectrum& spectrum, const Case& made) {
+Ratios Theory(const HarmonicSpectrum& spectrum, const PulsePair& made) {
   const WaveCorrelation sea(spectrum, made.motion);
   const BeamCorrelation beam(sea, made.beam, kRefractiveIndex);
   Ratios ratios;
@@ -173,12 +173,12 @@ Ratios Theory(const HarmonicSpectrum& spectrum, const Case& made) {
 }
 
 // Of the realizations, which are independent, and of the ratios of all of them: the jackknife.
-Ratios StandardErrors(const std::vector<const Sums*>& parts, const Ratios& of_all) {
-  Sums all;
-  for (const Sums* part : parts) all.Add(*part);
+Ratios StandardErrors(const std::vector<const PulseSums*>& parts, const Ratios& of_all) {
+  PulseSums all;
+  for (const PulseSums* part : parts) all.Add(*part);
   Ratios scatter = Ratios::Zero();
-  for (const Sums* part : parts) {
-    Sums others = all;
+  for (const PulseSums* part : parts) {
+    PulseSums others = all;
     others.Add(*part, -1);
     scatter += (RatiosOf(others) - of_all).square();
   }
@@ -199,12 +199,12 @@ struct Tail {
 
 // Departures as they are if theory is right: those of realizations that are drawn from the traced ones, with
 // repetitions, from all of these. They are correlated and have the tails of what was traced.
-std::vector<Tail> DrawnTails(const std::vector<Sums>& parts, const Ratios& traced, std::uint32_t sea, int draws) {
+std::vector<Tail> DrawnTails(const std::vector<PulseSums>& parts, const Ratios& traced, std::uint32_t sea, int draws) {
   std::vector<Tail> tails(draws);
   tbb::parallel_for(0, draws, [&](int draw) {
-    UniformStream random(kSeed, sea, static_cast<std::uint32_t>(draw), 6000);
-    Sums all;
-    std::vector<const Sums*> drawn;
+    UniformStream random(kMovingSeaSeed, sea, static_cast<std::uint32_t>(draw), 6000);
+    PulseSums all;
+    std::vector<const PulseSums*> drawn;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto one = static_cast<std::size_t>(random.Next() * static_cast<double>(parts.size()));
       drawn.push_back(&parts[std::min(one, parts.size() - 1)]);
@@ -218,7 +218,7 @@ std::vector<Tail> DrawnTails(const std::vector<Sums>& parts, const Ratios& trace
 
 // Bounds of 0.01, or of as many standard errors, from so many realizations, as the greatest of the deviations of all
 // seas exceeds with a probability of 5 %.
-class PulseCorrelations : public testing::TestWithParam<int> {
+class PulseCorrelations : public ::testing::TestWithParam<int> {
  protected:
   static constexpr int kDraws = 4000;
 
@@ -255,26 +255,26 @@ TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
   const int index = GetParam();
   if (!EveryCase() && index != 2 && index != 5) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   const ResponseSea known = ResponseSeas()[index];
-  const Case made = CaseOf(index);
+  const PulsePair made = CaseOf(index);
   const HarmonicSpectrum spectrum = WithoutShortWaves(known.spectrum);
   const MovingSea sea(spectrum, made.motion);
   const int realizations = EveryCase() ? 80 : 12;
-  std::vector<Sums> parts(realizations);
+  std::vector<PulseSums> parts(realizations);
   tbb::parallel_for(0, realizations, [&](int r) { parts[r] = SumsOf(sea, made, index, r); });
-  Sums all;
-  for (const Sums& part : parts) all.Add(part);
+  PulseSums all;
+  for (const PulseSums& part : parts) all.Add(part);
   const Ratios traced = RatiosOf(all), theory = Theory(spectrum, made);
-  std::vector<const Sums*> each;
-  for (const Sums& part : parts) each.push_back(&part);
+  std::vector<const PulseSums*> each;
+  for (const PulseSums& part : parts) each.push_back(&part);
   const Ratios errors = StandardErrors(each, traced);
   const Ratios departures = theory - traced;
   Count(departures / errors, DrawnTails(parts, traced, static_cast<std::uint32_t>(index), kDraws));
-  const double k = StudentQuantile(realizations - 1, 0.025 / (kSeas * Ratios::SizeAtCompileTime));
+  const double k = StudentQuantile(realizations - 1, 0.025 / (kSeaCount * Ratios::SizeAtCompileTime));
   const char* const quantity[] = {"horizontal", "vertical", "height"};
   std::printf("%s, %.0f degrees, %.1f m %s; theory, traced - theory and 1000 standard errors of lags, then cells\n",
               known.name.c_str(), DegreesOfRadians(made.beam.incidence), made.beam.footprint,
               Name(made.beam.profile).data());
-  for (int q = 0; q < kQuantities; ++q) {
+  for (int q = 0; q < kErrors; ++q) {
     std::printf("  %-10s", quantity[q]);
     for (Eigen::Index i = 0; i < traced.cols(); ++i) {
       std::printf(" %6.3f%+.3f(%.0f)", theory(q, i), -departures(q, i), 1000 * errors(q, i));
@@ -288,7 +288,7 @@ TEST_P(PulseCorrelations, AgreeWithTracingThroughAMovingSea) {
               static_cast<int>((departures.abs() > 3 * errors).count()), static_cast<int>(departures.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seas, PulseCorrelations, testing::Range(0, kSeas));
+INSTANTIATE_TEST_SUITE_P(Seas, PulseCorrelations, ::testing::Range(0, kSeaCount));
 
 }  // namespace
 }  // namespace albtpu

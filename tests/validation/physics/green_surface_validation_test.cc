@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include "budget/water/green_surface.h"
 #include "sea/angle.h"
+#include "tests/every_case.h"
 #include "tests/validation/physics/green_surface_walk.h"
 
 namespace albtpu {
@@ -26,7 +26,7 @@ struct Water {
 const std::vector<Water> kWaters = {{0.07, 0.28, 0.0183}, {0.2, 0.8, 0.0183}, {0.5, 2, 0.0183}, {1, 4, 0.0183},
                                     {0.2, 1.8, 0.0183},   {0.2, 0.8, 0.01},   {0.2, 0.8, 0.03}};
 
-bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+using albtpu::testing::EveryCase;
 
 std::vector<WalkedEcho> Walk(const Water& water, GreenSurfaceWalk walk) {
   walk.absorption = water.absorption, walk.scattering = water.scattering;

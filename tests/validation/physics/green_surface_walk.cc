@@ -9,14 +9,13 @@
 #include <numbers>
 #include <random>
 
+#include "tables/water/water_schema.h"
 #include "validation/studies/water_round_trip.h"
 
 namespace albtpu {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kLightSpeed = 0.299792458;  // m/ns
 
 // Light that is scattered by more than the first of these angles is followed apart, by `children` photons a band that
 // share its weight: few photons come back by chance.

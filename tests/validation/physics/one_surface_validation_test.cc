@@ -13,15 +13,16 @@
 #include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
 #include "sea/response/closed_form.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr double kDepth = 10;  // m
 constexpr double kFootprint = 0.5, kPointsPerFootprint = 64;
 constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven peak wavelengths
-constexpr int kSurfaces = 40, kPlaces = 36, kRays = 4000;
+constexpr int kSurfaces = 40, kPlaces = 36, kRaysOfPlace = 4000;
 const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
 const std::vector<BeamOptions> kBeams = {{.footprint = kFootprint},
@@ -43,13 +44,13 @@ HeightField Middle(const WavePatchModel& model, const NormalStream& stream) {
 
 // The beams at all places of one surface: sums of the errors (tangent x, y, horizontal x, y, vertical) and of their
 // squares.
-struct Sums {
+struct PlaceSums {
   Eigen::Array<double, 5, 1> errors = Eigen::Array<double, 5, 1>::Zero(), squares = errors;
 };
 
-Sums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedWaves& unresolved,
-                 const TracedBeam& still, double length) {
-  Sums sums;
+PlaceSums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedWaves& unresolved,
+                      const TracedBeam& still, double length) {
+  PlaceSums sums;
   for (int place = 0; place < kPlaces; ++place) {
     const Eigen::Vector2d x((place / 6 - 2.5) * length / 7, (place % 6 - 2.5) * length / 7);
     std::vector<Ray> rays = beam.Rays(0);
@@ -67,7 +68,7 @@ Sums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedW
 }
 
 // 2 sigma of a sum of components. Each surface counts as one sample, because the places on it are correlated.
-Estimate TwoSigmaOf(const std::vector<Sums>& surfaces, std::vector<int> components) {
+Estimate TwoSigmaOf(const std::vector<PlaceSums>& surfaces, std::vector<int> components) {
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(kSurfaces);
   double variance_of_mean = 0;
   for (const int c : components) {
@@ -97,11 +98,11 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
   const Eigen::Matrix2d resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
   const Eigen::Matrix2d unresolved_slopes = SlopeCovariance(sea) - resolved_slopes;
 
-  std::vector<std::vector<Sums>> of_beams(kBeams.size(), std::vector<Sums>(kSurfaces));
+  std::vector<std::vector<PlaceSums>> of_beams(kBeams.size(), std::vector<PlaceSums>(kSurfaces));
   tbb::parallel_for(0, kSurfaces, [&](int i) {
     const HeightField surface = Middle(model, NormalStream(9, 0, i));
     for (std::size_t b = 0; b < kBeams.size(); ++b) {
-      const Beam beam(kBeams[b], kRays);
+      const Beam beam(kBeams[b], kRaysOfPlace);
       const TracedBeam still = Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
       of_beams[b][i] = AtAllPlaces(
           surface, beam, EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes, resolved_slopes),
@@ -113,7 +114,7 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
   sea_case.sea = kSea;
   sea_case.beams = kBeams;
   sea_case.depths = {kDepth};
-  sea_case.rays = kRays;
+  sea_case.rays = kRaysOfPlace;
   const SeaCaseResult bands = Simulate(sea_case, {.realizations = 512, .most_realizations = 512}, 9, 1);
   for (std::size_t b = 0; b < kBeams.size(); ++b) {
     const double incidence = kBeams[b].incidence;

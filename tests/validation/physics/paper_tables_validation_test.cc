@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sea/response/closed_form.h"
+#include "tests/degree.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
 #include "validation/published/refraction_grid.h"
@@ -15,7 +16,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr double kSqrt2 = std::numbers::sqrt2;
 
 class Table5 : public ::testing::Test {

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -21,6 +20,7 @@
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/harmonic_spectrum.h"
+#include "tests/every_case.h"
 #include "tests/validation/physics/traced_beams.h"
 
 namespace albtpu {
@@ -32,7 +32,7 @@ using Eigen::Vector3d;
 constexpr double kIndex = 1.34, kAltitude = 400;
 const std::vector<double> kDepths = {1, 5, 10, 20};  // m
 
-bool EveryCase() { return std::getenv("ALBTPU_EVERY_CASE") != nullptr; }
+using albtpu::testing::EveryCase;
 
 struct System {
   const char* name;

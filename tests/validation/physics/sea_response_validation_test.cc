@@ -1,5 +1,5 @@
 // The response theory against ray tracing. It tries a twelfth of the beams of the report, or all of them:
-//     ALBTPU_EVERY_BEAM=1 sea_response_validation_test
+//     ALBTPU_EVERY_BEAM=1 physics_validation_test --gtest_filter=SeaResponse.*
 // The twelfth that the quick report compares is tested by tests/e2e/validate_test.py.
 #include <gtest/gtest.h>
 

@@ -14,25 +14,26 @@
 #include "generator/monte_carlo/monte_carlo.h"
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
+#include "tests/degree.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 constexpr int kRepetitions = 200;
 constexpr int kRealizations = 64;  // of each repetition
 constexpr int kPlain = 6000;       // by tracing alone
 constexpr std::size_t kNadir = 0, kSlanted = 1;
 constexpr std::size_t kNoDepth = 0, kShallow = 1, kDeep = 2;
 
-struct Quantity {
+struct RepeatedQuantity {
   const char* name;
   std::size_t beam;
   std::function<Estimate(const BeamUncertainty&)> of;
   double gain = 0;  // The least factor by which control variates divide the standard error; 0: not stated.
 };
 
-const std::vector<Quantity> kQuantities = {
+const std::vector<RepeatedQuantity> kRepeatedQuantities = {
     {"refraction along wind, nadir", kNadir, [](const auto& beam) { return beam.refraction_along_wind; }, 10},
     {"THU, nadir", kNadir, [](const auto& beam) { return beam.thu[kDeep]; }, 10},
     {"THU, nadir, depth 0", kNadir, [](const auto& beam) { return beam.thu[kNoDepth]; }},
@@ -51,14 +52,14 @@ const std::vector<Quantity> kQuantities = {
 };
 
 constexpr double kIndex = 1.33;
-const std::vector<BeamOptions> kBeams = {{.footprint = 0.5},
-                                         {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
+const std::vector<BeamOptions> kRepeatedBeams = {
+    {.footprint = 0.5}, {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
 
 // What `Simulate` does, but what all its realizations share, which takes longer than hundreds of them, is made once.
-class Simulation {
+class RepeatedSimulation {
  public:
-  explicit Simulation(Estimator estimator, const WindSea& waves = {.wind_speed_10m = 5},
-                      const std::vector<BeamOptions>& beams = kBeams)
+  explicit RepeatedSimulation(Estimator estimator, const WindSea& waves = {.wind_speed_10m = 5},
+                              const std::vector<BeamOptions>& beams = kRepeatedBeams)
       : beams_(beams), sea_({.waves = waves}), model_(sea_, beams.back(), ChooseDiscretization(sea_, beams)) {
     const TracedBeams traced{.beams = beams_,
                              .refractive_index = kIndex,
@@ -90,11 +91,11 @@ class Simulation {
 };
 
 TEST(StandardErrors, MatchTheScatterOfTheEstimatesAboutTracingAlone) {
-  const Simulation with_controls(Estimator::kControlVariate);
+  const RepeatedSimulation with_controls(Estimator::kControlVariate);
   std::vector<std::vector<BeamUncertainty>> repetitions;
   for (int i = 0; i < kRepetitions; ++i) repetitions.push_back(with_controls.Of(kRealizations, 1 + i));
-  const std::vector<BeamUncertainty> plain = Simulation(Estimator::kPlain).Of(kPlain, 0);
-  for (const Quantity& quantity : kQuantities) {
+  const std::vector<BeamUncertainty> plain = RepeatedSimulation(Estimator::kPlain).Of(kPlain, 0);
+  for (const RepeatedQuantity& quantity : kRepeatedQuantities) {
     Eigen::ArrayXd values(kRepetitions);
     double claimed = 0;  // the root of the mean square
     for (int i = 0; i < kRepetitions; ++i) {
@@ -118,7 +119,7 @@ TEST(StandardErrors, OfBiasesAlongTheBeamMatchTheirScatterAboutTheTheory) {
   const WindSea waves{.wind_speed_10m = 15, .fetch = 1000, .model = &kElfouhailyModel};
   const std::vector<BeamOptions> beams = {{.incidence = 20 * kDegree, .footprint = 0.1},
                                           {.incidence = 25 * kDegree, .footprint = 0.1}};
-  const Simulation traced(Estimator::kControlVariate, waves, beams);
+  const RepeatedSimulation traced(Estimator::kControlVariate, waves, beams);
   const SeaResponse theory(Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 1), kIndex);
   std::vector<std::vector<BeamUncertainty>> repetitions;
   for (int i = 0; i < kRepetitions; ++i) repetitions.push_back(traced.Of(kRealizations, 1 + i));

@@ -1,7 +1,7 @@
 // The response theory against the tables of wind seas that ship.
 //
 // It tries every fifth sea of a table, with all winds and fetches, or all of them, which takes twice as long:
-// ALBTPU_EVERY_SEA=1 survey_table_validation_test
+// ALBTPU_EVERY_SEA=1 physics_validation_test --gtest_filter=*SurveyTable*
 //
 // The nodes of the tables are balanced (generator/campaign/table_maker.h), which mixes the values of neighbours and
 // amplifies their random errors. The balance is inverted first.
@@ -154,7 +154,7 @@ Bound BoundOf(Quantity quantity) {
 // is up to 6 % less over the steep waves of Apel's spectrum.
 constexpr Bound kAtSurface = {0.0005, 0.02, 0.06};
 
-class SurveyTable : public testing::TestWithParam<const char*> {};
+class SurveyTable : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
   const std::filesystem::path file = std::filesystem::path(TABLES_FOLDER) / GetParam();
@@ -210,7 +210,7 @@ TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, SurveyTable, testing::Values("survey.h5", "survey_apel.h5"));
+INSTANTIATE_TEST_SUITE_P(Shipped, SurveyTable, ::testing::Values("survey.h5", "survey_apel.h5"));
 
 }  // namespace
 }  // namespace albtpu

@@ -3,13 +3,13 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
+#include "tests/every_case.h"
 #include "validation/studies/water_round_trip.h"
 
 namespace albtpu {
@@ -19,12 +19,12 @@ const PhaseFunction kOcean = PhaseFunction::FournierForand(0.0183);
 constexpr std::uint32_t kPools = 16, kPhotons = 250'000;  // some seconds a bottom
 constexpr double kSlope = 0.12;                           // of tilted bottoms
 
-struct Case {
+struct RoundTripCase {
   std::string name;
   double incidence, attenuation, depth, field_of_view, nanoseconds, footprint;
   bool always = false;
 
-  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+  friend std::ostream& operator<<(std::ostream& out, const RoundTripCase& c) { return out << c.name; }
 
   RoundTrip Trip(double slope = 0) const {
     // Albedo 0.8; the attenuation is that of diffuse light by Kirk's factor of 0.256.
@@ -62,13 +62,13 @@ struct Case {
   }
 };
 
-std::vector<Echo> TripsOf(const Case& c, double slope, std::uint64_t seed) {
+std::vector<Echo> TripsOf(const RoundTripCase& c, double slope, std::uint64_t seed) {
   return TraceRoundTrips(kOcean, c.Trip(slope), c.PulseLength() / 30, kPools, kPhotons, seed);
 }
 
 // As ComputeWaterColumn, with a receiver that accepts the same cone; over a level bottom, and over those that fall and
 // rise ahead.
-std::array<std::vector<Echo>, 3> PairsOf(const Case& c) {
+std::array<std::vector<Echo>, 3> PairsOf(const RoundTripCase& c) {
   const double depths[] = {c.Column().scattering};
   const EchoSetup setup = c.Setup();
   std::array<std::vector<Echo>, 3> pools;
@@ -86,7 +86,7 @@ std::array<std::vector<Echo>, 3> PairsOf(const Case& c) {
   return pools;
 }
 
-WaterColumnBias BiasOf(const Case& c, const std::vector<Echo>& echoes) {
+WaterColumnBias BiasOf(const RoundTripCase& c, const std::vector<Echo>& echoes) {
   const double pulses[] = {c.PulseLength()};
   return BiasOfEchoes(echoes, c.Column(), pulses);
 }
@@ -99,12 +99,12 @@ Estimate AheadOf(const WaterColumnBias& falls, const WaterColumnBias& rises, Det
           std::hypot(above.standard_error, below.standard_error) / (2 * kSlope)};
 }
 
-class WaterRoundTrip : public testing::TestWithParam<Case> {};
+class WaterRoundTrip : public ::testing::TestWithParam<RoundTripCase> {};
 
 TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
-  const Case& c = GetParam();
+  const RoundTripCase& c = GetParam();
   // What is compared is two simulations, so that one case notices a change of either.
-  if (!c.always && std::getenv("ALBTPU_EVERY_CASE") == nullptr) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
+  if (!c.always && !albtpu::testing::EveryCase()) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   const auto [level, falling, rising] = PairsOf(c);
   const WaterColumnBias trips = BiasOf(c, TripsOf(c, 0, 1)), pairs = BiasOf(c, level);
   // Lengths are in units of the depth; `allowed` is in metres.
@@ -130,11 +130,11 @@ TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, WaterRoundTrip,
-                         testing::Values(Case{"wide at 12", 12, 0.1, 10, 16, 5, 2},
-                                         Case{"wide at 20", 20, 0.1, 10, 16, 5, 2},
-                                         Case{"turbid at 12", 12, 0.2, 10, 16, 5, 2},
-                                         Case{"short at 20", 20, 0.1, 10, 3, 1.5, 0.5},
-                                         Case{"narrow at 12", 12, 0.1, 10, 6, 3, 1, true}),
+                         ::testing::Values(RoundTripCase{"wide at 12", 12, 0.1, 10, 16, 5, 2},
+                                           RoundTripCase{"wide at 20", 20, 0.1, 10, 16, 5, 2},
+                                           RoundTripCase{"turbid at 12", 12, 0.2, 10, 16, 5, 2},
+                                           RoundTripCase{"short at 20", 20, 0.1, 10, 3, 1.5, 0.5},
+                                           RoundTripCase{"narrow at 12", 12, 0.1, 10, 6, 3, 1, true}),
                          [](const auto& case_info) {
                            std::string name = case_info.param.name;
                            for (char& c : name) c = c == ' ' ? '_' : c;

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <ostream>
 #include <string>
 
 #include "sea/angle.h"
+#include "tests/every_case.h"
 #include "tests/validation/physics/waves_and_scattering.h"
 
 namespace albtpu {
@@ -14,22 +14,22 @@ namespace {
 
 // Half a minute of one core for a case. A third of the realizations tell the ratio of two standard deviations over the
 // same waves to 0.05; both limits are farther from what is found.
-const bool kEveryCase = std::getenv("ALBTPU_EVERY_CASE") != nullptr;
-const int kRealizations = kEveryCase ? 200 : 66, kPhotons = 8000;
+const bool kEveryCase = albtpu::testing::EveryCase();
+const int kTurbidSeas = kEveryCase ? 200 : 66, kPhotonsOfSea = 8000;
 
-struct Case {
+struct TurbidCase {
   std::string name;
   double attenuation, field_of_view, nanoseconds, footprint;
   bool always = false;
 
-  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+  friend std::ostream& operator<<(std::ostream& out, const TurbidCase& c) { return out << c.name; }
 };
 
-class WavesOverTurbidWater : public testing::TestWithParam<Case> {};
+class WavesOverTurbidWater : public ::testing::TestWithParam<TurbidCase> {};
 
 // What totals assume: variances add, biases add.
 TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
-  const Case& c = GetParam();
+  const TurbidCase& c = GetParam();
   // What is compared is two simulations, so that one case notices a change of either.
   if (!c.always && !kEveryCase) GTEST_SKIP() << "ALBTPU_EVERY_CASE=1 runs it";
   // Albedo 0.8; the attenuation is that of diffuse light by Kirk's factor of 0.256.
@@ -41,7 +41,7 @@ TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
                                                   .field_of_view = c.field_of_view,
                                                   .footprint = c.footprint},
                                          .nanoseconds = c.nanoseconds},
-                                        kRealizations, kPhotons, 1);
+                                        kTurbidSeas, kPhotonsOfSea, 1);
   for (const Detector detector : kDetectors) {
     const std::size_t d = Index(detector);
     const ReportedBottom &waves = found.waves[d], &both = found.both[d], &scattering = found.scattering[d];
@@ -61,9 +61,9 @@ TEST_P(WavesOverTurbidWater, AddUpAsIndependentShares) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, WavesOverTurbidWater,
-                         testing::Values(Case{"wide", 0.1, 16, 5, 2}, Case{"wide_turbid", 0.2, 16, 5, 2},
-                                         Case{"narrow", 0.1, 3, 1.5, 0.5},
-                                         Case{"narrow_turbid", 0.2, 3, 1.5, 0.5, true}),
+                         ::testing::Values(TurbidCase{"wide", 0.1, 16, 5, 2}, TurbidCase{"wide_turbid", 0.2, 16, 5, 2},
+                                           TurbidCase{"narrow", 0.1, 3, 1.5, 0.5},
+                                           TurbidCase{"narrow_turbid", 0.2, 3, 1.5, 0.5, true}),
                          [](const auto& of) { return of.param.name; });
 
 }  // namespace

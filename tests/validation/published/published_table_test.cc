@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/degree.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu {
@@ -37,7 +38,7 @@ TEST_F(PublishedTableTest, NamesFileLineAndColumnOfAnError) {
   EXPECT_THAT(std::string(table->Words("c").status().message()), HasSubstr("no column 'c': there are a, b"));
 }
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 
 // 2 sigma of f(theta + delta) to second order in the variance V of delta, from the derivatives of f:
 // Var f = f'^2 V + (f''^2 / 2 + f' f''') V^2.

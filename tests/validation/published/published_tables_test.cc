@@ -8,6 +8,7 @@
 #include "sea/response/closed_form.h"
 #include "tables/file/table_io.h"
 #include "tables/query/interpolation.h"
+#include "tests/degree.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = 0.017453292519943295;
+using albtpu::testing::kDegree;
 
 UncertaintyTable Shipped(const char* file) {
   absl::StatusOr<UncertaintyTable> table = ReadTable(std::filesystem::path(TABLES_FOLDER) / file);

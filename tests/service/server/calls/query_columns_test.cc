@@ -15,9 +15,6 @@ using ::testing::Each;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 class QueryColumns : public ServedTables {
  protected:
   static v1::QueryColumnsRequest Request(const v1::PulseColumns& pulses, const v1::QueryOptions& options = {}) {

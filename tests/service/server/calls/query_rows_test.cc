@@ -14,9 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 class QueryPulses : public ServedTables {
  protected:
   static v1::QueryPulsesRequest Request(const v1::Pulse& pulse, const v1::QueryOptions& options = {}) {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "google/rpc/error_details.pb.h"
 #include "service/client/wire.h"
 #include "service/server/ground/limits.h"
 #include "tests/service/known_seas.h"
+#include "tests/service/server/calls/wrong_fields.h"
 
 namespace albtpu::server {
 namespace {
@@ -19,22 +19,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-// The paths of the wrong fields.
-std::vector<std::string> PathsIn(const v1::SeaState& state) {
-  const absl::Status status = ReadSea(state).status();
-  const auto payload = status.GetPayload("type.googleapis.com/google.rpc.BadRequest");
-  google::rpc::BadRequest request;
-  std::vector<std::string> paths;
-  if (!payload.has_value() || !request.ParseFromString(std::string(*payload))) return paths;
-  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  for (const auto& violation : request.field_violations()) {
-    EXPECT_THAT(violation.description(), HasSubstr(violation.field()));
-    paths.push_back(violation.field());
-  }
-  return paths;
-}
+std::vector<std::string> PathsIn(const v1::SeaState& state) { return WrongFields(ReadSea(state).status()); }
 
 v1::SeaState Described() { return client::ToWire(testing::DescribedWaves()); }
 v1::SeaState Measured() { return client::ToWire(testing::MeasuredWaves()); }
@@ -43,7 +30,7 @@ v1::SeaState Complete() { return client::ToWire(testing::CompleteSea()); }
 TEST(SeaRequest, NamesAWrongNumberOfTheSea) {
   v1::SeaState state;
   state.set_wind_speed(-1);
-  state.set_wind_from(kNaN);
+  state.set_wind_from(kNoNumber);
   state.set_water_depth(0);
   state.set_tail_from(1e6);
   state.set_tail_rule(static_cast<v1::TailRule>(17));
@@ -56,7 +43,7 @@ TEST(SeaRequest, NamesAWrongNumberOfAComponent) {
   v1::WaveComponent& second = *state.mutable_components()->mutable_components(1);
   second.set_significant_wave_height(-0.1);
   second.set_peak_period(0);
-  second.set_gamma(kNaN);
+  second.set_gamma(kNoNumber);
   second.set_travels_towards(500);
   second.set_spread(2);
   EXPECT_THAT(PathsIn(state),
@@ -83,7 +70,7 @@ TEST(SeaRequest, NamesTheFirstWrongNumberOfAList) {
     return PathsIn(state);
   };
   EXPECT_THAT(paths([](auto&) {}), SizeIs(0));
-  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_frequencies(4, kNaN); }),
+  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_frequencies(4, kNoNumber); }),
               ElementsAre("frequency_spectrum.frequencies[4]"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_frequencies(4, spectrum.frequencies(3)); }),
               ElementsAre("frequency_spectrum.frequencies[4]"));
@@ -96,7 +83,8 @@ TEST(SeaRequest, NamesTheFirstWrongNumberOfAList) {
               ElementsAre("frequency_spectrum.densities"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_cosines(3, 2 * spectrum.densities(3)); }),
               ElementsAre("frequency_spectrum.cosines[3]"));
-  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_sines(3, kNaN); }), ElementsAre("frequency_spectrum.cosines[3]"));
+  EXPECT_THAT(paths([](auto& spectrum) { spectrum.set_sines(3, kNoNumber); }),
+              ElementsAre("frequency_spectrum.cosines[3]"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.add_cosines(0); }),
               ElementsAre("frequency_spectrum.cosines", "frequency_spectrum.sines"));
   EXPECT_THAT(paths([](auto& spectrum) { spectrum.clear_sines(); }), ElementsAre("frequency_spectrum.sines"));

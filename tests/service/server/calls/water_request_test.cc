@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "google/rpc/error_details.pb.h"
 #include "service/client/wire.h"
 #include "tests/budget/water/known_waters.h"
+#include "tests/service/server/calls/wrong_fields.h"
 
 namespace albtpu::server {
 namespace {
@@ -18,20 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-// The paths of the wrong fields.
-std::vector<std::string> PathsIn(const v1::WaterState& state) {
-  const absl::Status status = ReadWater(state).status();
-  const auto payload = status.GetPayload("type.googleapis.com/google.rpc.BadRequest");
-  google::rpc::BadRequest request;
-  std::vector<std::string> paths;
-  if (!payload.has_value() || !request.ParseFromString(std::string(*payload))) return paths;
-  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  for (const auto& violation : request.field_violations()) {
-    EXPECT_THAT(violation.description(), HasSubstr(violation.field()));
-    paths.push_back(violation.field());
-  }
-  return paths;
-}
+std::vector<std::string> PathsIn(const v1::WaterState& state) { return WrongFields(ReadWater(state).status()); }
 
 v1::WaterState Coastal() { return client::ToWire(testing::CoastalWater()); }
 
