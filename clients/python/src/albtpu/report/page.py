@@ -248,6 +248,11 @@ def _crosscheck(report: Report) -> str:
                      "σ of both trajectories [m]", ""], lines, "sortable"))
 
 
+def _water(file: Report) -> str:
+    attenuation = file.get("water_attenuation") or "left out"
+    return f"{file['water_entered']}: {attenuation}" if file.get("water_entered") else attenuation
+
+
 def _files(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
@@ -258,10 +263,10 @@ def _files(report: Report) -> str:
         sea = verdict.sea_text(each["sea"])
         met = each["meeting"][wanted] / each["points"] if each["points"] else 0
         rows.append([text(each["name"]), f"{each['points']:,}", wind, text(sea),
-                     text(each.get("water_attenuation") or "left out"), text(outcomes) or "none",
+                     text(_water(each)), text(outcomes) or "none",
                      _judged(met, report)])
     return "<h2>Files, sea and water</h2>" + table(
-        ["file", "points", "wind", "sea", "attenuation of the water", "uncertainty not computed",
+        ["file", "points", "wind", "sea", "water as entered, and its attenuation", "uncertainty not computed",
          f"meet {text(verdict.asked(report))}"], rows, "words") + (
         "<h3>Classes by file</h3><p class='soft'>% of the points that meet each class.</p>"
         + _class_matrix(report, "file", [(each["name"], each["meeting"], each["points"]) for each in report["files"]]))
