@@ -238,7 +238,8 @@ def _crosscheck(report: Report) -> str:
              if check["factor_line"] is not None else "no error of a trajectory is predicted"],
             ["beyond 3 σ", f"{percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
-              f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}", verdict.difference_text(each)]
+              f"{each['standard_error']:{'.1g' if each['standard_error'] < 0.0005 else '.3f'}}",
+              f"{each['predicted']:.3f}", verdict.difference_text(each)]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
             " of the bottom, against the prediction for pulses and lines. Errors that all lines share"
