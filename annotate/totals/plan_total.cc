@@ -41,6 +41,17 @@ std::vector<std::string> Assumptions(const TotalPlan& plan) {
   return lines;
 }
 
+std::string WaterText(const nlohmann::ordered_json& parameters) {
+  const nlohmann::ordered_json& numbers = parameters["numbers"];
+  const auto entered = numbers.find("water_entered"), became = numbers.find("water_attenuation");
+  if (entered == numbers.end() || became == numbers.end()) return "";
+  const auto text = [](const nlohmann::ordered_json& number, const char* part) {
+    return number[part].get<std::string>();
+  };
+  return absl::StrCat("water: ", text(*entered, "value"), "; attenuation ", text(*became, "value"), " (",
+                      text(*became, "source"), ")");
+}
+
 namespace {
 
 // Of the index: by refractive_index.h 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.

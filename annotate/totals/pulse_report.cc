@@ -182,6 +182,7 @@ std::string TotalText(const ordered_json& total) {
                    number((*water)["water_bias_vertical"]), number((*water)["water_bias_vertical_interval"][0]),
                    number((*water)["water_bias_vertical_interval"][1]), number((*water)["water_bias_along_beam"])));
   }
+  if (const std::string water = WaterText(total["plan"]); !water.empty()) absl::StrAppend(&text, water, "\n");
   absl::StrAppend(
       &text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m", "vertical, m (1 sigma)"));
   for (const auto& [name, source] : total["sources"].items()) {

@@ -209,6 +209,8 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
       annotate::TotalPlan plan = total->plan;
       if (csv.took_divergence) plan.numbers.push_back(annotate::AssumedDivergence(*plan.divergence));
       text += csv.totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b));
+      if (const std::string water = annotate::WaterText(annotate::Parameters(plan)); !water.empty())
+        absl::StrAppend(&text, "\n  ", water);
       for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
       answers = annotate::WithTotal(std::move(answers), plan, csv.totals);
     }

@@ -73,6 +73,16 @@ std::vector<std::string> AssumedOf(const annotate::LasAnnotation& annotation) {
   return assumed;
 }
 
+// Of the water, what was entered and what it became; and what was assumed.
+std::vector<std::string> StatementsOf(const annotate::LasAnnotation& annotation) {
+  std::vector<std::string> lines = AssumedOf(annotation);
+  // All scanners see one water.
+  const annotate::TotalPlan& plan = annotation.channels.empty() ? *annotation.total : annotation.channels.front().total;
+  const std::string water = annotate::WaterText(annotate::Parameters(plan));
+  if (!water.empty()) lines.insert(lines.begin(), water);
+  return lines;
+}
+
 // The contribution of the sea, and the total beside it.
 nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
@@ -104,7 +114,7 @@ std::string AnswersText(const annotate::LasAnnotation& annotation, const annotat
   for (std::size_t i = 0; i < annotation.channels.size(); ++i)
     absl::StrAppend(&text, "\n  ", annotation.channels[i].label, ": ", annotated.points_by_channel[i], " points, ",
                     annotated.totals_by_channel[i].count(), " bathymetric with a total");
-  for (const std::string& assumed : AssumedOf(annotation)) absl::StrAppend(&text, "\n  ", assumed);
+  for (const std::string& line : StatementsOf(annotation)) absl::StrAppend(&text, "\n  ", line);
   return text;
 }
 
@@ -165,7 +175,7 @@ class LasFiles {
   void NoteTogether() const {
     if (folder_.files() == 0) return;
     const S44Order order = annotation_.style.s44_order.value_or(S44Order::k1b);
-    annotate::Note("all files:", folder_.Text(annotation_.style.coverage, order, AssumedOf(annotation_)));
+    annotate::Note("all files:", folder_.Text(annotation_.style.coverage, order, StatementsOf(annotation_)));
   }
 
  private:

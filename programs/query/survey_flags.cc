@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
+#include "config/doubts.h"
 #include "config/key_list.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
@@ -126,6 +127,7 @@ absl::StatusOr<SurveySettings> SettingsOf(const SurveyFlags& flags) {
   if (!file.ok()) return file;
   SurveySettings settings = Merge(given, *std::move(file));
   RETURN_IF_ERROR(CheckSea(settings.sea));
+  for (const std::string& doubt : config::Doubts(settings)) annotate::Note(doubt);
   return settings;
 }
 

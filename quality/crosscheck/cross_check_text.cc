@@ -52,14 +52,17 @@ std::string EstimateText(const Estimate& estimate) {
   return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", estimate.value, estimate.low, estimate.high);
 }
 
+// Of many pairs too, no standard error is 0.
+std::string ErrorText(double metres) { return absl::StrFormat(metres < 0.0005 ? "%.1g m" : "%.3f m", metres); }
+
 // A difference of two lines in units of what is predicted of it.
 std::string DifferenceText(const LineDifference& line) {
-  return absl::StrFormat(
-      "%s lies %.3f m %s %s: %.1f sigma, %s (%d pairs; standard error %.3f m, trajectories %.3f m)\n",
-      NameOf(FlightLine{line.line_a, line.begin_a}), std::abs(line.mean), line.mean < 0 ? "below" : "above",
-      NameOf(FlightLine{line.line_b, line.begin_b}), std::abs(line.z()),
-      std::abs(line.z()) > kRareDifference ? "more than predicted" : "as predicted", line.pairs, line.standard_error,
-      line.predicted);
+  return absl::StrFormat("%s lies %.3f m %s %s: %.1f sigma, %s (%d pairs; standard error %s, trajectories %.3f m)\n",
+                         NameOf(FlightLine{line.line_a, line.begin_a}), std::abs(line.mean),
+                         line.mean < 0 ? "below" : "above", NameOf(FlightLine{line.line_b, line.begin_b}),
+                         std::abs(line.z()),
+                         std::abs(line.z()) > kRareDifference ? "more than predicted" : "as predicted", line.pairs,
+                         ErrorText(line.standard_error), line.predicted);
 }
 
 }  // namespace

@@ -237,8 +237,8 @@ class Reporter {
       json["sea"] = input.value("sea", parameters.value("sea", Json()));
       const Json numbers = NumbersOf(summary);
       for (const auto& [name, number] : numbers.items())
-        if (name == "water_attenuation" && number.is_object())
-          json["water_attenuation"] = number.value("value", Json());
+        if ((name == "water_entered" || name == "water_attenuation") && number.is_object())
+          json[name] = number.value("value", Json());
       json["first_time"] = json["last_time"] = nullptr;
       if (of_files_[i].last_time > of_files_[i].first_time) {
         json["first_time"] = of_files_[i].first_time;

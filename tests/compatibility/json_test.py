@@ -1,6 +1,7 @@
 """The JSON that all commands write has the members, types and units of docs/json.md, and no others.
 
-Usage: json_test.py SOURCE_FOLDER NAME=PATH...      albtpu_generate, albtpu_query, albtpu_serve
+Usage: json_test.py SOURCE_FOLDER NAME=PATH... [--write]      albtpu_generate, albtpu_query, albtpu_serve
+(--write puts meaning, unit and range of keys of survey files into the page, from `albtpu-query keys`)
 """
 
 import json
@@ -12,7 +13,8 @@ import tempfile
 import unittest
 
 import numpy as np
-from runs import ANNOTATE, JUDGE, PRINT, PULSE, THEN, VERSIONS, WATER, copy_input, make, write_check_points
+import json_keys
+from runs import ANNOTATE, JUDGE, PRINT, PULSE, THEN, VERSIONS, WATER, WAVES, copy_input, make, write_check_points
 
 from commands import run  # Where runs.py found it.
 from las_file import LasFile
@@ -20,8 +22,14 @@ from serving import Server
 
 PATHS = dict(argument.split("=", 1) for argument in sys.argv[2:] if "=" in argument)
 QUERY, GENERATE = PATHS["albtpu_query"], PATHS["albtpu_generate"]
-PAGE = (pathlib.Path(sys.argv[1]) / "docs/json.md").read_text()
-SIMPLE = {"number": (int, float), "integer": int, "string": str, "boolean": bool, "null": type(None), "any": object}
+PATH = pathlib.Path(sys.argv[1]) / "docs/json.md"
+PAGE = PATH.read_text()
+SIMPLE = {"number": (int, float), "integer": int, "string": str, "boolean": bool, "null": type(None)}
+COOPS = "Date Time, Water Level, Sigma, O or I (for verified), F, R, L, Quality\n"
+LEVELS = 'level = "levels.csv"\nlevel_datum = "NAVD"\nlevel_offset = 0.01\nlevel_hours_from_utc = 1\n'
+CONE = f"incidence = 15\nfootprint = 0.6\nuser_data = {[*range(256)]}"
+EXTRA = "[extra]\nhorizontal = 0.01\nvertical = 0.02\n"
+BARE = ("--water-level", "-25", "--classes", "40")
 # More runs than those of earlier versions, and the types of all that is printed or written.
 MORE = (
     ("wet.json", "pulse", "--survey", "wet.toml", "--table-name", "winds", *PULSE, "--beam-azimuth", "90",
@@ -37,16 +45,27 @@ MORE = (
     ("", "las", "lines/flight_1.las", "channel.las", "--survey", "channels.toml", "--table-name", "winds"),
     ("", "las", "lines/flight_1.las", "returns.las", "--trajectory-from-returns", "--water-level", "-25",
      "--wind-speed", "5", "--divergence", "1", "--table-name", "winds"),
+    ("", "las", "lines/flight_1.las", "constant.las", *BARE, "--incidence", "15", "--beam-azimuth", "90",
+     "--footprint", "0.6", "--use-withheld", "--units", "m", "--sea", "sea.csv", "--sea-time", "2020-06-08T01:30Z",
+     "--format", "las"),
+    ("", "las", "lines/flight_1.las", "swung.las", *BARE, "--scanner", "across-track", "--flight-direction", "90",
+     "--altitude", "300", "--divergence", "1", *WAVES),
+    ("", "las", "annotated/flight_1.las", "track.las", "--survey", "track.toml", "--replace",
+     "--crs", "EPSG:32617", "--table-name", "winds"),
+    ("", "las", "lines/flight_1.las", "scanner.las", "--survey", "scanner.toml", "--beam-azimuth", "90", "--altitude",
+     "300", "--table-name", "winds"),
+    ("", "csv", "totals.csv", "green.csv", "--survey", "green.toml", "--table-name", "winds"),
     ("sensors.json", "sensors", "--json"), ("keys.json", "keys", "--json"), ("tables.json", "tables", "--json"),
     ("surface.json", "surface", "annotated", "--output", "surface", "--json"),
     ("report.json", "report", "annotated", "--output", "with_nodes", "--no-page", "--surface", "surface", "--json"),
     ("strict.json", "report", "annotated", "--output", "strict", "--no-page", "--s44-order", "exclusive", "--json"),
-    ("noisy.json", "report", "sloped", "--output", "of_noisy", "--no-page", "--json"),
+    ("noisy.json", "report", "sloped", "--output", "of_noisy", "--no-page", "--survey", "sloped.toml", "--json"),
     ("alone.json", "report", "annotated/flight_1.las", "--output", "alone", "--no-page", "--json"),
     ("checkpoints.json", "checkpoints", "annotated", "points.csv", "--radius", "20", "--json"))
 WRITTEN = {
     "summary": ("annotated/flight_1.las.json", "sea.laz.json", "answers.csv.json", "total_answers.csv.json",
-                "wet.csv.json", "sloped/flight_1.las.json", "channel.las.json", "returns.las.json"),
+                "wet.csv.json", "sloped/flight_1.las.json", "channel.las.json", "returns.las.json",
+                "constant.las.json", "swung.las.json", "track.las.json", "scanner.las.json", "green.csv.json"),
     "report": ("report/report.json", "report.json", "strict.json", "noisy.json", "alone.json"),
     "surface": ("surface/surface.json", "surface.json"), "plan": ("plan.json", "hours.json"),
     "crosscheck": ("crosscheck.json",), "checkpoints": ("checkpoints.json",), "pulse": ("pulse.json", "waves.json"),
@@ -54,6 +73,10 @@ WRITTEN = {
     "trajectories": ("trajectory.json", "unreadable.json"), "sensors": ("sensors.json",), "sensor": ("sensor.json",),
     "keys": ("keys.json",), "tables": ("tables.json",), "health": ("health.json",), "point": ("point.json",),
     "water-point": ("water_point.json",)}
+
+# Types of what was set, of which every member is in some run.
+SETTINGS = ("parameters", "settings of channel", "settings of sea", "settings of waves", "numbers of total",
+            "made from", "conditions")
 
 
 def rows(text):
@@ -80,7 +103,7 @@ class Schema:
         if len(options) > 1:
             self.check(value, self.chosen(value, options), where)
         elif kind in SIMPLE:
-            right = isinstance(value, SIMPLE[kind]) and (kind in ("boolean", "any") or not isinstance(value, bool))
+            right = isinstance(value, SIMPLE[kind]) and (kind == "boolean" or not isinstance(value, bool))
             self.expect(right, f"{where} is {json.dumps(value)[:40]}, not {kind}")
         elif kind[0] in "[{":
             is_list = kind[0] == "["
@@ -98,13 +121,11 @@ class Schema:
                 else:
                     self.expect(present, f"{where}.{name} is missing ({kind})")
 
-    @staticmethod
-    def chosen(value, options):
-        """Of several types, that which the value looks like: a simple one, or the one of objects."""
-        for kind in options:
-            if isinstance(value, SIMPLE.get(kind, list if kind[0] == "[" else dict)):
-                return kind
-        return options[0]
+    def chosen(self, value, options):
+        """Of several types, that which the value looks like; of objects, the one with most of its members."""
+        alike = [kind for kind in options if isinstance(value, SIMPLE.get(kind, list if kind[0] == "[" else dict))]
+        return max(alike or options, key=lambda kind: len(self.types.get(kind, {}).keys() & value.keys())
+                   if isinstance(value, dict) else 0)
 
     def expect(self, right, problem):
         if not right:
@@ -114,13 +135,28 @@ class Schema:
 
 def split(kind):
     """The alternatives of a type, not those within brackets."""
-    if kind[0] in "[{" and kind.endswith({"[": "]", "{": "}"}[kind[0]]):
-        return [kind]
-    return kind.split(" or ")
+    kinds, depth = [[]], 0
+    for word in kind.split():
+        kinds.append([]) if word == "or" and depth == 0 else kinds[-1].append(word)
+        depth += sum(word.count(each) for each in "[{") - sum(word.count(each) for each in "]}")
+    return [" ".join(each) for each in kinds]
 
 
 def names_in(kind):
     return {name for name in re.split(r" or |[\[\]{}]", kind) if name and name not in SIMPLE}
+
+
+def write_surveys(folder, survey, channel, wet):
+    """Survey files with what is in the others only by default: of the trajectory, the levels, a scanner, the water."""
+    track = survey.replace("[trajectory]\n", '[trajectory]\nvelocity_axes = "wander"\n')
+    (folder / "track.toml").write_text(track.replace("[datum]\n", "[datum]\ngeoid_separation = 0\n"))
+    rows_of = [f"2022-03-09 {hour}:00,-25,0.003,0,0,0,0,v\n" for hour in (17, 18, 19)]
+    (folder / "levels.csv").write_text("".join([COOPS, *rows_of]))
+    cone = channel.replace("lever_arm = [0.3, -0.2, 0.5]", CONE)
+    scanner = re.sub(r"\[(?:trajectory|sensor)\]\n(?:\w.*\n)*", "", survey).replace("level = -25\n", LEVELS)
+    (folder / "scanner.toml").write_text(scanner + cone + '[trajectory]\ntime_format = "adjusted"\n')
+    wet = wet.replace("[surface]\n", '[surface]\nchannel = "green"\n').replace("[water]\n", "[water]\nphotons = 900\n")
+    (folder / "green.toml").write_text(wet.replace('located = "local"', 'located = "pulse"') + EXTRA)
 
 
 def make_all(folder):
@@ -132,6 +168,7 @@ def make_all(folder):
     (folder / "sloped.toml").write_text(f"{sloped}[project]\nname = 'Harbour'\n")
     channel = '[[sensor.channel]]\nscanner_channels = [0]\nname = "sensor.toml"\nlever_arm = [0.3, -0.2, 0.5]\n'
     (folder / "channels.toml").write_text(re.sub(r"\[sensor\]\n(?:\w.*\n)*", channel, survey))
+    write_surveys(folder, survey, channel, (folder / "wet.toml").read_text())
     bins = [0.05 * i for i in range(1, 13)]
     rows_of = [f"2020-06-08T{hour:02}:00Z,{f:.2f},{hour * min(f / 0.2, (0.2 / f)**4) / 100:.6g},0.4,250"
                for hour in (1, 2, 3) for f in bins]
@@ -194,9 +231,33 @@ class Json(unittest.TestCase):
         for members in self.schema.types.values():
             for name, (kind, unit, _) in members.items():
                 used |= names_in(kind)
-                if re.search("number|integer", kind):
+                if re.search(r"\b(?:number|integer)\b", kind):
                     self.assertTrue(unit, name)
         self.assertEqual(used, set(self.schema.types))
+
+    def test_settings_are_described_by_the_keys(self):
+        keys = self.values["keys", "keys.json"]["keys"]
+        self.assertEqual(json_keys.unnamed(PAGE, self.schema.types, keys), set(), "keys without their row")
+        self.assertEqual(json_keys.renewed(PAGE, keys), PAGE, "write docs/json.md with --write")
+        # Each of these members is written by some run, also those that are not always there.
+        schema = Schema()
+        for (kind, name), value in self.values.items():
+            schema.check(value, kind, name)
+        self.assertEqual({(kind, name) for kind in SETTINGS for name in schema.types[kind]} - schema.seen, set())
+
+    def test_no_object_is_open(self):
+        for kind, members in self.schema.types.items():
+            for name, (of_member, _, _) in members.items():
+                self.assertNotIn("any", names_in(of_member), f"{kind}.{name}")
+        schema = Schema()
+        summary = self.values["summary", "annotated/flight_1.las.json"]
+        for more in ("parameters", "total", "numbers"):
+            wrong = json.loads(json.dumps(summary))
+            parameters = wrong["parameters"]
+            {"parameters": parameters, "total": parameters["total"],
+             "numbers": parameters["total"]["numbers"]}[more]["more"] = None
+            schema.check(wrong, "summary", more)
+        self.assertEqual(len(schema.problems), 3, schema.problems)
 
     def test_finds_what_is_wrong(self):
         value = self.values["tables", "tables.json"]["tables"][0]
@@ -208,5 +269,12 @@ class Json(unittest.TestCase):
             self.assertEqual(len(schema.problems), 1, schema.problems)
 
 
-if __name__ == "__main__":
+def write_page():
+    page = json_keys.renewed(PAGE, json.loads(run(QUERY, "keys", "--json").stdout)["keys"])
+    PATH.write_text(page)
+
+
+if __name__ == "__main__" and "--write" in sys.argv:
+    write_page()
+elif __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

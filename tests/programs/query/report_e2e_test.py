@@ -274,6 +274,21 @@ class Named(Report):
             self.assertIn(words, page)
         for folder in (self.annotated.parent, self.flight):
             self.assertNotIn(str(folder), page)
+        table = f"table {self.json['table']['id']}, version {self.json['table']['version']}"
+        self.assertIn(f"<td>{table}</td>", page)
+        self.assertIn(f"Water-surface model used for refraction: {table}.", page)
+
+    def test_says_that_waves_were_described_and_what_was_entered_of_the_water(self):
+        line, flight = self.folder / "waves.las", self.flight / "flight_1.las"
+        survey = self.toml("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nclasses = [41]\n[[sea.waves]]\nhs = 0.5\n"
+                           "tp = 3\nwaves_from = 230\n[datum]\nsigma = 0\n[water]\nkd = 0.15\nkd_kind = 'diffuse532'\n"
+                           "detector = 'peak'\nfield_of_view = 3\npulse_length = 1.5\nbias = 'none'\n")
+        query("las", flight, line, "--survey", survey, "--trajectory", self.flight / "sbet.out", "--wind-speed", 5,
+              "--classes", 40, "--details", check=0)
+        query("report", line, "--output", self.folder / "of_waves", check=0)
+        page = (self.folder / "of_waves/report.html").read_text()
+        self.assertIn("<td>computed for the described sea</td>", page)
+        self.assertIn("<td>Kd = 0.15 1/m of kind diffuse532: 0.1275 1/m</td>", page)
 
 
 @unittest.skipIf(shutil.which("chromium") is None, "no Chromium")

@@ -48,6 +48,33 @@ class WaterTest(programs.Test):
         self.assertAlmostEqual(none["tvu_water"], 2 * water["water_bias_vertical_sigma"], delta=1e-5)
         self.assertIn("water_albedo 0.8 (assumed: coastal water, 0.8 +- 0.1)", none["assumed"])
 
+    def test_text_has_what_was_entered_and_what_it_became(self):
+        for water, text in ((OPTICS, "water: Kd = 0.15 1/m of kind diffuse532; attenuation 0.1275 1/m ([water] kd of "
+                                     "kind diffuse532: K = 0.85 Kd, "),
+                            ("[water]\nsecchi = 8\n", "water: Secchi depth Z = 8 m; attenuation ")):
+            survey = SENSOR + WIND + "[surface]\nlocated = 'local'\n" + water + RECEIVER + "bias = 'none'\n"
+            total = ("--survey", self.toml(survey), "--table", self.table)
+            pulse = query("pulse", *total, "--incidence", 15, "--beam-azimuth", 90, "--altitude", 400, "--depth", 10,
+                          "--footprint", 0.5, check=0)
+            self.assertIn(f"\n{text}", pulse.stdout)
+            (self.folder / "in.csv").write_text("incidence,beam_azimuth,altitude,depth,footprint\n15,90,400,10,0.5\n")
+            csv = query("csv", self.folder / "in.csv", self.folder / "out.csv", *total, "--overwrite", check=0)
+            self.assertIn(f"\n  {text}", csv.stderr)
+        self.assertNotIn("\nwater: ", query("pulse", "--survey", self.toml(
+            SENSOR + WIND + "[surface]\nlocated = 'local'\n[water]\ncolumn = 'none'\n"), "--table", self.table,
+            "--incidence", 15, "--beam-azimuth", 90, "--altitude", 400, "--depth", 10, "--footprint", 0.5,
+            check=0).stdout)
+
+    def test_centimetres_in_place_of_metres_are_doubted(self):
+        for more, text in (("[sigma]\nposition = [2, 2, 17]\n", "[sigma] position is 2, 2, 17 m, more than 1 m: is it "
+                            "a standard deviation in m, not in cm or mm?"), ("", None)):
+            result = self.pulse(WATER + more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            if text:
+                self.assertIn(text, result.stderr)
+            else:
+                self.assertNotIn("standard deviation", result.stderr)
+
     def test_each_treatment_leaves_what_it_says(self):
         none, correct = self.total(WATER), self.total(WATER.replace("'none'", "'correct'"))
         left_out = self.total("[water]\ncolumn = 'none'\n")
@@ -76,7 +103,8 @@ class WaterTest(programs.Test):
         text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + WIND + WATER +
                 "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\n")
         out = self.folder / "out.las"
-        query("las", "--survey", self.toml(text), "--table", self.table, flight / "flight.las", out, check=0)
+        said = query("las", "--survey", self.toml(text), "--table", self.table, flight / "flight.las", out, check=0)
+        self.assertIn("\n  water: Kd = 0.15 1/m of kind diffuse532; attenuation 0.1275 1/m ", said.stderr)
         number = LasFile(out).columns()
         answered = number["total_thu"] >= 0
         self.assertGreater(answered.sum(), 1000)

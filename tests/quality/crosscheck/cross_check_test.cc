@@ -149,6 +149,14 @@ TEST(CrossCheck, FindsALineThatLiesAbove) {
   EXPECT_NEAR(line.predicted, 0.02 * std::sqrt(2), 0.001);
 }
 
+TEST(CrossCheck, NamesNoStandardErrorOfNothing) {
+  CrossCheck check = CheckOf({.offset = 0.2});
+  for (const auto& [error, text] : {std::pair(0.0006, "standard error 0.001 m"), {0.0004, "standard error 0.0004 m"}}) {
+    check.line.differences.front().standard_error = error;
+    EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr(text));
+  }
+}
+
 TEST(CrossCheck, LeavesOutFewOutliersAndSaysSo) {
   PatchPairs pairs = Pairs({});
   for (int i = 0; i < 30; ++i) pairs.across[static_cast<std::size_t>(i * 1000)].difference = 5;  // Fish.

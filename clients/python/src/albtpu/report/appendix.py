@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .markup import percent, table, text
-from .verdict import CONTRIBUTIONS, COVERAGES, SOURCES, Report, estimate_text
+from .verdict import CONTRIBUTIONS, COVERAGES, SOURCES, Report, estimate_text, surface_model
 
 
 def appendix(report: Report) -> str:
@@ -13,14 +13,13 @@ def appendix(report: Report) -> str:
 
 
 def _method(report: Report) -> str:
-    table_of_sea = report["table"]
     datum = report.get("vertical_datum")
     elevations = f"in the vertical datum {text(datum)}" if datum else "in a vertical datum that the files do not state"
     return ("<h3>B.2.1 Method</h3><p>The uncertainty of each point is the sum of the covariances of sensor and"
             " trajectory, sea surface, water column and datum, propagated along the refracted beam of its pulse. THU"
             f" and TVU are stated at {COVERAGES[report['coverage']]}; biases are stated apart, and their magnitude is"
-            " added where limits are compared. Water-surface model used for refraction: table "
-            f"{text(table_of_sea['id'])} {text(table_of_sea['version'])}. Elevations are {elevations};"
+            " added where limits are compared. Water-surface model used for refraction: "
+            f"{text(surface_model(report))}. Elevations are {elevations};"
             " depths are below the water surface at the time of the flight.</p>")
 
 

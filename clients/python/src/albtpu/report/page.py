@@ -38,7 +38,7 @@ def _summary(report: Report) -> str:
                                                   " [datum] name")],
             ["depths", "below the water surface at the time of the flight"],
             ["uncertainties at", COVERAGES[report["coverage"]]],
-            ["water-surface model used for refraction", text(f"{report['table']['id']} {report['table']['version']}")],
+            ["water-surface model used for refraction", text(verdict.surface_model(report))],
             ["made by", text(f"{report['program']} {report['program_version']}")]]
     for name in ("tvu", "thu"):
         if name in of_all:
@@ -238,7 +238,8 @@ def _crosscheck(report: Report) -> str:
              if check["factor_line"] is not None else "no error of a trajectory is predicted"],
             ["beyond 3 σ", f"{percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
-              f"{each['standard_error']:.3f}", f"{each['predicted']:.3f}", verdict.difference_text(each)]
+              f"{each['standard_error']:{'.1g' if each['standard_error'] < 0.0005 else '.3f'}}",
+              f"{each['predicted']:.3f}", verdict.difference_text(each)]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
             " of the bottom, against the prediction for pulses and lines. Errors that all lines share"
@@ -246,6 +247,11 @@ def _crosscheck(report: Report) -> str:
             + table(["", ""], rows, "words") + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
             + table(["lines", "pairs", "mean difference [m]", "standard error [m]",
                      "σ of both trajectories [m]", ""], lines, "sortable"))
+
+
+def _water(file: Report) -> str:
+    attenuation = file.get("water_attenuation") or "left out"
+    return f"{file['water_entered']}: {attenuation}" if file.get("water_entered") else attenuation
 
 
 def _files(report: Report) -> str:
@@ -258,10 +264,10 @@ def _files(report: Report) -> str:
         sea = verdict.sea_text(each["sea"])
         met = each["meeting"][wanted] / each["points"] if each["points"] else 0
         rows.append([text(each["name"]), f"{each['points']:,}", wind, text(sea),
-                     text(each.get("water_attenuation") or "left out"), text(outcomes) or "none",
+                     text(_water(each)), text(outcomes) or "none",
                      _judged(met, report)])
     return "<h2>Files, sea and water</h2>" + table(
-        ["file", "points", "wind", "sea", "attenuation of the water", "uncertainty not computed",
+        ["file", "points", "wind", "sea", "water as entered, and its attenuation", "uncertainty not computed",
          f"meet {text(verdict.asked(report))}"], rows, "words") + (
         "<h3>Classes by file</h3><p class='soft'>% of the points that meet each class.</p>"
         + _class_matrix(report, "file", [(each["name"], each["meeting"], each["points"]) for each in report["files"]]))
