@@ -48,7 +48,7 @@ function(albtpu_target target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
   if(ALBTPU_UNITY AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests(/|$)")  # Tests repeat names.
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
   # At the end of the folder it is known whether the target is position-independent.
   cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
