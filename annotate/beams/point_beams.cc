@@ -10,7 +10,6 @@ namespace albtpu::annotate {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kRadiansPerMilliradian = 1e-3;
 
 // In [0, 360).
 double FullCircle(double degrees) {
@@ -27,7 +26,7 @@ float Direction(double degrees) {
 double FootprintOf(const BeamPlan& plan, double slant_range) {
   const auto* beam = std::get_if<DivergingBeam>(&plan.footprint);
   if (beam == nullptr) return std::get<float>(plan.footprint);
-  return FootprintDiameter(slant_range, beam->divergence * kRadiansPerMilliradian, beam->aperture);
+  return FootprintDiameter(slant_range, beam->divergence * 1e-3, beam->aperture);  // mrad
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 
 constexpr double kCorrelation = 0.5;  // s, as in the fit of a track.
-constexpr double kCell = 0.05;        // s
+constexpr double kScoreCell = 0.05;   // s
 // rad, of rays by waves: slopes of 0.6 along each axis, which break. Rays that scatter more do not belong to the track.
 constexpr double kSteepest = 0.2;
 
@@ -45,9 +45,9 @@ Derivative DerivativeOf(const TrackedRay& ray, Displacement displacement, const 
   return d;
 }
 
-// The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kCell, and their
-// products at all lags with Bartlett's weights, widened by WidthOfStudent. Its degrees of freedom are the number of
-// correlation times, less the fitted parameters.
+// The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kScoreCell, and
+// their products at all lags with Bartlett's weights, widened by WidthOfStudent. Its degrees of freedom are the number
+// of correlation times, less the fitted parameters.
 struct LongRun {
   Square covariance;
   int freedom;
@@ -55,10 +55,10 @@ struct LongRun {
 
 template <typename Score>
 LongRun LongRunCovariance(std::span<const double> times, int size, const Score& score) {
-  const auto lags = static_cast<std::int64_t>(kCorrelation / kCell);
+  const auto lags = static_cast<std::int64_t>(kCorrelation / kScoreCell);
   std::vector<std::pair<std::int64_t, Column>> cells;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto cell = static_cast<std::int64_t>(std::floor((times[i] - times[0]) / kCell));
+    const auto cell = static_cast<std::int64_t>(std::floor((times[i] - times[0]) / kScoreCell));
     if (cells.empty() || cells.back().first != cell) cells.emplace_back(cell, Column::Zero(size));
     cells.back().second += score(i);
   }

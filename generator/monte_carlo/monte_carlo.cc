@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "generator/monte_carlo/beam_tracing.h"
 #include "generator/surface/sea_surface.h"
 #include "sea/angle.h"
+#include "sea/principal_axes.h"
 
 namespace albtpu {
 namespace {
@@ -44,11 +44,11 @@ int NextCount(int done, const Effort& effort) {
 // negative variance in any direction. The two sides of a triangle are not at the same point: their slopes correlate
 // where those of the waves do not, and along one diagonal facets may have more slope than the waves.
 Eigen::Matrix2d UnresolvedSlopes(const Eigen::Matrix2d& all, const Eigen::Matrix2d& facets) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(all - facets);
-  const double trace = std::max(0.0, axes.eigenvalues().sum());
-  const double least = std::clamp(axes.eigenvalues()[0], 0.0, trace);
+  const PrincipalAxes axes = PrincipalAxesOf(all - facets);
+  const double trace = std::max(0.0, axes.variances.sum());
+  const double least = std::clamp(axes.variances[0], 0.0, trace);
   const Eigen::Vector2d variances(least, trace - least);
-  return axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+  return axes.directions * variances.asDiagonal() * axes.directions.transpose();
 }
 
 // The exact result without waves: nothing to draw, and no errors.

@@ -14,14 +14,17 @@ namespace {
 // Golub and Welsch (1969), doi:10.1090/S0025-5718-69-99647-1: for orthonormal polynomials with x p_n = b_n p_(n-1) +
 // a_n p_n + b_(n+1) p_(n+1), the nodes are the eigenvalues of the matrix with the diagonal a_0, a_1, ... and b_1, b_2,
 // ... beside it, and the weights, which add up to 1, the squares of the first elements of its eigenvectors.
-template <typename Diagonal, typename Beside>
-std::vector<QuadratureNode> NodesOf(int count, const Diagonal& a, const Beside& b) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
-  for (int n = 0; n < count; ++n) jacobi(n, n) = a(n);
-  for (int n = 1; n < count; ++n) jacobi(n, n - 1) = b(n);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
+std::vector<QuadratureNode> NodesOf(int count, double (*a)(double), double (*b)(double)) {
+  Eigen::VectorXd elements(2 * count - 1);
+  for (int n = 0; n < count; ++n) elements[n] = a(n);
+  for (int n = 1; n < count; ++n) elements[count - 1 + n] = b(n);
+  const double greatest = elements.cwiseAbs().maxCoeff(), scale = greatest == 0 ? 1 : greatest;
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(elements.head(count) / scale, elements.tail(count - 1) / scale);
   std::vector<QuadratureNode> nodes;
-  for (int i = 0; i < count; ++i) nodes.push_back({solver.eigenvalues()[i], std::pow(solver.eigenvectors()(0, i), 2)});
+  for (int i = 0; i < count; ++i) {
+    nodes.push_back({scale * solver.eigenvalues()[i], std::pow(solver.eigenvectors()(0, i), 2)});
+  }
   return nodes;
 }
 

@@ -1,10 +1,10 @@
 #include "sea/response/closed_form.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numbers>
 #include <vector>
 
+#include "sea/principal_axes.h"
 #include "sea/quadrature/hankel_lattice.h"
 
 namespace albtpu {
@@ -41,8 +41,8 @@ EffectiveGains EffectiveGainsOf(double incidence, double refractive_index, const
   static const std::vector<QuadratureNode> nodes = GaussHermite(10);
   const Eigen::Vector3d incident(std::sin(incidence), 0, -std::cos(incidence));
   const double tau = std::tan(incidence);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(slopes);
-  const Eigen::Matrix2d deviation = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const PrincipalAxes axes = PrincipalAxesOf(slopes);
+  const Eigen::Matrix2d deviation = axes.directions * axes.variances.cwiseMax(0).cwiseSqrt().asDiagonal();
 
   // E_w[F(m + shift)] for shifts of -1, 0 and 1 steps along both axes: its derivatives by the shift at 0 are E_w of the
   // derivatives of F.
@@ -153,9 +153,9 @@ namespace {
 // The square root of a covariance: it takes two independent standard normal variables to the slopes. Deviations below
 // `least` are taken as that.
 Eigen::Matrix2d RootOf(const Eigen::Matrix2d& covariance, double least) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
-  const Eigen::Vector2d deviations = axes.eigenvalues().cwiseMax(least * least).cwiseSqrt();
-  return axes.eigenvectors() * deviations.asDiagonal();
+  const PrincipalAxes axes = PrincipalAxesOf(covariance);
+  const Eigen::Vector2d deviations = axes.variances.cwiseMax(least * least).cwiseSqrt();
+  return axes.directions * deviations.asDiagonal();
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "sea/response/slope_covariance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
+
+#include "sea/principal_axes.h"
 
 namespace albtpu {
 namespace {
@@ -236,8 +237,8 @@ Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagPro
   const Eigen::Matrix2d covariance = (Eigen::Matrix2d() << sum[0], sum[1], sum[1], sum[2]).finished() -
                                      HeightDifference(spectrum, footprint) * FootprintSlopes(spectrum, footprint);
   // Under long waves the three means cancel to within the errors of their quadrature.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() * solver.eigenvectors().transpose();
+  const PrincipalAxes axes = PrincipalAxesOf(covariance);
+  return axes.directions * axes.variances.cwiseMax(0).asDiagonal() * axes.directions.transpose();
 }
 
 namespace {
