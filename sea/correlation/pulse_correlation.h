@@ -56,7 +56,7 @@ class BeamCorrelation {
   SharedWaves Between(const Eigen::Vector2d& apart, double later) const;
 
   // Of two footprints with that covariance, as if these were short beside the waves: the second order goes with the
-  // square of the slopes' covariance. Of footprints of 0.6 m its correlation is right within 0.03, of 1.5 m within 0.08.
+  // square of the slopes' covariance. Its correlation is right within 0.03 under 0.6 m, within 0.08 under 1.5 m.
   SharedWaves SharedNearly(const WaveCovariance& footprint) const;
 
   // Of the mean over a cell, of pulses that see the sea at one instant.

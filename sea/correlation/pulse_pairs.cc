@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace albtpu {
@@ -15,8 +14,7 @@ using Entries = Eigen::Matrix<double, 1, PulsePairs::kEntries>;
 
 Entries EntriesOf(const SharedWaves& shared) {
   const Eigen::Matrix3d errors = shared.errors();
-  return {errors(0, 0), errors(0, 1),           errors(0, 2), errors(1, 1), errors(1, 2),
-          errors(2, 2), shared.footprint.heights};
+  return {errors(0, 0), errors(0, 1), errors(0, 2), errors(1, 1), errors(1, 2), errors(2, 2), shared.footprint.heights};
 }
 
 }  // namespace
@@ -44,16 +42,17 @@ void PulsePairs::Add(const Eigen::Vector2d& lag, double weight, Eigen::VectorXd&
     weights(weights.size() - 1) += weight;
     return;
   }
-  const double step = std::asinh(distance / kFirst) / kStep;
+  const double first = distance / kFirst, step = std::log(first + std::sqrt(1 + first * first)) / kStep;  // asinh
   const int j = std::min(static_cast<int>(step), distances_ - 3);
   const double t = step - j;
   // The cubic of Catmull and Rom. On the other side of 0 are the same values.
   const double shares[] = {t * (t * (2 - t) - 1) / 2, (t * t * (3 * t - 5) + 2) / 2, t * (t * (4 - 3 * t) + 1) / 2,
                            t * t * (t - 1) / 2};
-  const std::complex<double> once(lag.x() / std::max(distance, 1e-9), lag.y() / std::max(distance, 1e-9));
-  const std::complex<double> twice = once * once, four = twice * twice, six = four * twice;
+  const double squared = std::max(distance * distance, 1e-18);
+  const double cosine2 = (lag.x() * lag.x() - lag.y() * lag.y()) / squared, sine2 = 2 * lag.x() * lag.y() / squared;
+  const double cosine4 = cosine2 * cosine2 - sine2 * sine2, sine4 = 2 * sine2 * cosine2;
   const Eigen::Matrix<double, kHarmonics, 1> harmonics(
-      {1, twice.real(), twice.imag(), four.real(), four.imag(), six.real(), six.imag()});
+      {1, cosine2, sine2, cosine4, sine4, cosine4 * cosine2 - sine4 * sine2, sine4 * cosine2 + cosine4 * sine2});
   for (int n = 0; n < 4; ++n)
     weights.segment<kHarmonics>(kHarmonics * std::abs(j + n - 1)) += weight * shares[n] * harmonics;
 }

@@ -19,18 +19,18 @@ class PulsePairs {
   // Pairs further apart than this [m] have one covariance, the mean of those that are so far apart in a cell.
   static constexpr double kReach = 8;
   // Of more pulses, pairs are those of some, spread over all, with the others.
-  static constexpr std::size_t kMostPulses = 64;
+  static constexpr std::size_t kMostPulses = 32;
   // xx, xy, xz, yy, yz and zz of the errors per depth^2, on the axes of the sea, and the heights.
   static constexpr int kEntries = 7;
 
   // Of pulses in square cells of a side, m, or in circles of their area.
   explicit PulsePairs(double side);
 
-  // The weights of ordered pairs, each of two different pulses. Places in m, on axes that lie `orientation` [rad] to the
-  // left of those of the sea that the table is of.
+  // The weights of ordered pairs, each of two different pulses. Places in m, on axes that lie `orientation` [rad] to
+  // the left of those of the sea that the table is of.
   Eigen::VectorXf WeightsOf(std::span<const Eigen::Vector2d> places) const;
 
-  // Of the covariances of one beam; the sum over pairs is its transpose times their weights. The first row is one pulse.
+  // Of the covariances of one beam; the sum over pairs is its transpose times their weights. The first row is a pulse.
   Eigen::MatrixXf TableOf(const BeamCorrelation& beam, double orientation) const;
 
  private:

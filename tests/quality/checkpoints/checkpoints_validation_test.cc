@@ -43,8 +43,8 @@ struct Case {
 
 struct CheckOfSurvey {
   DifferenceStatistics as_it_is, without_offset, with_offset;  // The last two: of the survey, none and 0.1 m.
-  double variance = 0;  // Of a difference, the mean, without what the survey shares, m^2.
-  double offset = 0;    // That was drawn of the survey, m.
+  double variance = 0;   // Of a difference, the mean, without what the survey shares, m^2.
+  double offset = 0;     // That was drawn of the survey, m.
   double by_passes = 0;  // What passes of a line share by theory, over the variances of differences: the mean.
 };
 

@@ -29,11 +29,10 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
       const std::array places = {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.4, -0.25)};
       const SeaOfPulses found = sharing(0, incidence, azimuth, footprint, places);
       // Of the beam by itself, x towards east.
-      const BeamCorrelation beam(waves,
-                                 {.incidence = RadiansOfDegrees(incidence),
-                                  .azimuth = RadiansOfDegrees(90 - azimuth),
-                                  .footprint = footprint},
-                                 kIndex);
+      const BeamCorrelation beam(
+          waves,
+          {.incidence = RadiansOfDegrees(incidence), .azimuth = RadiansOfDegrees(90 - azimuth), .footprint = footprint},
+          kIndex);
       const SharedWaves pulse = beam.pulse(), pair = beam.Between(places[1], 0);
       const Eigen::Matrix3d errors = pulse.errors(), of_pair = pair.errors();
       for (int i = 0; i < 3; ++i) {

@@ -56,8 +56,7 @@ double WavesOfTwoPasses::VarianceOf(std::span<const SurfacePoint> points) const 
   std::vector<std::span<const SurfacePoint>> passes;
   for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
     for (end = begin + 1; end < points.size(); ++end)
-      if (points[end].flight_line != points[begin].flight_line ||
-          points[end].time - points[end - 1].time > kPassPause)
+      if (points[end].flight_line != points[begin].flight_line || points[end].time - points[end - 1].time > kPassPause)
         break;
     passes.push_back(points.subspan(begin, end - begin));
   }
@@ -68,8 +67,10 @@ double WavesOfTwoPasses::VarianceOf(std::span<const SurfacePoint> points) const 
     const std::size_t all = fore.size() * aft.size(), some = std::min<std::size_t>(all, kPairs);
     double mean = 0;
     for (std::size_t k = 0; k < some; ++k) {
-      const std::size_t pair = all == some ? k : static_cast<std::size_t>(
-          std::fmod(static_cast<double>(k) * std::numbers::phi, 1) * static_cast<double>(all));
+      const std::size_t pair = all == some
+                                   ? k
+                                   : static_cast<std::size_t>(std::fmod(static_cast<double>(k) * std::numbers::phi, 1) *
+                                                              static_cast<double>(all));
       mean += Covariance(fore[pair % fore.size()], aft[pair / fore.size()]) / static_cast<double>(some);
     }
     sum += 2 * mean * static_cast<double>(all);
