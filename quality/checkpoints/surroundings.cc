@@ -163,10 +163,13 @@ absl::StatusOr<Surroundings> SurroundingsOf(const std::vector<AnnotatedLasFile>&
   SeaSharing sharing(SideOfCircle(radius));
   for (const SeaOfSource& sea : gathered.facts.seas) sharing.Add(sea);
   const std::vector<SourceOfPoints>& all = gathered.facts.sources;
-  const NodeSources sources = {
-      .sea = [&](std::uint16_t source, double incidence, double azimuth,
-                 double footprint) { return sharing(all[source].sea, incidence, azimuth, footprint); },
-      .groups = [&](std::uint16_t source) { return all[source].groups; }};
+  const NodeSources sources = {.sea =
+                                   [&](std::uint16_t source, double incidence, double azimuth, double footprint,
+                                       std::span<const Eigen::Vector2d> places) {
+                                     return sharing(all[source].sea, incidence, azimuth, footprint, places);
+                                   },
+                               .groups = [&](std::uint16_t source) { return all[source].groups; },
+                               .metres_per_unit = unit};
   const FlightLines lines(gathered.times);
   for (PointsAround& around : gathered.around) NumberLines(lines, around.wet), NumberLines(lines, around.dry);
   return Surroundings{.surfaces = SurfacesOf(points, gathered.around, radius, unit, sources),

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sea/correlation/pairs_in_cell.h"
-
 namespace albtpu::quality {
 namespace {
 
@@ -125,11 +123,7 @@ SurfaceNode NodeOfCircle(std::span<const SurfacePoint> points, double x, double 
     if (kept[i]) sums.Add(places[i].x(), places[i].y(), points[i].z);
   const Plane plane = PlaneOf(sums, side);
   if (!plane.has_slope) return {};
-  NodeSources in_circle = sources;
-  in_circle.place = [=](const SurfacePoint& point) {
-    return SquareOfCircle(Eigen::Vector2d(point.x - x, point.y - y) * (metres_per_unit / radius));
-  };
-  return NodeOf(cell, kept, plane, in_circle, &lines);
+  return NodeOf(cell, kept, plane, sources, &lines);
 }
 
 }  // namespace albtpu::quality

@@ -15,17 +15,14 @@ struct PassSea {
   Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();  // Of a point's error.
 };
 
-std::array<double, kCellLevels> PairsOf(std::span<const SurfacePoint> points, const NodeSources& sources) {
-  PairsInCell pairs;
-  double n = 0;
-  for (const SurfacePoint& point : points) {
-    if (point.dry()) continue;
-    ++n;
-    if (!sources.place) continue;
-    const Eigen::Vector2d at = sources.place(point);
-    pairs.Add(at.x(), at.y());
-  }
-  return sources.place ? pairs.Weights() : std::array<double, kCellLevels>{n * (n - 1)};
+// Of the points that are not dry, m from the first point.
+std::vector<Eigen::Vector2d> PlacesOf(std::span<const SurfacePoint> points, double metres_per_unit) {
+  std::vector<Eigen::Vector2d> places;
+  for (const SurfacePoint& point : points)
+    if (!point.dry())
+      places.emplace_back((point.x - points.front().x) * metres_per_unit,
+                          (point.y - points.front().y) * metres_per_unit);
+  return places;
 }
 
 struct MeanBeam {
@@ -55,7 +52,8 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   const MeanBeam beam(points);
   PassSea sea;
   if (!(beam.sea > 0)) return sea;
-  const SeaInCell waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint);
+  const SeaOfPulses waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint,
+                                        PlacesOf(points, sources.metres_per_unit));
   // Slopes of waves shift points with the depth. What the stated variance has beyond that is the height of unseen
   // waves, of a surface that is not that of the pulse.
   const double of_slopes = beam.squared_depth * waves.pulse.errors(2, 2);
@@ -64,12 +62,8 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   sea.whole = scale * waves.pulse.errors;
   sea.whole(2, 2) += of_heights;
   sea.of_point = g.dot(sea.whole * g);
-  const std::array<double, kCellLevels> pairs = PairsOf(points, sources);
-  for (std::size_t level = 0; level < pairs.size(); ++level) {
-    const SeaInCell::Variances& cell = waves.cell[level];
-    sea.of_pairs += pairs[level] * scale * g.dot(cell.errors * g);
-    if (of_heights > 0) sea.of_pairs += pairs[level] * of_heights * cell.height / waves.pulse.height;
-  }
+  sea.of_pairs = scale * g.dot(waves.pairs.errors * g);
+  if (of_heights > 0) sea.of_pairs += of_heights * waves.pairs.height / waves.pulse.height;
   return sea;
 }
 

@@ -4,13 +4,12 @@
 //     var(node) = sum over passes of (n / N)^2 R_n S  +  sum over points of P / N^2
 //               + sum over lines of (n / N)^2 L  +  U:
 // S the sea, P what is drawn anew for each pulse, L what a line shares, U what the survey shares. R_n is what n pulses
-// at their places keep of the sea's share of one (pairs_in_cell.h): R + (1 - R) / n at random places. A pass is what
+// at their places keep of the sea's share of one (pulse_pairs.h): R + (1 - R) / n at random places. A pass is what
 // one line sees of the cell at once: the fore and the aft part of a scan see other waves. Dry points have no S. Bias is
 // not averaged away, and stays apart. docs/surface.md derives this.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,19 +18,17 @@
 #include <vector>
 
 #include "quality/surface/surface_point.h"
-#include "sea/correlation/pairs_in_cell.h"
 
 namespace albtpu::quality {
 
-// What the sea does to the pulses of one beam: of one pulse, and of the mean over a cell at one instant, and over its
-// parts as PairsInCell has them. On the axes east, north, up.
-struct SeaInCell {
+// What the sea does to the pulses of one pass: to one of them, and the sum of the covariances of ordered pairs. On the
+// axes east, north, up.
+struct SeaOfPulses {
   struct Variances {
     Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();  // Per depth^2.
     double height = 0;                                 // Of the water, m^2.
   };
-  Variances pulse;
-  std::array<Variances, kCellLevels> cell;
+  Variances pulse, pairs;
 };
 
 // Of the horizontal variance of points without the sea's share: the fractions of the groups, which add up to 1.
@@ -41,18 +38,13 @@ struct HorizontalGroups {
 
 // What a node needs to know of the sources of its points, by SurfacePoint::source.
 struct NodeSources {
-  // `incidence` and `azimuth` in degree, `footprint` in m.
-  std::function<SeaInCell(std::uint16_t source, double incidence, double azimuth, double footprint)> sea;
+  // `incidence` and `azimuth` in degree, `footprint` in m; `places` of the pulses to the east and north of one, m.
+  std::function<SeaOfPulses(std::uint16_t source, double incidence, double azimuth, double footprint,
+                            std::span<const Eigen::Vector2d> places)>
+      sea;
   std::function<HorizontalGroups(std::uint16_t source)> groups;
-  // Where a point lies in its cell, 0 to 1 along both sides; empty: points lie at random.
-  std::function<Eigen::Vector2d(const SurfacePoint& point)> place = {};
+  double metres_per_unit = 1;  // Of the map.
 };
-
-// Of cells on the axes of the map whose sides lie at the multiples of `cell`, in the units of the map.
-inline Eigen::Vector2d PlaceInCell(const SurfacePoint& point, double cell) {
-  const Eigen::Array2d at = Eigen::Array2d(point.x, point.y) / cell;
-  return at - at.floor();
-}
 
 // Waves are other ones after this time: at 6 m/s and a footprint of 0.6 m the correlation of slopes is 0.92 after 0.1 s
 // and below 0 after 0.5 s. The fore and the aft part of a scan are seconds apart.

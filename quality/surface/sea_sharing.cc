@@ -19,12 +19,13 @@ std::array<double, 4> CubicWeights(double t) {
   return {t * (t * (2 - t) - 1) / 2, (t * t * (3 * t - 5) + 2) / 2, t * (t * (4 - 3 * t) + 1) / 2, t * t * (t - 1) / 2};
 }
 
-// From the axes of a sea, x towards `x_azimuth`, to east, north, up.
-Eigen::Matrix3d ToMap(double x_azimuth) {
+// On the map, of entries on the axes of a sea, x towards `x_azimuth`.
+SeaOfPulses::Variances OnMap(const Eigen::Matrix<double, PulsePairs::kEntries, 1>& of, double x_azimuth) {
   const double sine = std::sin(x_azimuth), cosine = std::cos(x_azimuth);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(), errors;
   turn.topLeftCorner<2, 2>() << sine, -cosine, cosine, sine;
-  return turn;
+  errors << of[0], of[1], of[2], of[1], of[3], of[4], of[2], of[4], of[5];
+  return {.errors = turn * errors * turn.transpose(), .height = of[6]};
 }
 
 }  // namespace
@@ -34,7 +35,8 @@ std::uint16_t SeaSharing::Add(const SeaOfSource& sea) {
   return static_cast<std::uint16_t>(seas_.size() - 1);
 }
 
-SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const {
+SeaOfPulses SeaSharing::operator()(std::uint16_t source, double incidence, double azimuth, double footprint,
+                                   std::span<const Eigen::Vector2d> places) const {
   const double steep = std::clamp(incidence, 0.0, double{kMostIncidence}) / kIncidenceStep;
   const double turned = azimuth / 360 * kAzimuths;
   constexpr int kLast = kIncidences - 1;
@@ -51,7 +53,9 @@ SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double 
     of_incidence[2] += 3 * beyond, of_incidence[1] -= 3 * beyond, of_incidence[0] += beyond;
   }
   const std::array<double, 4> of_azimuth = CubicWeights(turned - j);
-  SeaInCell sum;
+  const Eigen::VectorXf weights = places.size() > 1 ? pairs_.WeightsOf(places) : Eigen::VectorXf();
+  Eigen::Matrix<double, PulsePairs::kEntries, 1> pulse, pairs;
+  pulse.setZero(), pairs.setZero();
   for (int di = -1; di <= 2; ++di)
     for (int dj = -1; dj <= 2; ++dj) {
       const double weight =
@@ -60,14 +64,12 @@ SeaInCell SeaSharing::operator()(std::uint16_t source, double incidence, double 
       // On the other side of the vertical, a beam goes the other way.
       const int steps = std::abs(i + di), half_turn = i + di < 0 ? kAzimuths / 2 : 0;
       const int around = ((j + dj + half_turn) % kAzimuths + kAzimuths) % kAzimuths;
-      const SeaInCell& each = At(beams, key, steps, steps == 0 ? 0 : around);
-      const auto add = [weight](const SeaInCell::Variances& of, SeaInCell::Variances& to) {
-        to.errors += weight * of.errors, to.height += weight * of.height;
-      };
-      add(each.pulse, sum.pulse);
-      for (std::size_t level = 0; level < sum.cell.size(); ++level) add(each.cell[level], sum.cell[level]);
+      const Eigen::MatrixXf& each = At(beams, key, steps, steps == 0 ? 0 : around);
+      pulse += weight * each.row(0).transpose().cast<double>();
+      if (places.size() > 1) pairs += weight * (each.transpose() * weights).cast<double>();
     }
-  return sum;
+  const double x_azimuth = seas_[source]->x_azimuth;
+  return {.pulse = OnMap(pulse, x_azimuth), .pairs = OnMap(pairs, x_azimuth)};
 }
 
 SeaSharing::Beams& SeaSharing::BeamsOf(const Key& key) const {
@@ -77,9 +79,9 @@ SeaSharing::Beams& SeaSharing::BeamsOf(const Key& key) const {
   return *beams;
 }
 
-const SeaInCell& SeaSharing::At(Beams& beams, const Key& key, int incidence, int azimuth) const {
-  std::atomic<const SeaInCell*>& known = beams.known[static_cast<std::size_t>(incidence * kAzimuths + azimuth)];
-  if (const SeaInCell* const found = known.load(); found != nullptr) return *found;
+const Eigen::MatrixXf& SeaSharing::At(Beams& beams, const Key& key, int incidence, int azimuth) const {
+  std::atomic<const Eigen::MatrixXf*>& known = beams.known[static_cast<std::size_t>(incidence * kAzimuths + azimuth)];
+  if (const Eigen::MatrixXf* const found = known.load(); found != nullptr) return *found;
   const auto [source, width] = key;
   const Sea& sea = *seas_[source];
   const BeamOptions beam = {
@@ -88,18 +90,11 @@ const SeaInCell& SeaSharing::At(Beams& beams, const Key& key, int incidence, int
       .azimuth = sea.x_azimuth - 2 * std::numbers::pi * azimuth / kAzimuths,
       .footprint = std::clamp(std::exp(width * kFootprintStep), kLeastFootprint, kMostFootprint)};
   const BeamCorrelation of_beam(sea.waves, beam, sea.water_index);
-  const Eigen::Matrix3d turn = ToMap(sea.x_azimuth);
-  const auto on_map = [&](const SharedWaves& shared) -> SeaInCell::Variances {
-    return {.errors = turn * shared.errors() * turn.transpose(), .height = shared.footprint.heights};
-  };
-  auto of_cell = std::make_unique<SeaInCell>(SeaInCell{.pulse = on_map(of_beam.pulse()), .cell = {}});
-  // East, a side of the cell, lies this far to the left of the axis x.
+  // East lies this far to the left of the axis x.
   const double east = sea.x_azimuth - std::numbers::pi / 2;
-  for (std::size_t level = 0; level < of_cell->cell.size(); ++level)
-    of_cell->cell[level] = on_map(of_beam.InCell({.side = std::ldexp(cell_, -int(level)), .orientation = east}));
-  std::unique_ptr<const SeaInCell> made = std::move(of_cell);
+  auto made = std::make_unique<const Eigen::MatrixXf>(pairs_.TableOf(of_beam, east));
   // Another thread may have made the same one meanwhile.
-  const SeaInCell* other = nullptr;
+  const Eigen::MatrixXf* other = nullptr;
   return known.compare_exchange_strong(other, made.get()) ? *made.release() : *other;
 }
 

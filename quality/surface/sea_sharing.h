@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,13 +16,14 @@
 #include "quality/seas/seas_of_files.h"
 #include "quality/surface/node.h"
 #include "sea/correlation/pulse_correlation.h"
+#include "sea/correlation/pulse_pairs.h"
 
 namespace albtpu::quality {
 
 // Any number of threads may use it at a time, once all seas are added.
 class SeaSharing {
  public:
-  explicit SeaSharing(double cell) : cell_(cell) {}  // m
+  explicit SeaSharing(double cell) : pairs_(cell) {}  // m
 
   // The number of the sea.
   std::uint16_t Add(const SeaOfSource& sea);
@@ -29,7 +31,8 @@ class SeaSharing {
 
   // Angles in degree, `footprint` in m. Between beams at steps of incidence and azimuth it is interpolated, right to
   // 2 % of the variances, and the footprint is rounded to 4 %, which changes the correlation by less than 0.01.
-  SeaInCell operator()(std::uint16_t source, double incidence, double azimuth, double footprint) const;
+  SeaOfPulses operator()(std::uint16_t source, double incidence, double azimuth, double footprint,
+                         std::span<const Eigen::Vector2d> places) const;
 
  private:
   static constexpr int kIncidenceStep = 5, kMostIncidence = 30;  // degree
@@ -39,9 +42,9 @@ class SeaSharing {
     WaveCorrelation waves;
     double x_azimuth, water_index;
   };
-  // Of one sea and one footprint, by steps of incidence and azimuth; null where none was asked for yet.
+  // Tables of one sea and one footprint, by steps of incidence and azimuth; null where none was asked for yet.
   struct Beams {
-    std::array<std::atomic<const SeaInCell*>, std::size_t{kIncidences}* kAzimuths> known = {};
+    std::array<std::atomic<const Eigen::MatrixXf*>, std::size_t{kIncidences}* kAzimuths> known = {};
     ~Beams() {
       for (const auto& each : known) delete each.load();
     }
@@ -49,9 +52,9 @@ class SeaSharing {
   using Key = std::pair<std::uint16_t, int>;  // Sea, steps of ln footprint.
 
   Beams& BeamsOf(const Key& key) const;
-  const SeaInCell& At(Beams& beams, const Key& key, int incidence, int azimuth) const;
+  const Eigen::MatrixXf& At(Beams& beams, const Key& key, int incidence, int azimuth) const;
 
-  double cell_;
+  PulsePairs pairs_;
   std::vector<std::unique_ptr<const Sea>> seas_;
   mutable absl::Mutex mutex_;
   mutable std::map<Key, std::unique_ptr<Beams>> beams_ ABSL_GUARDED_BY(mutex_);

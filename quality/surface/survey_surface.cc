@@ -109,11 +109,13 @@ absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs
   SeaSharing sharing(facts.cell);
   for (const SeaOfSource& sea : facts.seas) sharing.Add(sea);
   const double cell = facts.cell / facts.map.metres_per_unit;
-  const NodeSources sources = {
-      .sea = [&](std::uint16_t source, double incidence, double azimuth,
-                 double footprint) { return sharing(facts.sources[source].sea, incidence, azimuth, footprint); },
-      .groups = [&](std::uint16_t source) { return facts.sources[source].groups; },
-      .place = [cell](const SurfacePoint& point) { return PlaceInCell(point, cell); }};
+  const NodeSources sources = {.sea =
+                                   [&](std::uint16_t source, double incidence, double azimuth, double footprint,
+                                       std::span<const Eigen::Vector2d> places) {
+                                     return sharing(facts.sources[source].sea, incidence, azimuth, footprint, places);
+                                   },
+                               .groups = [&](std::uint16_t source) { return facts.sources[source].groups; },
+                               .metres_per_unit = facts.map.metres_per_unit};
   std::vector<PointsFile> files;
   for (std::size_t i = 0; i < parts.size(); ++i)
     files.push_back({.path = parts[i].path, .end = parts[i].points_end, .sources = joined.sources[i]});

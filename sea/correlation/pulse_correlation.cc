@@ -68,6 +68,13 @@ SharedWaves BeamCorrelation::Between(const Eigen::Vector2d& apart, double later)
   return SharedBy(footprint, lags.MeanPairs(density, apart));
 }
 
+SharedWaves BeamCorrelation::SharedNearly(const WaveCovariance& footprint) const {
+  const Eigen::Matrix2d &shared = footprint.slopes, &own = pulse_.footprint.slopes;
+  const double squares = own.squaredNorm();
+  return {footprint, gain_ * shared * gain_.transpose(),
+          pulse_.second_order * (squares > 0 ? shared.squaredNorm() / squares : 0)};
+}
+
 SharedWaves BeamCorrelation::InCell(const SurfaceCell& cell) const {
   return SharedBy(waves_.InCell(cell),
                   sea_.at_once().MeanPairs(LagDensity(beam_, cell.side, cell.orientation), Eigen::Vector2d::Zero()));

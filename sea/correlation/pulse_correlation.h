@@ -50,9 +50,14 @@ class BeamCorrelation {
   BeamCorrelation(const WaveCorrelation& sea, const BeamOptions& beam, double refractive_index);
 
   const SharedWaves& pulse() const { return pulse_; }  // of a pulse with itself
+  const FootprintWaves& waves() const { return waves_; }
 
   // With a pulse whose footprint lies `apart` [m, at most 60] from it on the water, `later` [s].
   SharedWaves Between(const Eigen::Vector2d& apart, double later) const;
+
+  // Of two footprints with that covariance, as if these were short beside the waves: the second order goes with the
+  // square of the slopes' covariance. Its correlation is right within 0.03 under 0.6 m, within 0.08 under 1.5 m.
+  SharedWaves SharedNearly(const WaveCovariance& footprint) const;
 
   // Of the mean over a cell, of pulses that see the sea at one instant.
   SharedWaves InCell(const SurfaceCell& cell) const;

@@ -32,9 +32,11 @@ SurfacePoint PointAt(double time, std::uint16_t line = 1) {
 
 // Pulses share `shared` of the sea's variance over a cell.
 NodeSources Sharing(double shared, Eigen::Matrix3d errors = Eigen::Vector3d(0, 0, kSea / 25).asDiagonal()) {
-  SeaInCell sea = {.pulse = {.errors = errors}, .cell = {}};
-  for (SeaInCell::Variances& part : sea.cell) part.errors = shared * errors;  // Wherever pulses lie.
-  return {.sea = [=](auto...) { return sea; },
+  return {.sea =
+              [=](auto, auto, auto, auto, std::span<const Eigen::Vector2d> places) {
+                const auto n = static_cast<double>(places.size());
+                return SeaOfPulses{.pulse = {.errors = errors}, .pairs = {.errors = n * (n - 1) * shared * errors}};
+              },
           .groups = [](auto) { return HorizontalGroups{.pulse = 0.5, .line = 0.3, .survey = 0.2}; }};
 }
 
@@ -96,9 +98,10 @@ TEST(Node, OfASlopingBottomHasTheHorizontalErrorsToo) {
 TEST(Node, TakesTheHeightOfUnseenWavesForWhatTheSlopesDoNotExplain) {
   // The stated variance is that of slopes and a height of 0.0010 m^2, of which the cell keeps 0.9.
   NodeSources sources = Sharing(0.2, Eigen::Vector3d(0, 0, (kSea - 0.001) / 25).asDiagonal());
-  sources.sea = [of = sources.sea](auto... beam) {
-    SeaInCell sea = of(beam...);
-    sea.pulse.height = 0.01, sea.cell[0].height = 0.009;
+  sources.sea = [of = sources.sea](auto source, auto incidence, auto azimuth, auto footprint, auto places) {
+    SeaOfPulses sea = of(source, incidence, azimuth, footprint, places);
+    const auto n = static_cast<double>(places.size());
+    sea.pulse.height = 0.01, sea.pairs.height = n * (n - 1) * 0.009;
     return sea;
   };
   const std::vector<SurfacePoint> points(1000, PointAt(0));

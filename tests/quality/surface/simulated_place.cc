@@ -241,6 +241,8 @@ double SimulatedPlace::HeightAt(const Vector2d& at) { return -kDepth + kSlope.do
 
 Vector3d SimulatedPlace::Upward() { return {-kSlope.x(), -kSlope.y(), 1}; }
 
+WavesOfTwoPasses SimulatedPlace::OfTwoPasses() const { return {sea_, kFootprint, kIndex, Upward()}; }
+
 NodeSources SimulatedPlace::SourcesFor(double cell) const {
   const Vector3d of_pulse = kPulseSigma.cwiseAbs2(), of_line = (shared_ * kLineSigma).cwiseAbs2(),
                  of_survey = (shared_ * kSurveySigma).cwiseAbs2();
@@ -249,9 +251,7 @@ NodeSources SimulatedPlace::SourcesFor(double cell) const {
                                    .line = of_line.head<2>().sum() / all,
                                    .survey = of_survey.head<2>().sum() / all};
   const SeaSharing& sharing = SharingAt(cell);
-  return {.sea = [&sharing](auto... beam) { return sharing(beam...); },
-          .groups = [groups](auto) { return groups; },
-          .place = [cell](const SurfacePoint& point) { return PlaceInCell(point, cell); }};
+  return {.sea = [&sharing](auto... pass) { return sharing(pass...); }, .groups = [groups](auto) { return groups; }};
 }
 
 void SharedErrors::AddTo(std::vector<SurfacePoint>& points) const {
@@ -302,7 +302,7 @@ DrawnSurvey SimulatedPlace::Survey(std::uint64_t seed, std::span<const Vector2d>
         const double azimuth = 90 - DegreesOfRadians(pulse.azimuth), incidence = DegreesOfRadians(pulse.incidence);
         // What waves do to one pulse, per depth^2.
         const Eigen::Matrix3d of_waves =
-            sharing_.front().second->operator()(0, incidence, azimuth, kFootprint).pulse.errors;
+            sharing_.front().second->operator()(0, incidence, azimuth, kFootprint, {}).pulse.errors;
         const Vector3d g = Upward();
         survey.sum += by_waves, survey.squares += by_waves * by_waves, survey.stated += g.dot(of_waves * g);
         const Eigen::Matrix3d all = depth * depth * of_waves + others;

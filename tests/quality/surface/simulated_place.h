@@ -17,6 +17,7 @@
 #include "quality/surface/node.h"
 #include "quality/surface/sea_sharing.h"
 #include "sea/spectra/harmonic_spectrum.h"
+#include "tests/quality/surface/waves_of_two_passes.h"
 
 namespace albtpu::quality {
 
@@ -65,6 +66,8 @@ class SimulatedPlace {
   // All pulses, or, where `around` has some, those that calm water sends to within kReach of one of these.
   DrawnSurvey Survey(std::uint64_t seed, std::span<const Eigen::Vector2d> around = {}) const;
   SharedErrors DrawShared(std::uint64_t seed) const;
+  // What passes of a line share of the waves, x of whose sea is east.
+  WavesOfTwoPasses OfTwoPasses() const;
   // Nodes of cells of a side that was named.
   NodeSources SourcesFor(double cell) const;
 
