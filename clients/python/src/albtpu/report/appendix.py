@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from .markup import percent, table, text
-from .verdict import CONTRIBUTIONS, COVERAGES, SOURCES, Report, estimate_text, surface_model
+from .verdict import CONTRIBUTIONS, COVERAGES, SOURCES, Report, estimate_text
+
+
+def surface_model(report: Report) -> str:
+    """The table of the sea surface; its version says nothing where it was computed for the sea of the files."""
+    model = report["table"]
+    if model["id"] == "sea":
+        return "computed for the described sea"
+    return f"table {model['id']}, version {model['version']}"
 
 
 def appendix(report: Report) -> str:

@@ -38,7 +38,7 @@ def _summary(report: Report) -> str:
                                                   " [datum] name")],
             ["depths", "below the water surface at the time of the flight"],
             ["uncertainties at", COVERAGES[report["coverage"]]],
-            ["water-surface model used for refraction", text(verdict.surface_model(report))],
+            ["water-surface model used for refraction", text(appendix.surface_model(report))],
             ["made by", text(f"{report['program']} {report['program_version']}")]]
     for name in ("tvu", "thu"):
         if name in of_all:

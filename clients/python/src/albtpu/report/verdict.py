@@ -345,14 +345,6 @@ def _truth(report: Report) -> str:
     return text + "."
 
 
-def surface_model(report: Report) -> str:
-    """The table of the sea surface; its version says nothing where it was computed for the sea of the files."""
-    table = report["table"]
-    if table["id"] == "sea":
-        return "computed for the described sea"
-    return f"table {table['id']}, version {table['version']}"
-
-
 def difference_text(line: dict[str, Any]) -> str:
     """ "1.4 σ: as predicted" """
     return f"{abs(line['z']):.1f} σ: {'as predicted' if line['as_predicted'] else 'more than predicted'}"
