@@ -80,8 +80,7 @@ function(albtpu_precompile target headers)
   if(headers MATCHES "toml[+][+]")
     # It compiles its headers otherwise without.
     list(APPEND libraries tomlplusplus::tomlplusplus)
-    target_compile_definitions(${target} PRIVATE
-      $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_COMPILE_DEFINITIONS>)
+    target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_COMPILE_OPTIONS>)
   endif()
   if(test)
     list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <fstream> <numbers> <random>)
