@@ -40,7 +40,7 @@ constexpr std::array kFloats = {
     FloatLayer{"sigma_survey", "part of the standard deviation: what all points share",
                [](const SurfaceNode& n) { return std::sqrt(n.variance.survey); }},
     FloatLayer{"land_share", "share of the points over which no water lay",
-               [](const SurfaceNode& n) { return double{n.dry} / n.points; }, "1"},
+               [](const SurfaceNode& n) { return static_cast<double>(n.dry) / n.points; }, "1"},
     FloatLayer{"bias", "bias of the elevation, which is not taken away", [](const SurfaceNode& n) { return n.bias; }},
     FloatLayer{"shoalest", "elevation of the highest point", [](const SurfaceNode& n) { return n.shoalest; }},
     FloatLayer{"shoalest_uncertainty", "uncertainty of the highest point at 95 %",
