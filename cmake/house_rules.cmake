@@ -41,7 +41,7 @@ cmake_dependent_option(ALBTPU_UNITY "Compile several files of a library at a tim
                        "NOT CMAKE_DISABLE_PRECOMPILE_HEADERS" OFF)
 
 # Compile options of all our own code; to be called once for each target. Headers that most of its files include, such
-# as <Eigen/Core>, are precompiled beside those of all targets:
+# as <nlohmann/json.hpp>, are precompiled beside those of all targets:
 #   albtpu_target(NAME [<header> ...])
 function(albtpu_target target)
   albtpu_warn(${target})
@@ -54,18 +54,33 @@ function(albtpu_target target)
   cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
 endfunction()
 
+# For code that takes longer to optimize than it runs. Its headers are precompiled with the same option, because g++
+# optimizes as they were told.
+function(albtpu_optimize_less target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+    set_target_properties(${target} PROPERTIES ALBTPU_OPTIMIZATION -O1)
+  endif()
+endfunction()
+
 # Precompiles what most files include: half of the time of a short file goes into it. Targets that are compiled alike
 # and have the same `headers` share it, by an object library without code.
 function(albtpu_precompile target headers)
-  get_target_property(options ${target} ALBTPU_TEST_OPTIONS)
+  get_target_property(options ${target} ALBTPU_OPTIMIZATION)
+  if(NOT options)
+    set(options "")
+  endif()
+  get_target_property(test ${target} ALBTPU_TEST)
   get_target_property(relocatable ${target} POSITION_INDEPENDENT_CODE)
   set(libraries Eigen3::Eigen)
   if(headers MATCHES "toml[+][+]")
-    list(APPEND libraries tomlplusplus::tomlplusplus)  # It compiles its headers otherwise without.
+    set(toml tomlplusplus::tomlplusplus)
+    list(APPEND libraries ${toml})
+    # Its headers are compiled otherwise without these, which all that share them must have.
+    target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:${toml},INTERFACE_COMPILE_OPTIONS>)
+    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${toml},INTERFACE_COMPILE_DEFINITIONS>)
   endif()
-  if(options STREQUAL "options-NOTFOUND")
-    set(options "")
-  else()
+  if(test)
     list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <fstream> <numbers> <random>)
     list(APPEND libraries GTest::gmock GTest::gtest_main)
   endif()
@@ -88,7 +103,7 @@ function(albtpu_precompile target headers)
     target_precompile_headers(${group} PRIVATE
       <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
       <string_view> <utility> <vector> <absl/status/statusor.h> <absl/strings/str_cat.h> <absl/strings/str_format.h>
-      ${headers})
+      <Eigen/Core> ${headers})
   endif()
   target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
   target_precompile_headers(${target} REUSE_FROM ${group})
@@ -127,12 +142,10 @@ function(albtpu_test name label)
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  set(options "")
-  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT label STREQUAL "validation")
-    set(options -O1)
+  if(NOT label STREQUAL "validation")
+    albtpu_optimize_less(${name})
   endif()
-  target_compile_options(${name} PRIVATE ${options})
-  set_target_properties(${name} PROPERTIES ALBTPU_TEST_OPTIONS "${options}")
+  set_target_properties(${name} PROPERTIES ALBTPU_TEST ON)
   if(label STREQUAL "validation" AND NOT ARG_ONE_PROCESS)
     include(GoogleTest)
     gtest_discover_tests(${name} PROPERTIES LABELS ${label} COST 100 DISCOVERY_TIMEOUT 60)
