@@ -136,7 +136,7 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
   std::vector<std::vector<NodeSums>> of_cells(kCells.size(), std::vector<NodeSums>(places));
   std::vector<DrawnSurvey> drawn(places);
   const WavesOfTwoPasses two_passes = place.OfTwoPasses();
-  const std::size_t with_passes = c.shared > 0 ? 0 : EveryCase() ? 50 : 5;  // Places: theory takes long.
+  const std::size_t with_passes = c.shared > 0 ? 0 : EveryCase() ? 50 : 2;  // Places: theory takes long.
   tbb::parallel_for(std::size_t{0}, places, [&](std::size_t i) {
     drawn[i] = place.Survey(i + 1);
     for (int draw = 0; draw < draws; ++draw) {
