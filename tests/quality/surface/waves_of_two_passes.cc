@@ -61,8 +61,8 @@ double WavesOfTwoPasses::VarianceOf(std::span<const SurfacePoint> points) const 
     passes.push_back(points.subspan(begin, end - begin));
   }
   double sum = 0;
-  for (std::size_t i = 1; i < passes.size(); ++i) {
-    const std::span<const SurfacePoint> fore = passes[i - 1], aft = passes[i];
+  for (std::size_t pass = 1; pass < passes.size(); ++pass) {
+    const std::span<const SurfacePoint> fore = passes[pass - 1], aft = passes[pass];
     if (fore.front().flight_line != aft.front().flight_line) continue;
     const auto of_fore = static_cast<double>(fore.size()), of_aft = static_cast<double>(aft.size());
     const bool all = of_fore * of_aft <= kPairs;
