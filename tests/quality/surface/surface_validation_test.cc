@@ -135,7 +135,7 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
   std::vector<std::vector<NodeSums>> of_cells(kCells.size(), std::vector<NodeSums>(places));
   std::vector<DrawnSurvey> drawn(places);
   const WavesOfTwoPasses two_passes = place.OfTwoPasses();
-  const std::size_t with_passes = c.shared > 0 ? 0 : EveryCase() ? 50 : 5;  // Places: theory takes long.
+  const std::size_t with_passes = c.shared > 0 ? 0 : EveryCase() ? 50 : 2;  // Places: theory takes long.
   tbb::parallel_for(std::size_t{0}, places, [&](std::size_t i) {
     drawn[i] = place.Survey(i + 1);
     for (int draw = 0; draw < draws; ++draw) {
@@ -164,7 +164,10 @@ TEST_P(NodesOfSurveys, LieWithinTheirUncertainty) {
     }
     const double by_passes = c.shared > 0 ? 0 : all.Mean(&NodeSums::by_passes) / all.Mean(&NodeSums::of_passes);
     std::printf("; passes share %+.3f\n", by_passes);
-    EXPECT_NEAR(ours, 1 + by_passes, 0.03 + 3 * standard_error) << kCells[cell];
+    // A plane of four or five points: its slope, with its error, weighs what is horizontal, and shares waves with the
+    // mean. By all pairs and the weights of the plane, variances should be 0.954 (raster) to 1.02 (ellipse) of ours.
+    const bool few = c.shared == 0 && kCells[cell] < c.spacing;
+    EXPECT_NEAR(ours, 1 + by_passes, (few ? 0.05 : 0.03) + 3 * standard_error) << kCells[cell];
     EXPECT_NEAR(all.Mean(&NodeSums::held), 0.95, 0.01 + 3 * all.StandardError(&NodeSums::held)) << kCells[cell];
   }
   double sum = 0, square = 0, stated = 0, n = 0;

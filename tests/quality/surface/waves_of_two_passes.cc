@@ -1,8 +1,6 @@
 #include "tests/quality/surface/waves_of_two_passes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "quality/surface/node.h"
@@ -17,6 +15,8 @@ Eigen::Vector2d Along(const SurfacePoint& point) {
   const double azimuth = RadiansOfDegrees(90 - double{point.azimuth});
   return {std::cos(azimuth), std::sin(azimuth)};
 }
+
+std::size_t Part(double turns, double of) { return static_cast<std::size_t>((turns - std::floor(turns)) * of); }
 
 }  // namespace
 
@@ -52,7 +52,7 @@ double WavesOfTwoPasses::Covariance(const SurfacePoint& one, const SurfacePoint&
 }
 
 double WavesOfTwoPasses::VarianceOf(std::span<const SurfacePoint> points) const {
-  constexpr int kPairs = 24;  // Of two passes, spread over both.
+  constexpr int kPairs = 128;  // Of two passes.
   std::vector<std::span<const SurfacePoint>> passes;
   for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
     for (end = begin + 1; end < points.size(); ++end)
@@ -61,19 +61,20 @@ double WavesOfTwoPasses::VarianceOf(std::span<const SurfacePoint> points) const 
     passes.push_back(points.subspan(begin, end - begin));
   }
   double sum = 0;
-  for (std::size_t i = 1; i < passes.size(); ++i) {
-    const std::span<const SurfacePoint> fore = passes[i - 1], aft = passes[i];
+  for (std::size_t pass = 1; pass < passes.size(); ++pass) {
+    const std::span<const SurfacePoint> fore = passes[pass - 1], aft = passes[pass];
     if (fore.front().flight_line != aft.front().flight_line) continue;
-    const std::size_t all = fore.size() * aft.size(), some = std::min<std::size_t>(all, kPairs);
+    const auto of_fore = static_cast<double>(fore.size()), of_aft = static_cast<double>(aft.size());
+    const bool all = of_fore * of_aft <= kPairs;
+    const int pairs = all ? static_cast<int>(of_fore * of_aft) : kPairs;
     double mean = 0;
-    for (std::size_t k = 0; k < some; ++k) {
-      const std::size_t pair = all == some
-                                   ? k
-                                   : static_cast<std::size_t>(std::fmod(static_cast<double>(k) * std::numbers::phi, 1) *
-                                                              static_cast<double>(all));
-      mean += Covariance(fore[pair % fore.size()], aft[pair / fore.size()]) / static_cast<double>(some);
+    for (int k = 0; k < pairs; ++k) {
+      // Of many pairs, those of an even sequence in two dimensions (R2, of Roberts).
+      const auto i = all ? static_cast<std::size_t>(k) % fore.size() : Part(0.7548776662466927 * (k + 1), of_fore);
+      const auto j = all ? static_cast<std::size_t>(k) / fore.size() : Part(0.5698402909980532 * (k + 1), of_aft);
+      mean += Covariance(fore[i], aft[j]) / pairs;
     }
-    sum += 2 * mean * static_cast<double>(all);
+    sum += 2 * mean * of_fore * of_aft;
   }
   return sum / std::pow(static_cast<double>(points.size()), 2);
 }
