@@ -91,13 +91,10 @@ absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
   if (water_ != nullptr) {
     const bool is_kept = water_->identity == IdentityOf(water_->path);
     absl::StatusOr<std::shared_ptr<const Water>> read = is_kept ? water_ : ReadWater(water_->path);
-    if (read.ok()) {
+    if (read.ok())
       catalog.water_ = *std::move(read);
-      const std::string& id = catalog.water_->table.table().provenance().id;
-      reloaded.changes.push_back({id, is_kept ? Kind::kKept : Kind::kLoaded});
-    } else {
+    else
       failures.Add(read.status());
-    }
   }
   if (!failures.all().ok()) return failures.all();
   for (const std::shared_ptr<const Entry>& entry : entries_)

@@ -84,7 +84,7 @@ class TableCatalog {
 
 struct TableCatalog::Reloaded {
   TableCatalog catalog;
-  std::vector<Change> changes;  // Sorted like entries(); then that of the water, by its id, and removed tables.
+  std::vector<Change> changes;  // Sorted like entries(), without the water; removed tables come last.
 };
 
 // The tables currently in use, and their replacement when their files have changed. Thread-safe.

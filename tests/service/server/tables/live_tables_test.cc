@@ -11,9 +11,7 @@ namespace albtpu::server {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::HasSubstr;
-using ::testing::Pair;
 using Kind = TableCatalog::Change::Kind;
 
 class LiveTablesTest : public ::testing::Test {
@@ -134,10 +132,10 @@ TEST_F(LiveTablesTest, LoadTheTableOfTheWaterAgain) {
   tables_.emplace(std::move(catalog));
 
   const auto before = tables_->current();
-  EXPECT_THAT(Kinds(Reload()), Contains(Pair("water_column", Kind::kKept)));
+  EXPECT_EQ(Kinds(Reload()).size(), 2);  // Requests cannot name it, and clients of 0.1.0 do not expect it.
   EXPECT_EQ(tables_->current()->water(), before->water());
   put("3");
-  EXPECT_THAT(Kinds(Reload()), Contains(Pair("water_column", Kind::kLoaded)));
+  ASSERT_TRUE(Reload().ok());
   EXPECT_EQ(version(), "3");
   std::ofstream(path) << "not a table";
   Put("quick.h5", 2);

@@ -29,9 +29,9 @@ class AdminServiceServicer(object):
     """
 
     def ReloadTables(self, request, context):
-        """Reads the folder of tables again, as SIGHUP does. Call it after tables have been added, replaced or removed. All
-        new tables are checked completely before any of them is used; then all take effect at once. Calls in progress,
-        including streams, keep the tables with which they began.
+        """Reads the folder of tables and the table of the water column again, as SIGHUP does. Call it after tables have been
+        added, replaced or removed. All new tables are checked completely before any of them is used; then all take effect
+        at once. Calls in progress, including streams, keep the tables with which they began.
 
         Errors: FAILED_PRECONDITION if a file is damaged or is not a table, or if the folder as a whole is invalid; the
         message says which and why. Nothing has changed then, and all previous tables stay in use.
