@@ -11,7 +11,7 @@
 namespace albtpu::config {
 namespace {
 
-// What no survey to which a total is of use exceeds, and what a larger number may be in.
+// What a useful survey does not exceed, and the unit that a larger number may be in.
 struct Bound {
   std::string_view unit;
   double greatest;

@@ -8,7 +8,8 @@
 
 namespace albtpu::config {
 
-// A message for each: "[sigma] position is 17, 17, 17 m, more than 1 m: is it in m, not in cm or mm?"
+// A message for each: "[sigma] position is 17, 17, 17 m, more than 1 m: is it a standard deviation in m, not in cm or
+// mm?" The bounds are judgements: a survey beyond them is of little use.
 std::vector<std::string> Doubts(const SurveySettings& settings);
 
 }  // namespace albtpu::config

@@ -5,19 +5,13 @@
 #include <numbers>
 
 #include "sea/angle.h"
+#include "sea/catmull_rom.h"
 
 namespace albtpu::quality {
 namespace {
 
 constexpr double kFootprintStep = 0.04;                        // Of its logarithm.
 constexpr double kLeastFootprint = 0.01, kMostFootprint = 10;  // m, of BeamCorrelation.
-
-// Of the values at -1, 0, 1 and 2 for the one between 0 and 1, by the cubic of Catmull and Rom: exact for a parabola.
-// The vertical variance of a beam grows with the square of its incidence, and at nadir nothing but squares of slopes is
-// left of it, so that a straight line between two steps would be wrong by more than all of it.
-std::array<double, 4> CubicWeights(double t) {
-  return {t * (t * (2 - t) - 1) / 2, (t * t * (3 * t - 5) + 2) / 2, t * (t * (4 - 3 * t) + 1) / 2, t * t * (t - 1) / 2};
-}
 
 // On the map, of entries on the axes of a sea, x towards `x_azimuth`.
 SeaOfPulses::Variances OnMap(const Eigen::Matrix<double, PulsePairs::kEntries, 1>& of, double x_azimuth) {
@@ -46,13 +40,15 @@ SeaOfPulses SeaSharing::operator()(std::uint16_t source, double incidence, doubl
   const int j = static_cast<int>(std::floor(turned));
   const Key key = {source, width};
   Beams& beams = BeamsOf(key);
-  std::array<double, 4> of_incidence = CubicWeights(steep - i);
+  // The vertical variance of a beam grows with the square of its incidence, and at nadir nothing but squares of slopes
+  // is left of it, so that a straight line between two steps would be wrong by more than all of it.
+  std::array<double, 4> of_incidence = CatmullRomWeights(steep - i);
   if (i + 2 > kLast) {
     // Beyond the last step as the parabola through the last three.
     const double beyond = std::exchange(of_incidence[3], 0);
     of_incidence[2] += 3 * beyond, of_incidence[1] -= 3 * beyond, of_incidence[0] += beyond;
   }
-  const std::array<double, 4> of_azimuth = CubicWeights(turned - j);
+  const std::array<double, 4> of_azimuth = CatmullRomWeights(turned - j);
   const Eigen::VectorXf weights = places.size() > 1 ? pairs_.WeightsOf(places) : Eigen::VectorXf();
   Eigen::Matrix<double, PulsePairs::kEntries, 1> pulse, pairs;
   pulse.setZero(), pairs.setZero();

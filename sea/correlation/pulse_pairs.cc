@@ -1,8 +1,11 @@
 #include "sea/correlation/pulse_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "sea/catmull_rom.h"
 
 namespace albtpu {
 namespace {
@@ -45,16 +48,15 @@ void PulsePairs::Add(const Eigen::Vector2d& lag, double weight, Eigen::VectorXd&
   const double first = distance / kFirst, step = std::log(first + std::sqrt(1 + first * first)) / kStep;  // asinh
   const int j = std::min(static_cast<int>(step), distances_ - 3);
   const double t = step - j;
-  // The cubic of Catmull and Rom. On the other side of 0 are the same values.
-  const double shares[] = {t * (t * (2 - t) - 1) / 2, (t * t * (3 * t - 5) + 2) / 2, t * (t * (4 - 3 * t) + 1) / 2,
-                           t * t * (t - 1) / 2};
+  const std::array<double, 4> shares = CatmullRomWeights(t);  // On the other side of 0 are the same values.
   const double squared = std::max(distance * distance, 1e-18);
   const double cosine2 = (lag.x() * lag.x() - lag.y() * lag.y()) / squared, sine2 = 2 * lag.x() * lag.y() / squared;
   const double cosine4 = cosine2 * cosine2 - sine2 * sine2, sine4 = 2 * sine2 * cosine2;
   const Eigen::Matrix<double, kHarmonics, 1> harmonics(
       {1, cosine2, sine2, cosine4, sine4, cosine4 * cosine2 - sine4 * sine2, sine4 * cosine2 + cosine4 * sine2});
   for (int n = 0; n < 4; ++n)
-    weights.segment<kHarmonics>(kHarmonics * std::abs(j + n - 1)) += weight * shares[n] * harmonics;
+    weights.segment<kHarmonics>(kHarmonics * std::abs(j + n - 1)) +=
+        weight * shares[static_cast<std::size_t>(n)] * harmonics;
 }
 
 Eigen::VectorXf PulsePairs::WeightsOf(std::span<const Eigen::Vector2d> places) const {
