@@ -1,6 +1,7 @@
 #include "annotate/run/annotation_run.h"
 
 #include <algorithm>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -82,6 +83,7 @@ class Run {
       if (complete.ok()) {
         progress_.Skip(SizeOf(job.input));
         Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
+        PrintSummary(job);
         Judge(job, AnswerTally::FromJson(ReadAnswers(job)));
         return complete;
       }
@@ -100,8 +102,14 @@ class Run {
     RETURN_IF_ERROR(
         CommitWithSummary(std::move(annotated.file), job, summary, run_.existing, std::move(annotated.csv)));
     Note(absl::StrCat(job.output.string(), ":"), annotated.text);
+    PrintSummary(job);
     Judge(job, annotated.findings.tally);
     return absl::OkStatus();
+  }
+
+  // As it was written: whoever reads the file reads the same.
+  void PrintSummary(const Job& job) const {
+    if (run_.json) std::cout << ReadSummary(SummaryPath(job.output)).dump() << std::endl;
   }
 
   // With --overwrite, an output that has the name of a file which the run reads would replace it.

@@ -31,6 +31,7 @@ struct AnnotationRun {
   std::vector<std::filesystem::path> files = {};  // Read beside the inputs.
   bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
+  bool json = false;  // Print the summary of each output that is written or kept, a line each, on standard output.
   std::function<absl::StatusOr<AnnotatedFile>(const Job&, FileProgress&)> annotate;
   CauseContext cause = {};  // The inputs of the coordinates, for the verdict.
 };

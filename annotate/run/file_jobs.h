@@ -22,6 +22,7 @@ struct FileOptions {
   std::string output_folder;       // --output-dir
   bool recursive = false;          // --recursive
   bool resume = false;             // --resume
+  bool json = false;               // --json
   std::string output_extension;    // Of the outputs in the folder; empty: that of each input.
 };
 

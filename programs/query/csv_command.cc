@@ -237,6 +237,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
        .files = files,
        .resume = options.files.resume,
        .existing = options.existing,
+       .json = options.files.json,
        .annotate = annotate,
        .cause = {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)}},
       source.table());

@@ -275,6 +275,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
+       .json = options.files.json,
        .annotate = [&](const annotate::Job& job,
                        annotate::FileProgress& progress) { return files.Annotate(job, progress); },
        .cause = ContextOf(annotation.plan, source.table())},

@@ -112,6 +112,10 @@ void AddFileOptions(CLI::App& command, const std::string& extension, annotate::F
                 "Keep finished outputs whose summaries state the same input, parameters and table")
       ->group(group::kFiles);
   command
+      .add_flag("--json", options.json,
+                "Print the summary of each output, one JSON object a line, as it is in the file beside it")
+      ->group(group::kFiles);
+  command
       .add_flag_callback(
           "--overwrite", [&existing] { existing = Existing::kReplace; }, "Replace outputs that exist")
       ->group(group::kFiles);

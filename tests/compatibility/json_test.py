@@ -223,7 +223,7 @@ class Json(unittest.TestCase):
         commands = set(re.findall(r"^  ([a-z-]+)\b", listed, re.MULTILINE)) - {"init"}
         self.assertEqual({name.split()[0] for name in self.schema.commands if "albtpu" not in name}, commands)
         self.assertEqual(set(self.schema.commands.values()), set(WRITTEN))
-        for command in commands - {"las", "csv"}:
+        for command in commands:
             self.assertIn("--json", run(QUERY, command, "--help").stdout, command)
 
     def test_every_type_is_described_and_every_number_has_a_unit(self):

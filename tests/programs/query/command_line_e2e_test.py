@@ -94,7 +94,7 @@ class CommandLineTest(programs.Test):
     def test_flags_without_effect_are_bad_usage(self):
         files = ("in.csv", "out.csv", "--table", self.table)
         for command, flags in ((("tables",), ("--standard-errors",)), (("tables",), ("--depth", 3)),
-                               (("pulse", *PULSE), ("--overwrite",)), (("csv", *files), ("--json",)),
+                               (("pulse", *PULSE), ("--overwrite",)),
                                (("csv", *files), ("--classes", 40)), (("csv", *files), ("--token-file", "token")),
                                (("las", *files), ("--depth", 3)), (("health",), ("--table", self.table)),
                                (("health", "--server", "localhost:1"), ("--coverage", "p95"))):

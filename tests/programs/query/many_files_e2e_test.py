@@ -57,6 +57,19 @@ class ManyFilesTest(programs.Test):
                 np.testing.assert_allclose(band[name]["mean"], values.mean(dtype=float), rtol=1e-12)
         self.assertEqual(sum(band["pulses"] for band in answers["depth_bands"]), np.count_nonzero(thu >= 0))
 
+    def test_summaries_are_printed_a_line_each(self):
+        survey, out = self.make_survey(2)
+        arguments = ("las", survey, "--output-dir", out, "--table", self.table, *FLAGS, "--json")
+        for more in ((), ("--resume",)):  # Written, and kept.
+            lines = query(*arguments, *more, check=0).stdout.splitlines()
+            written = [json.loads((out / f"line{i}.las.json").read_text()) for i in range(2)]
+            self.assertEqual([json.loads(line) for line in lines], written)
+        # A file that fails has no line.
+        (survey / "line0.las").write_bytes(b"LASF")
+        failed = query(*arguments, "--overwrite")
+        self.assertEqual(failed.returncode, 1)
+        self.assertEqual([json.loads(line)["output"]["name"] for line in failed.stdout.splitlines()], ["line1.las"])
+
     def digest(self):
         text = query("tables", "--table", self.table, check=0).stdout
         return next(line.split()[1] for line in text.splitlines() if line.split()[0] == "digest")
