@@ -38,8 +38,8 @@ std::string SampleBytes(const std::string& name) {
 
 constexpr std::uint64_t kLongChunk = 1000;  // Points.
 // Bits to flip: in chunks that take long to decode, fewer.
-constexpr int kFlips = 2000;
-constexpr std::uint64_t kFlippedPoints = 4'000'000;
+constexpr int kFlips = 1000;
+constexpr std::uint64_t kFlippedPoints = 2'000'000;
 
 struct Outcomes {
   int refused = 0, other_points = 0, same_points = 0;

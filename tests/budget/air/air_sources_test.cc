@@ -123,7 +123,7 @@ TEST(AirSources, AgreeWithDrawnErrors) {
     const double radius = RadiusFactor95(std::sqrt(ellipse.eigenvalues()[0] / ellipse.eigenvalues()[1])) * 2 *
                           std::sqrt(ellipse.eigenvalues().sum());
     const Vector3d truth = ReportedPoint<double>(pulse, given, Unknowns::Zero());
-    constexpr int kDraws = 1'000'000;
+    constexpr int kDraws = 400'000;
     Matrix3d squares = Matrix3d::Zero();
     int inside = 0;
     for (int draw = 0; draw < kDraws; ++draw) {

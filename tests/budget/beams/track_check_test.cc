@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 
 #include "sea/angle.h"
 #include "tests/budget/beams/ray_flight.h"
+#include "tests/every_case.h"
 
 namespace albtpu {
 namespace {
@@ -200,7 +200,7 @@ TEST_P(TrackCheckOf, ARotationIsNamed) {
 
 TEST(TrackCheck, NeverRefusesARightTrack) {
   int agreeing = 0;
-  const int flights = std::getenv("ALBTPU_EVERY_CASE") != nullptr ? 200 : 100;
+  const int flights = albtpu::testing::EveryCase() ? 200 : 60;
   for (int i = 0; i < flights; ++i) {
     const SimulatedFlight flight({.scanner = static_cast<ScannerKind>(i % 3),
                                   .height = 200.0 + 4 * ((i * 37) % 100),

@@ -94,7 +94,7 @@ TEST(CorrelationTwin, HasTheProductsOfSlopesOfCells) {
     for (const BeamOptions& beam : kBeams) {
       const Eigen::Matrix3d whole = Pairs(spectrum, beam, {.side = 0});
       const Eigen::Matrix3d one = lags.MeanPairs(LagDensity(beam), {0, 0});
-      for (const double side : {0.1, 0.5, 2.0}) {
+      for (const double side : {0.1, 2.0}) {
         const SurfaceCell cell{.side = side, .orientation = 0.3};
         const Eigen::Matrix3d twin = Pairs(spectrum, beam, cell) / whole.trace();
         const Eigen::Matrix3d found = lags.MeanPairs(LagDensity(beam, side, 0.3), {0, 0}) / one.trace();

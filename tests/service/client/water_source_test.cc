@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "service/client/server_source.h"
 #include "tests/budget/query/budget_memory.h"
 #include "tests/budget/water/known_waters.h"
+#include "tests/every_case.h"
 #include "tests/service/client/running_server.h"
 #include "tests/service/known_seas.h"
 #include "tests/tables/water/shipped_water.h"
@@ -75,7 +75,7 @@ TEST(WaterSource, GivesTheBitsOfTheColumnsThatAClientComputes) {
   std::size_t beyond = 0, answered = 0;
   // Each water is compiled twice, for half a second. WaterRequest's tests send all kinds, too.
   const std::vector<KnownWater> waters = albtpu::testing::WatersOfAllKinds();
-  const std::size_t step = std::getenv("ALBTPU_EVERY_CASE") != nullptr ? 1 : 3;
+  const std::size_t step = albtpu::testing::EveryCase() ? 1 : 5;
   for (std::size_t k = 0; k < waters.size(); k += step) {
     const KnownWater& water = waters[k];
     const CompiledWater compiled = Compiled(water);

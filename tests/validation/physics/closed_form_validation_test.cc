@@ -14,6 +14,7 @@
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
 #include "sea/spectra/wind_sea.h"
+#include "tests/every_case.h"
 #include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
@@ -117,7 +118,8 @@ double SeenFraction(const SeaCase& sea_case) {
 
 // The result of `albtpu-generate point`.
 TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
-  constexpr int kConditions = 40, kRealizations = 200;
+  const int kConditions = albtpu::testing::EveryCase() ? 40 : 24;
+  constexpr int kRealizations = 200;
   Draws draws;
   int judged = 0;
   // Three quantities each. With this number of standard errors chance alone fails the test in one case of twenty.

@@ -22,7 +22,7 @@ using albtpu::testing::kDegree;
 constexpr double kDepth = 10;  // m
 constexpr double kFootprint = 0.5, kPointsPerFootprint = 64;
 constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven peak wavelengths
-constexpr int kSurfaces = 40, kPlaces = 36, kRaysOfPlace = 4000;
+constexpr int kSurfaces = 40, kPlaces = 36, kRaysOfPlace = 2000;
 const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
 const std::vector<BeamOptions> kBeams = {{.footprint = kFootprint},

@@ -18,6 +18,7 @@
 #include "sea/table/sea_table.h"
 #include "sea/table/table_at_index.h"
 #include "tables/query/interpolation.h"
+#include "tests/every_case.h"
 #include "validation/studies/closed_form_ratio.h"
 #include "validation/studies/response_comparison.h"
 #include "validation/studies/studies.h"
@@ -122,7 +123,7 @@ void ExpectAgreement(const std::vector<Node>& nodes, const SpectrumModel& model,
 TEST(SeaResponse, AgreesWithTracingOnAFineGridOverYoungAndSteepSeas) {
   ExpectAgreement(
       {{4.1, 1170, 25, 24, 1.45}, {15, 1170, 25, 90, 0.832}, {2.5, 15700, 14, 24, 4.39}, {15, 1310, 1, 0, 0.212}},
-      kApelModel, {.realizations = 1000, .finer = 4});
+      kApelModel, {.realizations = albtpu::testing::EveryCase() ? 1000 : 500, .finer = 4});
 }
 
 // The nodes of survey.h5 that differ most in refraction along and across, THU and TVU (survey_table_validation_test):
@@ -130,7 +131,7 @@ TEST(SeaResponse, AgreesWithTracingOnAFineGridOverYoungAndSteepSeas) {
 TEST(SeaResponse, AgreesWithTracingWhereTheTableDiffersMost) {
   ExpectAgreement(
       {{1.2, 5200, 25, 22, 0.95}, {2.55, 180e3, 25, 79, 4.4}, {2.1, 430e3, 25, 0, 4.4}, {3.8, 2350, 25, 79, 3.85}},
-      kElfouhailyModel, {.realizations = 4000});
+      kElfouhailyModel, {.realizations = albtpu::testing::EveryCase() ? 4000 : 2000});
 }
 
 }  // namespace

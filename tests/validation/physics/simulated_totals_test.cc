@@ -35,7 +35,7 @@ constexpr double kWind = 6, kFetch = 20'000, kFootprint = 0.6, kIndex = 1.33;
 constexpr std::array<double, 4> kIncidences = {1, 10, 18, 25};  // degree
 constexpr std::array<double, 3> kAzimuths = {0, 40, 80};        // degree from downwind
 constexpr std::array<double, 4> kDepths = {1, 4, 10, 20};       // m
-constexpr int kRealizations = 3000;
+constexpr int kRealizations = 2000;
 constexpr int kLines = 21'000, kPulsesOfLine = 48;  // 1 008 000 points
 
 const AirErrors kErrors = {.position = {0.02, 0.02, 0.06},

@@ -163,7 +163,7 @@ TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
   }
   const absl::StatusOr<UncertaintyTable> table = ReadTable(file);
   const bool elfouhaily = table->provenance().campaign.find("elfouhaily") != std::string::npos;
-  const std::size_t stride = std::getenv("ALBTPU_EVERY_SEA") != nullptr ? 1 : 5;
+  const std::size_t stride = std::getenv("ALBTPU_EVERY_SEA") != nullptr ? 1 : 8;
   const std::array<std::vector<float>, kQuantityCount> theory =
       TheoryOn(table->axes(), elfouhaily ? kElfouhailyModel : kApelModel, stride);
   const std::vector<double>& depths = table->axis(AxisId::kDepth).nodes();
