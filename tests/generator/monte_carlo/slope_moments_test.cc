@@ -33,7 +33,7 @@ double Form(const Eigen::Vector3d& squares) {
 // A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages over many
 // waves.
 TEST(SlopeMoments, AndProductsWithTheHeightAreThoseOfManySurfaces) {
-  constexpr int kSurfaces = 1500, kRays = 2000;
+  constexpr int kSurfaces = 800, kRays = 2000;
   const SeaState sea(8, std::numeric_limits<double>::infinity());
   for (const double footprint : {0.2, 3.0}) {
     const BeamOptions options{.incidence = 0.3, .azimuth = 0.6, .footprint = footprint};

@@ -152,7 +152,7 @@ TEST_F(ModerateSea, ExtendsBeyondTheRaysOfItsBeam) {
 // Elevation and slope of one facet at the centre of a vertical beam are normal variables. Their variances over n draws
 // have the relative standard error sqrt(2/n).
 TEST_F(ModerateSea, HasTheVariancesOfTheSpectrum) {
-  constexpr int kDraws = 4000;
+  constexpr int kDraws = 2000;
   const Beam nadir({.footprint = options_.footprint}, 1);
   double elevation = 0;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
