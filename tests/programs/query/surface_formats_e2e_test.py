@@ -44,7 +44,7 @@ def setUpModule():
     global flight, annotated, made
     folder = pathlib.Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, folder)
-    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 5000,
+    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 2500,
                              "--file-for-each-line", "--range-noise", 0.02).folder
     annotated, made = folder / "annotated", folder / "surface"
     reported_survey.annotate(flight, annotated, programs.PATHS["shipped_table"])
