@@ -26,7 +26,9 @@ azimuth = [0, 90]
 footprint = [0.25, 1]
 depth = [0, 10]
 [effort]
-realizations = 20
+realizations = 40
+[interpolation]
+checked_pulses = 16
 """
 ONE_BEAM = CAMPAIGN  # One cell, where a test asks for any table.
 for several, one in (("[3, 6]", "[5]"), ("[5000, inf]", "[inf]"), ("[0, 20]", "[10]"), ("[0, 90]", "[0]"),

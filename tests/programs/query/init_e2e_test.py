@@ -254,7 +254,8 @@ class FirstContact(InitTest):
             self.assert_totals(self.answer("las", SAMPLE)[1])
 
     def test_gives_an_example_that_fits_what_is_given(self):
-        survey = SimulatedSurvey(self.folder / "flight", "--seconds", 4, "--altitude", 350)  # Its returns give the trajectory.
+        # Its returns give the trajectory.
+        survey = SimulatedSurvey(self.folder / "flight", "--seconds", 4, "--altitude", 350)
         lines = self.folder / "lines"
         lines.mkdir()
         (self.folder / "FOLDER").mkdir()
@@ -283,7 +284,7 @@ class FirstContact(InitTest):
             with self.subTest(inputs=inputs, flags=flags):
                 _, line = self.answer("las", *inputs, *flags)
                 self.assertIn(said, line)
-                if "--incidence 20" in line and "--footprint" not in line:  # At 400 m: one of more than 2 m.
+                if "--incidence 20" in line and "--footprint" not in line:  # A footprint of more than 2 m.
                     self.ship()
                 self.assert_totals(line + " --overwrite")
 
