@@ -82,8 +82,8 @@ class Killed(faults.FaultTest):
         flags = ("--server", self.serve().address, *flags)
         programs.query(command, survey, "--output-dir", expected, *flags, check=0)
         complete = {path.name: path.read_bytes() for path in expected.iterdir()}
-        most = max(map(len, complete.values()))
-        kills = 0
+        most = 2 * max(map(len, complete.values()))  # Two files may be written at a time.
+        kills = seen = 0
         for _ in range(CLIENT_KILLS):
             client = self.start_query(command, survey, "--output-dir", out, *flags, "--resume")
             if wait_for_written(client, most * self.random.random()):
@@ -92,10 +92,12 @@ class Killed(faults.FaultTest):
             client.wait()
             for path in out.iterdir():  # A file that has its name is complete.
                 self.assertEqual(path.read_bytes(), complete.get(path.name), path.name)
+                seen += 1
         programs.query(command, survey, "--output-dir", out, *flags, "--resume", check=0)
         self.assertEqual({path.name: path.read_bytes() for path in out.iterdir()}, complete)
-        print(f"{command}: the client was killed {kills} times")
+        print(f"{command}: the client was killed {kills} times, and left {seen} files")
         self.assertGreater(kills, CLIENT_KILLS // 2)
+        self.assertGreater(seen, 0)
 
     def test_client_leaves_only_complete_las_files(self):
         (self.folder / "survey").mkdir()
