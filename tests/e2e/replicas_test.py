@@ -22,8 +22,8 @@ from serving import PATIENCE, Server
 NAME = "replicas.test"  # A domain reserved for tests (RFC 6761).
 ADDRESSES = ("127.0.0.1", "127.0.0.2")
 QUERY = sys.argv[3]
-PULSES = 10_000_000  # A few tenths of a second from Python.
-LINES = 1_500_000  # About a second of CSV.
+PULSES = 6_000_000  # A few tenths of a second from Python.
+LINES = 1_000_000  # Some tenths of a second of CSV.
 
 
 class Replica(Server):
@@ -127,9 +127,9 @@ class Replicas(unittest.TestCase):
             disturbed, = answers
             undisturbed = service.query(**pulses)
         self.assertEqual(disturbed.outcomes.size, PULSES)
-        np.testing.assert_array_equal(disturbed.outcomes, undisturbed.outcomes)
+        self.assertEqual(disturbed.outcomes.tobytes(), undisturbed.outcomes.tobytes())
         for name, values in undisturbed.values.items():
-            np.testing.assert_array_equal(disturbed.values[name], values)
+            self.assertTrue(np.array_equal(disturbed.values[name], values, equal_nan=True), name)
 
 
 if __name__ == "__main__":

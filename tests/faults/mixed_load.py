@@ -283,7 +283,7 @@ class Run:
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("programs", nargs="+", metavar="NAME=PATH")
-    parser.add_argument("--minutes", type=float, default=0.25)
+    parser.add_argument("--minutes", type=float, default=0.15)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         programs = dict(program.split("=", 1) for program in arguments.programs)

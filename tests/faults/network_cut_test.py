@@ -47,8 +47,9 @@ class Python:
                 self.begun.set()
                 while not self.enough.is_set():
                     again = service.query(**pulses)
-                    for name in ("thu", "tvu", "outcome"):
-                        np.testing.assert_array_equal(getattr(again, name), getattr(self.answer, name))
+                    for name in ("thu", "tvu", "outcomes"):
+                        if getattr(again, name).tobytes() != getattr(self.answer, name).tobytes():
+                            raise AssertionError(f"another answer has another {name}")
         except Exception as failure:  # Checked by the test.
             self.failure = failure
 
@@ -66,9 +67,9 @@ class NetworkCut(faults.FaultTest):
         made = tempfile.TemporaryDirectory()
         cls.addClassCleanup(made.cleanup)
         cls.inputs = pathlib.Path(made.name)
-        cls.las = many_files.repeat(programs.make_flight(cls.inputs / "flight.las"), cls.inputs / "long.las", 200)
+        cls.las = many_files.repeat(programs.make_flight(cls.inputs / "flight.las"), cls.inputs / "long.las", 100)
         cls.csv = cls.inputs / "long.csv"
-        cls.many = faults.random_pulses(400_000)
+        cls.many = faults.random_pulses(150_000)
         rows = io.StringIO()
         np.savetxt(rows, np.column_stack(list(cls.many.values())).astype(float), "%.9g", ",")
         # Many more pulses than are queried ahead of the output.

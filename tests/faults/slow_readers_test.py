@@ -25,7 +25,7 @@ MAX_STREAM_IDLE = min(60, 15 * serving.ALLOWANCE)
 FLAGS = ("--metrics", "127.0.0.1:0", "--max-stream-idle", str(MAX_STREAM_IDLE))
 READ_NOTHING, READ_A_BYTE_AT_A_TIME = 150, 100
 PULSES = 6000  # Per request; two requests fit the server's initial window.
-BYTES_READ = 50  # By each client that reads a byte at a time.
+BYTES_READ = 20  # By each client that reads a byte at a time.
 CONNECTION_BYTES = 64 << 10  # Memory of a connection on the server, without its messages.
 OPEN_WINDOW = http2.settings(_4=2**31 - 1) + http2.window_update(0, 2**31 - 1 - 65535)
 

@@ -21,6 +21,7 @@ GENERATE = sys.argv[1]
 MPIRUN = shutil.which(sys.argv[2]) if sys.argv[2:] else None
 
 CAMPAIGN = (pathlib.Path(__file__).resolve().parents[2] / "generator/six_seas.toml").read_text()
+CAMPAIGN = CAMPAIGN.replace("realizations = 40", "realizations = 20")  # Bytes are compared, not the sea.
 UNITS = 12 + 4  # encounters and pulses
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMI", "SLURM_"))}

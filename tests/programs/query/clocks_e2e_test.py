@@ -28,7 +28,7 @@ class ClocksTest(programs.Test):
 
     def setUp(self):
         super().setUp()
-        self.survey = SimulatedSurvey(self.folder, "--seconds", 20, "--seed", 3)
+        self.survey = SimulatedSurvey(self.folder, "--seconds", 20, "--pulse-rate", 500, "--seed", 3)
         if ClocksTest.right is None:
             ClocksTest.right = self.annotated(self.survey.las)
 

@@ -172,7 +172,7 @@ class DaysTest(programs.Test):
             np.testing.assert_allclose(columns[name], right[name], rtol=1e-6, atol=1e-6, err_msg=name)
 
     def test_each_point_finds_its_day(self):
-        survey = SimulatedSurvey(self.folder, "--seconds", 20, "--seed", 3)
+        survey = SimulatedSurvey(self.folder, "--seconds", 20, "--pulse-rate", 500, "--seed", 3)
         right, _ = self.annotate(survey, survey.las, [survey.sbet])
         days = self.folder / "days"
         days.mkdir()
@@ -188,7 +188,7 @@ class DaysTest(programs.Test):
         self.assert_same(columns, right)
 
     def test_the_same_hours_of_another_week_are_left_out_where_they_are_elsewhere(self):
-        survey = SimulatedSurvey(self.folder, "--seconds", 20, "--seed", 3)
+        survey = SimulatedSurvey(self.folder, "--seconds", 20, "--pulse-rate", 500, "--seed", 3)
         right, _ = self.annotate(survey, survey.las, [survey.sbet])
         weeks = self.folder / "weeks"
         weeks.mkdir()
@@ -202,7 +202,8 @@ class DaysTest(programs.Test):
 
     def test_saturday_midnight_lies_between_two_files(self):
         for time in ("week", "adjusted"):
-            survey = SimulatedSurvey(self.folder, "--seconds", 20, "--seed", 3, "--time", time, "--start", WEEK - 10)
+            survey = SimulatedSurvey(self.folder, "--seconds", 20, "--pulse-rate", 500, "--seed", 3, "--time", time,
+                                     "--start", WEEK - 10)
             whole, _ = self.annotate(survey, survey.las, [survey.sbet])
             days = self.folder / f"days_{time}"
             days.mkdir()

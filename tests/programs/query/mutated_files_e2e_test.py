@@ -14,7 +14,7 @@ from las_file import LasFile
 from programs import query
 from simulated_survey import SimulatedSurvey
 
-MUTATIONS = 2000 if os.environ.get("ALBTPU_EVERY_CASE") else 300
+MUTATIONS = 2000 if os.environ.get("ALBTPU_EVERY_CASE") else 200
 # Sound files: scanner, coordinate system, version and format, clock, georeference and density differ.
 SOUND = ((), ("--las-version", 2, "--point-format", 1),
          ("--grid", "florida-east-ft"), ("--grid", "geographic"),

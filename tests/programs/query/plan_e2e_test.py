@@ -195,7 +195,7 @@ class PlanOfHours(programs.Test):
         depths = [each["depth"] for each in hours["by_depth"]]
         altitude = next(axis for axis in plan["axes"] if axis["name"] == "altitude")
         for row, value in enumerate(altitude["values"]):
-            for column, depth in enumerate(depths[:5]):
+            for column, depth in list(enumerate(depths))[:5:2]:
                 met = [self.order_met(hour, depth, value, plan["conditions"]["incidence"]) in ORDERS[:2]
                        for hour in (0, 1, 2, 8, 9)]
                 self.assertAlmostEqual(altitude["share"]["special"][row][column], sum(met) / 5, places=9,

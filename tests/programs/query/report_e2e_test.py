@@ -278,18 +278,6 @@ class Named(Report):
         self.assertIn(f"<td>{table}</td>", page)
         self.assertIn(f"Water-surface model used for refraction: {table}.", page)
 
-    def test_says_that_waves_were_described_and_what_was_entered_of_the_water(self):
-        line, flight = self.folder / "waves.las", self.flight / "flight_1.las"
-        survey = self.toml("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nclasses = [41]\n[[sea.waves]]\nhs = 0.5\n"
-                           "tp = 3\nwaves_from = 230\n[datum]\nsigma = 0\n[water]\nkd = 0.15\nkd_kind = 'diffuse532'\n"
-                           "detector = 'peak'\nfield_of_view = 3\npulse_length = 1.5\nbias = 'none'\n")
-        query("las", flight, line, "--survey", survey, "--trajectory", self.flight / "sbet.out", "--wind-speed", 5,
-              "--classes", 40, "--details", check=0)
-        query("report", line, "--output", self.folder / "of_waves", check=0)
-        page = (self.folder / "of_waves/report.html").read_text()
-        self.assertIn("<td>computed for the described sea</td>", page)
-        self.assertIn("<td>Kd = 0.15 1/m of kind diffuse532: 0.1275 1/m</td>", page)
-
 
 @unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
 class Paper(Report):
@@ -312,7 +300,8 @@ class Paper(Report):
 
 
 class Another(Report):
-    """The report of a line whose dry points have no total, against a specification of the user's."""
+    """The report of a line whose dry points have no total and whose waves are described, against a specification of the
+    user's."""
 
     @classmethod
     def setUpClass(cls):
@@ -320,8 +309,13 @@ class Another(Report):
         made, folder = reported_survey.SURVEYS[0], make_folder(cls.addClassCleanup)
         line, own, cls.another = folder / "bathymetric", folder / "own.toml", folder / "another"
         line.mkdir()
-        query("las", sorted(made.flight.glob("*.las"))[0], line / "line.las", "--survey",
-              made.annotated.with_suffix(".toml"), "--points", "bathymetric", "--table", made.one_table, check=0)
+        survey = folder / "waves.toml"
+        survey.write_text("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nclasses = [41]\n[[sea.waves]]\nhs = 0.5\n"
+                          "tp = 3\nwaves_from = 230\n[datum]\nsigma = 0\n[water]\nkd = 0.15\nkd_kind = 'diffuse532'\n"
+                          "detector = 'peak'\nfield_of_view = 3\npulse_length = 1.5\nbias = 'none'\n")
+        query("las", sorted(made.flight.glob("*.las"))[0], line / "line.las", "--survey", survey, "--trajectory",
+              made.flight / "sbet.out", "--wind-speed", 5, "--classes", 40, "--details", "--points", "bathymetric",
+              check=0)
         own.write_text("title = 'My <harbour>'\nsource = 'me'\n[[class]]\nname = 'berths'\ncoverage = 'p95'\n"
                        "vertical = {constant = 0.01}\n")
         query("report", line, "--output", cls.another, "--spec", own, check=0)
@@ -338,6 +332,10 @@ class Another(Report):
         self.assertIn("My &lt;harbour&gt;", self.page)
         self.assertNotIn("My <harbour>", self.page)
         self.assertIn("What would help most", self.page)
+
+    def test_says_that_waves_were_described_and_what_was_entered_of_the_water(self):
+        self.assertIn("<td>computed for the described sea</td>", self.page)
+        self.assertIn("<td>Kd = 0.15 1/m of kind diffuse532: 0.1275 1/m</td>", self.page)
 
 
 if __name__ == "__main__":

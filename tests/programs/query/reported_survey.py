@@ -56,7 +56,7 @@ class Survey:
 
     def __init__(self, folder, *flags):
         self.flight = SimulatedSurvey(folder / "flight", "--lines", LINES, "--cross-lines", 1, "--seconds", 5,
-                                      "--pulse-rate", 2500, "--file-for-each-line").folder
+                                      "--pulse-rate", 1000, "--file-for-each-line").folder
         self.annotated = folder / "annotated"
         self.one_table = programs.make_table(folder / "quick.h5")
         self.annotation = annotate(self.flight, self.annotated, self.one_table).stderr

@@ -19,7 +19,7 @@ class WrongTrajectoryTest(programs.Test):
     def survey(self, *flags, name="survey"):
         folder = self.folder / name
         folder.mkdir(exist_ok=True)
-        return SimulatedSurvey(folder, "--seconds", 20, *flags)
+        return SimulatedSurvey(folder, "--seconds", 20, "--pulse-rate", 400, *flags)
 
     def query(self, survey, trajectory, *flags, lever_arm="0.3,-0.2,0.5"):
         output = self.folder / "out.las"

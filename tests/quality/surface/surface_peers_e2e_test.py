@@ -70,7 +70,7 @@ def setUpModule():
     python = interpreter(programs.PATHS["peers"], PACKAGES, "xarray, netCDF4, rasterio, lxml, hyo2", [SCHEMA_PACKAGE])
     folder = pathlib.Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, folder)
-    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 5000,
+    flight = SimulatedSurvey(folder / "flight", "--lines", 2, "--cross-lines", 1, "--seconds", 4, "--pulse-rate", 2500,
                              "--file-for-each-line").folder
     annotated, made = folder / "annotated", folder / "surface"
     reported_survey.annotate(flight, annotated, programs.PATHS["shipped_table"])
@@ -153,7 +153,7 @@ class BagMetadata(Peer):
         folder, new = self.folder / "annotated", self.folder / "new"
         folder.mkdir()
         source = SimulatedSurvey(self.folder / "flight", "--lines", 1, "--cross-lines", 0, "--seconds", 2,
-                                 "--pulse-rate", 5000, "--time", "week").las
+                                 "--pulse-rate", 2500, "--time", "week").las
         query("las", source, "--output-dir", folder, "--survey", annotated.with_suffix(".toml"), "--trajectory",
               source.parent / "sbet.out", "--table", programs.PATHS["shipped_table"], "--crs", "EPSG:32617+5703",
               check=0)

@@ -19,6 +19,7 @@ from .verdict import CONTRIBUTIONS, Report
 
 MEANS = ("elevation", "depth", "thu", "tvu")  # Means of cells; the others are counts and codes.
 LARGEST_SIDE = 640  # Cells of a picture.
+MOST_READ = 1 << 20  # Cells of the grid at a time.
 MOST_NAMED_LINES = 60  # On the plan of lines.
 # The names and colours of the codes of a layer, from 1.
 CODES = {"order_met": ((*ORDERS, "none"), ("#00204d", "#31446b", "#666970", "#958f78", "#cbba69", RED)),
@@ -45,9 +46,10 @@ def read_overview(path: pathlib.Path, metres_per_unit: float) -> Overview:
         height, width = -(-(bottom - top) // step), -(-(last - first) // step)
         layers: dict[str, Doubles] = {name: np.full((height, width), np.nan) for name in (
             *MEANS, "order_met", "dominant_share", "gap", "without_number")}
-        for row in range(height):
-            rows_of = slice(top + row * step, min(top + (row + 1) * step, bottom))
-            _read_row(grid, rows_of, slice(first, last), step, row, layers)
+        band = max(1, MOST_READ // (width * step**2))
+        for row in range(0, height, band):
+            rows_of = slice(top + row * step, min(top + (row + band) * step, bottom))
+            _read_band(grid, rows_of, slice(first, last), step, slice(row, row + band), layers)
         x, y = grid["x"][:].data, grid["y"][:].data
         cell = abs(float(x[1] - x[0])) if columns > 1 else 1.0
         west, north = float(x[first]) - cell / 2, float(y[top]) + cell / 2
@@ -67,34 +69,38 @@ def _used(grid: Any, rows: int, columns: int) -> tuple[int, int, int, int]:
     return int(column[0]), int(column[-1]) + 1, int(row[0]), int(row[-1]) + 1
 
 
-def _read_row(grid: Any, rows: slice, columns: slice, step: int, row: int, layers: dict[str, Doubles]) -> None:
+def _read_band(grid: Any, rows: slice, columns: slice, step: int, band: slice, layers: dict[str, Doubles]) -> None:
+    """Fills the rows `band` of the picture."""
     def blocks(name: str) -> Doubles:
+        """By row and column of the picture, the cells of the grid there."""
         values = np.ma.filled(grid[name][rows, columns].astype(float), np.nan)
-        padding = -values.shape[1] % step
-        values = np.pad(values, ((0, 0), (0, padding)), constant_values=np.nan)
-        return values.reshape(values.shape[0], -1, step).transpose(1, 0, 2).reshape(-1, values.shape[0] * step)
+        height, width = (-(-size // step) for size in values.shape)
+        if step > 1:
+            padding = [(0, -size % step) for size in values.shape]
+            values = np.pad(values, padding, constant_values=np.nan)
+        return values.reshape(height, step, width, step).transpose(0, 2, 1, 3).reshape(height, width, step**2)
 
     points, without = np.nan_to_num(blocks("points")), np.nan_to_num(blocks("points_without_number"))
     weight = points - without
-    known = weight.sum(axis=1)
+    known = weight.sum(axis=-1)
     for name in MEANS:
-        sums = (np.nan_to_num(blocks(name)) * weight).sum(axis=1)
-        layers[name][row] = np.divide(sums, known, out=np.full(known.shape, np.nan), where=known > 0)
+        sums = (np.nan_to_num(blocks(name)) * weight).sum(axis=-1)
+        layers[name][band] = np.divide(sums, known, out=np.full(known.shape, np.nan), where=known > 0)
     for name in ("order_met", "gap"):
-        layers[name][row] = _largest(blocks(name))
-    layers["dominant_share"][row] = _most_points(blocks("dominant_share"), weight)
-    some = points.sum(axis=1) > 0
-    layers["without_number"][row] = np.where(some, without.sum(axis=1) / np.maximum(points.sum(axis=1), 1), np.nan)
+        layers[name][band] = _largest(blocks(name))
+    layers["dominant_share"][band] = _most_points(blocks("dominant_share"), weight)
+    count = points.sum(axis=-1)
+    layers["without_number"][band] = np.where(count > 0, without.sum(axis=-1) / np.maximum(count, 1), np.nan)
 
 
 def _largest(values: Doubles) -> Doubles:
-    most = np.nan_to_num(values, nan=0).max(axis=1)
+    most = np.nan_to_num(values, nan=0).max(axis=-1)
     return np.where(most > 0, most, np.nan)
 
 
 def _most_points(codes: Doubles, weight: Doubles) -> Doubles:
     """The code that most points have."""
-    counts = np.stack([(weight * (codes == code)).sum(axis=1) for code in range(1, len(SHARES) + 1)])
+    counts = np.stack([(weight * (codes == code)).sum(axis=-1) for code in range(1, len(SHARES) + 1)])
     return np.where(counts.sum(axis=0) > 0, counts.argmax(axis=0) + 1, np.nan)
 
 
