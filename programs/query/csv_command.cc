@@ -228,7 +228,7 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
     parameters["details"] = total->details;
     parameters["total"] = Parameters(total->plan);
   }
-  return annotate::AnnotateFiles(
+  RETURN_IF_ERROR(annotate::AnnotateFiles(
       jobs,
       {.command = "csv",
        .records = "pulses",
@@ -240,7 +240,8 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
        .json = options.files.json,
        .annotate = annotate,
        .cause = {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)}},
-      source.table());
+      source.table()));
+  return FlushStandardOutput();
 }
 
 }  // namespace

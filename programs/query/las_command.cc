@@ -12,6 +12,7 @@
 #include "annotate/run/annotation_run.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/first_contact.h"
 #include "programs/query/las_folder.h"
@@ -284,7 +285,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_none())
     return absl::FailedPreconditionError("no file has a point of the bathymetric classes; name them with --classes");
-  return status;
+  return status.ok() ? FlushStandardOutput() : status;
 }
 
 }  // namespace

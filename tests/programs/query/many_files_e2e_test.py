@@ -64,6 +64,10 @@ class ManyFilesTest(programs.Test):
             lines = query(*arguments, *more, check=0).stdout.splitlines()
             written = [json.loads((out / f"line{i}.las.json").read_text()) for i in range(2)]
             self.assertEqual([json.loads(line) for line in lines], written)
+        with open("/dev/full", "w") as full:
+            unprinted = query(*arguments, "--resume", stdout=full)
+        self.assertEqual(unprinted.returncode, 1)
+        self.assertIn("standard output", unprinted.stderr)
         # A file that fails has no line.
         (survey / "line0.las").write_bytes(b"LASF")
         failed = query(*arguments, "--overwrite")
