@@ -107,7 +107,7 @@ class Run {
     return absl::OkStatus();
   }
 
-  // As it was written: whoever reads the file reads the same.
+  // The same text as in the file beside the output.
   void PrintSummary(const Job& job) const {
     if (run_.json) std::cout << ReadSummary(SummaryPath(job.output)).dump() << std::endl;
   }
