@@ -102,21 +102,28 @@ class SquaresOfLines {
     return std::exp(low);
   }
 
-  // From the products of the means of the same two lines at different places.
+  // From the products of the means of the same two lines at different places. What is expected of means m_i with the
+  // variances v_i + noise_i, weighted by r_i = sqrt(v_i) / (v_i + noise_i): of r_i r_j m_i m_j, w_i w_j times what
+  // lasts, with w_i = r_i sqrt(v_i); of (r_i m_i)^2 less the noise, w_i^2.
   void Lasting(const Overlaps& overlaps, double scatter) {
     double products = 0, squares = 0;
     for (const auto& [lines, overlap] : overlaps) {
-      const double n = overlap.count();
-      if (n < 2) continue;
-      double sum = 0, sum_of_squares = 0, noise = 0;
+      double sum = 0, sum_of_squares = 0, noise = 0, weight = 0, weight_of_squares = 0;
+      int n = 0;
       for (const PairGroup* const place : overlap.places) {
         const double root = std::sqrt(place->line_variance()) / (place->line_variance() + scatter * place->noise);
         if (!std::isfinite(root)) continue;
         sum += root * place->mean;
         sum_of_squares += std::pow(root * place->mean, 2);
         noise += root * root * scatter * place->noise;
+        const double of_place = root * std::sqrt(place->line_variance());
+        weight += of_place;
+        weight_of_squares += of_place * of_place;
+        ++n;
       }
-      products += (sum * sum - sum_of_squares) / (n * (n - 1));
+      if (n < 2) continue;
+      const double weight_of_products = weight * weight - weight_of_squares;
+      products += (sum * sum - sum_of_squares) * weight_of_squares / weight_of_products / n;
       squares += (sum_of_squares - noise) / n;
     }
     lasting_ = squares > 0 ? std::clamp(products / squares, 0.0, 1.0) : 1;

@@ -220,6 +220,27 @@ TEST(LinePart, HasTheDegreesOfFreedomOfItsOverlaps) {
   EXPECT_NEAR(TestLines(Groups({{1, 2}}, 10, 0, apart)).degrees, 10, 1e-9);
 }
 
+// Places are known unequally well. Whatever their noise is, what lasts of the errors that were drawn is found.
+TEST(LinePart, KnowsHowLongErrorsLastWhereNoiseDiffers) {
+  constexpr double kNoises[] = {0, 0.2, 4, 40};  // m^2, beside a variance of both lines of 2 m^2.
+  std::vector<std::pair<int, int>> overlaps;
+  for (int i = 0; i < 4000; ++i) overlaps.emplace_back(2 * i, 2 * i + 1);
+  for (const double lasting : {0.0, 0.5, 1.0}) {
+    std::mt19937_64 generator(3);
+    std::normal_distribution<double> normal;
+    double constant = 0;
+    PairGroups groups = Groups(overlaps, 4, 0, [&](int, int, int place) {
+      if (place == 0) constant = std::sqrt(2 * lasting) * normal(generator);
+      return constant + std::sqrt(2 * (1 - lasting)) * normal(generator);
+    });
+    for (std::size_t i = 0; i < groups.places.size(); ++i) {
+      groups.places[i].noise = kNoises[i % 4];
+      groups.places[i].mean += std::sqrt(kNoises[i % 4]) * normal(generator);
+    }
+    EXPECT_NEAR(TestLines(groups).lasting, lasting, 0.05);
+  }
+}
+
 // Of two lines that differ by d, d^2 / 2 is chi-square of one degree of freedom.
 TEST(LinePart, HasTheIntervalOfChiSquare) {
   const LinePart part = TestLines(Groups({{1, 2}}, 5, 0, [](int, int, int) { return 3.0; }));
