@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
+#include "sea/table/table_at_index.h"
+#include "sea/water_index.h"
 #include "tables/file/table_io.h"
 #include "tests/bench/service/flight_line.h"
 #include "tests/bench/service/load.h"
@@ -127,7 +129,7 @@ int Main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const auto table = ReadTable(options.table);
   Check(table.ok(), table.status().ToString());
-  const ColumnInterpolator interpolator(*table);
+  const ColumnInterpolator interpolator(AtIndex(*table, kSeaWaterIndex));  // As a server answers.
   const bool budget = options.peer.ends_with("budget");
   if (options.peer.starts_with("serve-raw")) ServeRaw(budget ? kBudget : kSeaSurface, AnswersOf(interpolator, budget));
   return Ask(options, interpolator);
