@@ -122,7 +122,7 @@ def _axes(overview: Overview, title: str) -> tuple[Figure, Any]:
     axes.tick_params(labelsize=7)
     axes.tick_params(axis="y", labelrotation=90)
     for label in axes.get_yticklabels():
-        label.set_va("center")
+        label.set_verticalalignment("center")
     axes.grid(color="#999999", linewidth=0.4, alpha=0.7)
     # Scale and north stand below the map, which may be too flat to hold them.
     length = _round_length((east - west) * overview.metres_per_unit / 4)
@@ -140,7 +140,7 @@ def _axes(overview: Overview, title: str) -> tuple[Figure, Any]:
     return figure, axes
 
 
-def _coordinate(value: float, _: int) -> str:
+def _coordinate(value: float, _: float) -> str:
     return f"{value:,.0f}".replace(",", "\u202f") if value == round(value) else f"{value:.2f}"
 
 
