@@ -29,8 +29,8 @@ APT = "apt-get -qq -o Dpkg::Use-Pty=0 --yes"
 PULSE = "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"
 
 PYTHON = """
-import albtpu, importlib.metadata, xarray
-with albtpu.connect("127.0.0.1:50051") as service:
+import albtpu, importlib.metadata, sys, xarray
+with albtpu.connect(sys.argv[1]) as service:
     answer = service.query(wind_speed=7, incidence=12, footprint=0.6, depth=8)
 print(float(answer.thu), importlib.metadata.version("albtpu"))
 xarray.open_dataset("/usr/share/albtpu/tables/survey.h5")  # By the engine that the package registers.
@@ -85,8 +85,11 @@ class Packages(unittest.TestCase):
 
     @classmethod
     def with_server(cls, script):
-        return cls.in_root("rm -f log; albtpu-serve 2>log& server=$!; trap 'kill $server; wait' EXIT; "
-                           f"until grep -qs ready log; do kill -0 $server; sleep 0.1; done; {script}")
+        """Runs a script of bash that finds the address of a server in $address."""
+        return cls.in_root("rm -f log; albtpu-serve --listen 127.0.0.1:0 2>log& server=$!; "
+                           "trap 'kill $server; wait' EXIT; "
+                           "until address=$(grep -oPm1 'ready on \\K[^,]+' log); do kill -0 $server; sleep 0.1; done; "
+                           f"{script}")
 
     @classmethod
     def files(cls):
@@ -129,7 +132,7 @@ class Packages(unittest.TestCase):
         self.in_root(f"{APT} install ./python3-albtpu*.deb python3-xarray")
         pulse = json.loads(self.in_root(f"albtpu-query pulse {PULSE} --json"))
         (self.job / "query.py").write_text(PYTHON)
-        thu, version = self.with_server("python3 query.py").split()
+        thu, version = self.with_server('python3 query.py "$address"').split()
         self.assertAlmostEqual(float(thu), pulse["thu"], delta=1e-5 * pulse["thu"])
         self.assertIn(f"_{version}+deb", FILES["python3-albtpu"].name.replace("~", ""))
 
@@ -141,7 +144,7 @@ class Packages(unittest.TestCase):
         self.in_root(f"{APT} install --no-install-recommends ./libalbtpu-dev*.deb cmake g++ make")
         self.in_root("cmake -S /usr/share/doc/albtpu/clients/cpp -B build && cmake --build build")
         self.assertIn("INTERPOLATED", self.in_root("build/table /usr/share/albtpu/tables/survey.h5"))
-        self.assertIn("thu", self.with_server("build/ask 127.0.0.1:50051"))
+        self.assertIn("thu", self.with_server('build/ask "$address"'))
 
     def test_7_complete_and_document_commands(self):
         for page in ("man1/albtpu-query.1", "man1/albtpu-generate.1", "man5/albtpu-survey.5", "man8/albtpu-serve.8"):
