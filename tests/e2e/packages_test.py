@@ -31,7 +31,7 @@ PULSE = "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"
 PYTHON = """
 import albtpu, importlib.metadata, sys, xarray
 with albtpu.connect(sys.argv[1]) as service:
-    answer = service.query(wind_speed=7, incidence=12, footprint=0.6, depth=8)
+    answer = service.query(wind_speed=7, incidence=12, footprint=0.6, depth=8, coverage="p95")
 print(float(answer.thu), importlib.metadata.version("albtpu"))
 xarray.open_dataset("/usr/share/albtpu/tables/survey.h5")  # By the engine that the package registers.
 """
