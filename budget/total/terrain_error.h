@@ -47,10 +47,10 @@ inline double SlopeVariance(const std::array<double, 6>& c, const TerrainGradien
 
 // Of the footprint, m^2. `footprint`: diameter across the beam, m; angles of the beam in degrees, of air.
 inline double FootprintVariance(double footprint, double incidence, double azimuth, const TerrainGradient& g) {
-  constexpr double kDegree = std::numbers::pi / 180;
-  const double outwards = std::sin(incidence * kDegree);
-  const double along = outwards * (std::cos(azimuth * kDegree) * g.north + std::sin(azimuth * kDegree) * g.east) +
-                       std::cos(incidence * kDegree);
+  constexpr double kPerDegree = std::numbers::pi / 180;  // rad
+  const double outwards = std::sin(incidence * kPerDegree);
+  const double along = outwards * (std::cos(azimuth * kPerDegree) * g.north + std::sin(azimuth * kPerDegree) * g.east) +
+                       std::cos(incidence * kPerDegree);
   const double across = std::max(1 + g.north * g.north + g.east * g.east - along * along, 0.0);
   return footprint * footprint / 16 * across;
 }

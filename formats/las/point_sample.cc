@@ -69,9 +69,10 @@ double PointSample::CommonShare(const PointSample& a, const PointSample& b) {
   if (fewer.size() > more.size()) std::swap(fewer, more);
   if (fewer.size() < kFewestSampled) return 0;
   const auto is_in_both = [&](const Point& point) {
-    return std::ranges::any_of(std::ranges::equal_range(more, point.rank, {}, &Point::rank), [&](const Point& other) {
-      return std::abs(point.x - other.x) <= x_step && std::abs(point.y - other.y) <= y_step;
-    });
+    for (auto other = std::ranges::lower_bound(more, point.rank, {}, &Point::rank);
+         other != more.end() && other->rank == point.rank; ++other)
+      if (std::abs(point.x - other->x) <= x_step && std::abs(point.y - other->y) <= y_step) return true;
+    return false;
   };
   return static_cast<double>(std::ranges::count_if(fewer, is_in_both)) / static_cast<double>(fewer.size());
 }

@@ -53,7 +53,9 @@ std::string EstimateText(const Estimate& estimate) {
 }
 
 // Of many pairs too, no standard error is 0.
-std::string ErrorText(double metres) { return absl::StrFormat(metres < 0.0005 ? "%.1g m" : "%.3f m", metres); }
+std::string ErrorText(double metres) {
+  return metres < 0.0005 ? absl::StrFormat("%.1g m", metres) : absl::StrFormat("%.3f m", metres);
+}
 
 // A difference of two lines in units of what is predicted of it.
 std::string DifferenceText(const LineDifference& line) {

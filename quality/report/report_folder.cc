@@ -52,7 +52,8 @@ std::string OverlapText(const nlohmann::ordered_json& check) {
     const auto& factor = check[key];
     if (factor.is_null() || !factor["value"].is_number()) continue;
     const double value = factor["value"].get<double>();
-    absl::StrAppendFormat(&text, value < 0.005 ? "; no error of %s shows" : "; factor of %s %.2f", name, value);
+    text += value < 0.005 ? absl::StrFormat("; no error of %s shows", name)
+                          : absl::StrFormat("; factor of %s %.2f", name, value);
     if (factor["low"].is_number())
       absl::StrAppendFormat(&text, ", 95 %% interval %.2f to %.2f", factor["low"].get<double>(),
                             factor["high"].get<double>());
