@@ -121,8 +121,8 @@ class SquaresOfLines {
         weight_of_squares += of_place * of_place;
         ++n;
       }
-      if (n < 2) continue;
       const double weight_of_products = weight * weight - weight_of_squares;
+      if (n < 2 || !(weight_of_products > 0)) continue;
       products += (sum * sum - sum_of_squares) * weight_of_squares / weight_of_products / n;
       squares += (sum_of_squares - noise) / n;
     }

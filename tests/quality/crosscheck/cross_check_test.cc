@@ -241,6 +241,14 @@ TEST(LinePart, KnowsHowLongErrorsLastWhereNoiseDiffers) {
   }
 }
 
+// Two lines without predicted errors say nothing of how long those of others last.
+TEST(LinePart, LeavesOutLinesWithoutPredictedErrors) {
+  PairGroups groups = Groups({{1, 2}, {3, 4}}, 3, 1, [](int, int, int) { return 2.0; });
+  for (PairGroup& place : groups.places)
+    if (place.line_a == 1) place.line_a_variance = place.line_b_variance = place.line_product = 0;
+  EXPECT_EQ(TestLines(groups).lasting, TestLines(Groups({{3, 4}}, 3, 1, [](int, int, int) { return 2.0; })).lasting);
+}
+
 // Of two lines that differ by d, d^2 / 2 is chi-square of one degree of freedom.
 TEST(LinePart, HasTheIntervalOfChiSquare) {
   const LinePart part = TestLines(Groups({{1, 2}}, 5, 0, [](int, int, int) { return 3.0; }));
