@@ -44,8 +44,7 @@ std::string_view Problem(float value, const ValueRules& rules) {
   return "";
 }
 
-// Whether no value has a Problem(), for many values: nearly all tables are whole, and are checked whenever they are
-// read.
+// Whether no value has a Problem(). It is fast, because every table is checked when it is read.
 bool BreakNone(const std::vector<float>& values, const ValueRules& rules) {
   float least = 0;
   if (rules.may_be_negative) least = -format::kMaxValue;

@@ -102,9 +102,9 @@ class SquaresOfLines {
     return std::exp(low);
   }
 
-  // From the products of the means of the same two lines at different places. What is expected of means m_i with the
-  // variances v_i + noise_i, weighted by r_i = sqrt(v_i) / (v_i + noise_i): of r_i r_j m_i m_j, w_i w_j times what
-  // lasts, with w_i = r_i sqrt(v_i); of (r_i m_i)^2 less the noise, w_i^2.
+  // The correlation of a line's error between two places of an overlap. A mean m_i has the variance v_i + noise_i, and
+  // gets the weight r_i = sqrt(v_i) / (v_i + noise_i). With w_i = r_i sqrt(v_i), r_i r_j m_i m_j is in the mean w_i w_j
+  // times the correlation, and (r_i m_i)^2 less its noise is w_i^2: products and squares are compared by these.
   void Lasting(const Overlaps& overlaps, double scatter) {
     double products = 0, squares = 0;
     for (const auto& [lines, overlap] : overlaps) {

@@ -220,7 +220,7 @@ TEST(LinePart, HasTheDegreesOfFreedomOfItsOverlaps) {
   EXPECT_NEAR(TestLines(Groups({{1, 2}}, 10, 0, apart)).degrees, 10, 1e-9);
 }
 
-// Places are known unequally well. Whatever their noise is, what lasts of the errors that were drawn is found.
+// Some places are known better than others. The correlation with which errors were drawn is found all the same.
 TEST(LinePart, KnowsHowLongErrorsLastWhereNoiseDiffers) {
   constexpr double kNoises[] = {0, 0.2, 4, 40};  // m^2, beside a variance of both lines of 2 m^2.
   std::vector<std::pair<int, int>> overlaps;
