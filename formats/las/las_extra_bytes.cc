@@ -7,6 +7,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
+#include "formats/text/text.h"
 #include "laz/coding/little_endian.h"
 #include "status/status_macros.h"
 
@@ -35,13 +36,9 @@ constexpr std::uint8_t kNoDataIsSet = 0x01;
 constexpr std::array<std::size_t, 10> kTypeSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr int kTypeCount = 30;
 
-absl::Status InvalidExtraBytes(const std::string& name, const std::string& message) {
-  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
-}
-
 absl::Status MoreThanExist(const std::string& name, std::size_t described, std::size_t extra_bytes) {
-  return InvalidExtraBytes(name, absl::StrCat("describes ", described, " extra bytes, but its points have ",
-                                              extra_bytes, "; correct the description"));
+  return InvalidFile(name, absl::StrCat("describes ", described, " extra bytes, but its points have ", extra_bytes,
+                                        "; correct the description"));
 }
 
 struct Known {
@@ -58,16 +55,16 @@ struct Described {
 
 absl::StatusOr<Described> Read(const std::string& name, std::string_view record) {
   if (record.size() % kEntrySize != 0) {
-    return InvalidExtraBytes(name, absl::StrCat("its Extra Bytes record has ", record.size(),
-                                                " bytes; expected a multiple of ", kEntrySize));
+    return InvalidFile(name, absl::StrCat("its Extra Bytes record has ", record.size(),
+                                          " bytes; expected a multiple of ", kEntrySize));
   }
   Described described;
   for (std::size_t begin = 0; begin < record.size(); begin += kEntrySize) {
     const std::string_view entry = record.substr(begin, kEntrySize);
     const int type = Load<std::uint8_t>(entry, kTypeField);
     if (type > kTypeCount) {
-      return InvalidExtraBytes(name, absl::StrCat("its Extra Bytes record has type ", type,
-                                                  " (of unknown size); expected 0 to ", kTypeCount));
+      return InvalidFile(name, absl::StrCat("its Extra Bytes record has type ", type,
+                                            " (of unknown size); expected 0 to ", kTypeCount));
     }
     const std::string_view text = entry.substr(kNameField, kTextSize);
     const std::string entry_name(text.substr(0, text.find('\0')));
@@ -179,8 +176,8 @@ absl::StatusOr<std::string> ReadExtraBytesRecord(const LasReader& reader) {
     for (const VlrEntry& entry : *entries) {
       if (!entry.Is(kSpecUser, kExtraBytesRecord)) continue;
       if (entry.data_size > kLargestExtraBytesRecord) {
-        return InvalidExtraBytes(reader.name(), absl::StrCat("its Extra Bytes record has ", entry.data_size,
-                                                             " bytes; expected at most ", kLargestExtraBytesRecord));
+        return InvalidFile(reader.name(), absl::StrCat("its Extra Bytes record has ", entry.data_size,
+                                                       " bytes; expected at most ", kLargestExtraBytesRecord));
       }
       ASSIGN_OR_RETURN(records.emplace_back(), reader.ReadAt(entry.data_offset, entry.data_size));
     }
@@ -200,7 +197,7 @@ absl::StatusOr<std::string> ReadExtraBytesRecord(const LasReader& reader) {
       if (entry.type != kUndocumented) names.insert(entry.name);
   }
   if (bytes <= reader.header().extra_bytes() && names.size() == entries) return list;
-  return InvalidExtraBytes(
+  return InvalidFile(
       reader.name(),
       absl::StrCat("describes its extra bytes in ", records.size(), " records that contradict each other (",
                    names.size() < entries ? "a name is described twice" : absl::StrCat(bytes, " bytes are described"),
@@ -217,18 +214,16 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     const std::string ours(appended[i].name);
     if (known.names.count(ours) == 0) continue;
     if (!replace) {
-      return InvalidExtraBytes(name,
-                               absl::StrCat("already has ", ours,
+      return InvalidFile(name, absl::StrCat("already has ", ours,
                                             "; annotate the file from which it was made, or replace its values by "
                                             "--replace"));
     }
     const auto is_ours = [&](const Known& entry) { return entry.name == ours; };
     if (std::count_if(known.entries.begin(), known.entries.end(), is_ours) > 1)
-      return InvalidExtraBytes(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
+      return InvalidFile(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
     const auto entry = std::find_if(known.entries.begin(), known.entries.end(), is_ours);
     if (appended[i].is_byte ? entry->type != kByte : entry->type != kFloat && entry->type != kDouble) {
-      return InvalidExtraBytes(name,
-                               absl::StrCat("has ", ours, " as type ", entry->type, " of Extra Bytes; --replace takes ",
+      return InvalidFile(name, absl::StrCat("has ", ours, " as type ", entry->type, " of Extra Bytes; --replace takes ",
                                             appended[i].is_byte ? "bytes (1)" : "floats (9) and doubles (10)",
                                             ": annotate the file from which it was made"));
     }
@@ -246,7 +241,7 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
   for (const AppendedFloat& ours : appended)
     if (known.names.count(ours.name) == 0) record += EntryOf(ours, ours.is_byte ? kByte : kFloat);
   if (record.size() > kLargestExtraBytesRecord) {
-    return InvalidExtraBytes(
+    return InvalidFile(
         name, absl::StrCat("describes so many extra bytes that ", appended.size(), " more descriptions exceed ",
                            kLargestExtraBytesRecord, " bytes; remove some"));
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "formats/text/text.h"
 #include "laz/coding/little_endian.h"
 #include "laz/items/laszip_record.h"
 #include "status/status_macros.h"
@@ -31,25 +32,21 @@ constexpr std::uint16_t kHasTimeOffset = 0x40;
 constexpr double kAdjustment = 1e9;        // s, of adjusted standard GPS time.
 constexpr double kUnitOfTimeOffset = 1e6;  // s
 
-absl::Status Invalid(const std::string& name, const std::string& message) {
-  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
-}
-
 absl::Status Truncated(const std::string& name, const std::string& message) {
   return absl::DataLossError(absl::StrCat(name, ": ", message));
 }
 
 absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
   if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF")
-    return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las or .laz file");
+    return InvalidFile(name, "is not a LAS file (it does not begin with 'LASF'); give a .las or .laz file");
   if (bytes.size() < kHeaderSizes[0])
     return Truncated(name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
   const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
   if (major != 1 || minor > 5) {
-    return Invalid(name, absl::StrCat("is LAS ", major, ".", minor,
-                                      " (expected 1.0 to 1.5); convert it by `las2las -set_version 1.4` or "
-                                      "`pdal translate --writers.las.minor_version=4`"));
+    return InvalidFile(name, absl::StrCat("is LAS ", major, ".", minor,
+                                          " (expected 1.0 to 1.5); convert it by `las2las -set_version 1.4` or "
+                                          "`pdal translate --writers.las.minor_version=4`"));
   }
   return absl::OkStatus();
 }
@@ -60,8 +57,8 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
   if (version_minor < 4) return legacy;
   const auto count = Load<std::uint64_t>(bytes, las_field::kPointCount);
   if (legacy != 0 && legacy != count) {
-    return Invalid(name, absl::StrCat("its header states ", count, " points, but ", legacy,
-                                      " in the legacy field; expected the same number, or 0 in the legacy field"));
+    return InvalidFile(name, absl::StrCat("its header states ", count, " points, but ", legacy,
+                                          " in the legacy field; expected the same number, or 0 in the legacy field"));
   }
   return count;
 }
@@ -69,21 +66,21 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
 absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
   const int first_format = kFirstFormats[header.version_minor], last_format = kLastFormats[header.version_minor];
   if (header.point_format < first_format || header.point_format > last_format) {
-    return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.", header.version_minor,
-                                      "; expected ", first_format, " to ", last_format));
+    return InvalidFile(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.", header.version_minor,
+                                          "; expected ", first_format, " to ", last_format));
   }
   const std::size_t minimum = MinimumRecordLength(header.point_format);
   if (header.record_length < minimum) {
-    return Invalid(name, absl::StrCat("has point records of ", header.record_length, " bytes; point format ",
-                                      header.point_format, " needs ", minimum, " or more"));
+    return InvalidFile(name, absl::StrCat("has point records of ", header.record_length, " bytes; point format ",
+                                          header.point_format, " needs ", minimum, " or more"));
   }
   for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
     const double scale = header.scale[axis], offset = header.offset[axis];
     if (std::abs(scale) >= kLeastScale && std::abs(scale) <= kGreatestScale && std::abs(offset) <= kGreatestOffset)
       continue;
-    return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ", offset,
-                                      "; expected a scale from ", kLeastScale, " to ", kGreatestScale,
-                                      " and an offset of at most ", kGreatestOffset, ": correct the header"));
+    return InvalidFile(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ", offset,
+                                          "; expected a scale from ", kLeastScale, " to ", kGreatestScale,
+                                          " and an offset of at most ", kGreatestOffset, ": correct the header"));
   }
   return absl::OkStatus();
 }
@@ -93,22 +90,25 @@ absl::Status ReadTimes(const std::string& name, std::string_view bytes, std::uin
   header.adjusted_gps_time = (encoding & kAdjustedGpsTime) != 0;
   const bool has_offset = (encoding & kHasTimeOffset) != 0;
   if (header.version_minor == 4 && has_offset) {
-    return Invalid(name,
-                   "its global encoding has the time offset flag of LAS 1.5 (bit 6), but it is LAS 1.4, which has no "
-                   "time offset; correct the version or the flag");
+    return InvalidFile(
+        name,
+        "its global encoding has the time offset flag of LAS 1.5 (bit 6), but it is LAS 1.4, which has no "
+        "time offset; correct the version or the flag");
   }
   if (header.version_minor < 5) return absl::OkStatus();
   const double offset = Load<std::uint16_t>(bytes, las_field::kTimeOffset) * kUnitOfTimeOffset;
   if (has_offset && !header.adjusted_gps_time) {
-    return Invalid(name,
-                   "its global encoding has the time offset flag (bit 6) without that of standard GPS time (bit 0); "
-                   "set both, or neither for seconds of the week");
+    return InvalidFile(
+        name,
+        "its global encoding has the time offset flag (bit 6) without that of standard GPS time (bit 0); "
+        "set both, or neither for seconds of the week");
   }
   const bool means_nothing = offset == 0 || (header.adjusted_gps_time && offset == kAdjustment);
   if (!has_offset && !means_nothing) {
-    return Invalid(name, absl::StrCat("its header states a time offset of ", offset,
-                                      " s, but its global encoding lacks the time offset flag (bit 6); set the flag, "
-                                      "or the offset to 0"));
+    return InvalidFile(name,
+                       absl::StrCat("its header states a time offset of ", offset,
+                                    " s, but its global encoding lacks the time offset flag (bit 6); set the flag, "
+                                    "or the offset to 0"));
   }
   if (has_offset) header.time_shift = offset - kAdjustment;
   return absl::OkStatus();
@@ -117,12 +117,13 @@ absl::Status ReadTimes(const std::string& name, std::string_view bytes, std::uin
 absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
   const std::size_t min_header = kHeaderSizes[header.version_minor];
   if (header.header_size < min_header) {
-    return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.", header.version_minor,
-                                      " needs ", min_header, " bytes or more"));
+    return InvalidFile(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.", header.version_minor,
+                                          " needs ", min_header, " bytes or more"));
   }
   if (header.offset_to_points < header.header_size) {
-    return Invalid(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
-                                      ", inside the header of ", header.header_size, " bytes; expected them after it"));
+    return InvalidFile(
+        name, absl::StrCat("its point records begin at byte ", header.offset_to_points, ", inside the header of ",
+                           header.header_size, " bytes; expected them after it"));
   }
   if (header.offset_to_points > file_size) {
     return Truncated(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
@@ -145,16 +146,16 @@ absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, 
                                     std::pair(header.start_of_waveform_packet, "waveform packets")}) {
     if (start == 0) continue;
     if (start < end_of_points || start > file_size) {
-      return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start, "; expected between the ",
-                                        header.compressed ? "beginning" : "end", " of the points, ", end_of_points,
-                                        ", and the end of the file, ", file_size));
+      return InvalidFile(name, absl::StrCat("its ", what, " begin at byte ", start, "; expected between the ",
+                                            header.compressed ? "beginning" : "end", " of the points, ", end_of_points,
+                                            ", and the end of the file, ", file_size));
     }
     next = std::min(next, start);
   }
   if (header.compressed) return absl::OkStatus();
   const std::uint64_t uncounted = next - end_of_points;
   if (uncounted >= header.record_length) {
-    return Invalid(
+    return InvalidFile(
         name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted, " bytes, enough for ",
                            uncounted / header.record_length, " more points, follow them; correct the point count"));
   }
@@ -188,9 +189,9 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
     header.least[axis] = Load<double>(bytes, las_field::kBounds + (2 * axis + 1) * sizeof(double));
   }
   if ((header.point_format & kOldCompressedFlag) != 0) {
-    return Invalid(name,
-                   "is compressed by a LASzip from before 2.0 (2011); decompress it first, by "
-                   "`laszip -i IN.laz -o OUT.las`");
+    return InvalidFile(name,
+                       "is compressed by a LASzip from before 2.0 (2011); decompress it first, by "
+                       "`laszip -i IN.laz -o OUT.las`");
   }
   header.compressed = (header.point_format & laz::kCompressedFlag) != 0;
   header.point_format &= ~laz::kCompressedFlag;
@@ -206,9 +207,9 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
     header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
     if (header.evlr_count > 0) header.start_of_evlrs = Load<std::uint64_t>(bytes, las_field::kStartOfEvlrs);
     if (header.evlr_count > 0 && header.start_of_evlrs == 0) {
-      return Invalid(name, absl::StrCat("its header states ", header.evlr_count,
-                                        " extended variable length records but not where they begin; expected an "
-                                        "offset after the points"));
+      return InvalidFile(name, absl::StrCat("its header states ", header.evlr_count,
+                                            " extended variable length records but not where they begin; expected an "
+                                            "offset after the points"));
     }
   }
   RETURN_IF_ERROR(CheckRecords(name, header));

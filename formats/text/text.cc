@@ -31,6 +31,10 @@ absl::Status UsageError(std::string_view message) {
 
 bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsagePayload).has_value(); }
 
+absl::Status InvalidFile(const std::string& name, const std::string& message) {
+  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
+}
+
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   // Row i has the distances of the first i characters of `a` from the first j of `b`; three rows are enough.
   std::vector<std::size_t> row(b.size() + 1), last(b.size() + 1), last_but_one(b.size() + 1);

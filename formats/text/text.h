@@ -22,6 +22,9 @@ inline constexpr int kExitUsage = 2;  // arguments that the program does not tak
 absl::Status UsageError(std::string_view message);
 bool IsUsageError(const absl::Status& status);
 
+// "<name>: <message>", an InvalidArgument: what a file has cannot be used.
+absl::Status InvalidFile(const std::string& name, const std::string& message);
+
 // Finds the known word that a misspelt one probably stands for.
 
 // The number of edits that turn `a` into `b`: a character inserted, deleted or replaced, or two neighbours swapped

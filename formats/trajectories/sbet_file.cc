@@ -13,6 +13,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/text/text.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/sbet_diagnosis.h"
 #include "status/status_macros.h"
@@ -26,10 +27,6 @@ static_assert(std::endian::native == std::endian::little, "records are read as t
 constexpr double kLeastAttitudeError = 0.03;
 
 constexpr double kLowestHeight = -1000, kMaxHeight = 20000;  // m; wider than any airborne survey.
-
-absl::Status Invalid(const std::string& name, const std::string& message) {
-  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
-}
 
 SbetRecord WithBytesReversed(const SbetRecord& record) {
   auto words = std::bit_cast<std::array<std::uint64_t, 17>>(record);
@@ -121,16 +118,17 @@ absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Parse(const std::string& nam
                                                           VelocityAxes axes) {
   const std::size_t bytes = mapped.bytes().size();
   if (bytes % sizeof(SbetRecord) != 0) {
-    return Invalid(name, absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
-                                      ", the size of an SBET record (",
-                                      bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
-                                          ? "its size fits an SMRMSG, an error file); give the SBET here, and "
-                                            "error files by --trajectory-errors, or a complete copy if it was cut short"
-                                          : "cut short, or another format); get a complete copy of the SBET"));
+    return InvalidFile(name,
+                       absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
+                                    ", the size of an SBET record (",
+                                    bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
+                                        ? "its size fits an SMRMSG, an error file); give the SBET here, and "
+                                          "error files by --trajectory-errors, or a complete copy if it was cut short"
+                                        : "cut short, or another format); get a complete copy of the SBET"));
   }
   if (bytes < 2 * sizeof(SbetRecord)) {
-    return Invalid(name, absl::StrCat("has ", bytes / sizeof(SbetRecord), bytes == 0 ? " records" : " record",
-                                      ", but a trajectory needs 2 or more; get a complete copy of the SBET"));
+    return InvalidFile(name, absl::StrCat("has ", bytes / sizeof(SbetRecord), bytes == 0 ? " records" : " record",
+                                          ", but a trajectory needs 2 or more; get a complete copy of the SBET"));
   }
   std::unique_ptr<SbetFile> file(new SbetFile(name, std::move(mapped)));
   RETURN_IF_ERROR(file->CheckRecords(axes));
@@ -160,18 +158,18 @@ absl::Status SbetFile::CheckRecords(VelocityAxes axes) {
         if (found.has_value()) cause = absl::StrCat(" (", *found, "); correct the fields");
       }
       if (cause.empty()) cause = " (a damaged file, or another format); get a sound copy of the SBET";
-      return Invalid(name(),
-                     absl::StrCat("record ", i + 1, " of ", records_.size(), " ", Implausibility(record), cause));
+      return InvalidFile(name(),
+                         absl::StrCat("record ", i + 1, " of ", records_.size(), " ", Implausibility(record), cause));
     }
     if (i == 0 || TimeAt(i) > TimeAt(i - 1)) continue;
     if (next_week_ == records_.size() && StartsNextWeek(records_[i - 1].time, record.time)) {
       next_week_ = i;
       continue;
     }
-    return Invalid(name(),
-                   absl::StrFormat("record %d of %d is at %.6f s, not after the one before it (%.6f s); times must "
-                                   "increase: sort and merge the SBET again, or give its parts as separate files",
-                                   i + 1, records_.size(), record.time, records_[i - 1].time));
+    return InvalidFile(name(),
+                       absl::StrFormat("record %d of %d is at %.6f s, not after the one before it (%.6f s); times must "
+                                       "increase: sort and merge the SBET again, or give its parts as separate files",
+                                       i + 1, records_.size(), record.time, records_[i - 1].time));
   }
   const auto add = [&](double longest_step) {
     for (const RecordPair& pair : SpreadPairs(*this, longest_step)) {
@@ -273,14 +271,15 @@ absl::Status SmrmsgFile::CheckUnits() const {
   if (position > 0 && attitude >= kLeastAttitudeError) return absl::OkStatus();
   const std::string of = attitude > 0 || position == 0 ? "position" : "roll and pitch";
   if (position == 0 || attitude == 0) {
-    return Invalid(name_, absl::StrCat("all its errors of ", of,
-                                       " are 0, which no trajectory has; leave the file out, and the errors of a good "
-                                       "trajectory are taken, or state them by [sigma] of a survey file"));
+    return InvalidFile(name_,
+                       absl::StrCat("all its errors of ", of,
+                                    " are 0, which no trajectory has; leave the file out, and the errors of a good "
+                                    "trajectory are taken, or state them by [sigma] of a survey file"));
   }
-  return Invalid(name_, absl::StrFormat("its errors of roll and pitch are at most %.2g arc minutes, less than any "
-                                        "inertial system has (they are in degrees or radians); convert them to arc "
-                                        "minutes",
-                                        attitude));
+  return InvalidFile(name_, absl::StrFormat("its errors of roll and pitch are at most %.2g arc minutes, less than any "
+                                            "inertial system has (they are in degrees or radians); convert them to arc "
+                                            "minutes",
+                                            attitude));
 }
 
 absl::Status SmrmsgFile::Check() {

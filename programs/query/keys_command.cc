@@ -55,7 +55,7 @@ std::string Markdown(const std::vector<ListedKey>& keys) {
   return page;
 }
 
-ordered_json Json(const std::vector<ListedKey>& keys) {
+ordered_json JsonOfKeys(const std::vector<ListedKey>& keys) {
   const auto or_null = [](const std::string& text) { return text.empty() ? ordered_json() : ordered_json(text); };
   const auto limit = [](const std::optional<double>& number) {
     return number.has_value() && std::isfinite(*number) ? ordered_json(*number) : ordered_json();
@@ -108,7 +108,7 @@ struct KeysCommandOptions {
 
 absl::Status RunKeys(const KeysCommandOptions& options) {
   const std::vector<ListedKey> keys = config::ListKeys();
-  std::cout << (options.manual ? Manual(keys) : options.json ? Json(keys).dump(2) + "\n" : Markdown(keys));
+  std::cout << (options.manual ? Manual(keys) : options.json ? JsonOfKeys(keys).dump(2) + "\n" : Markdown(keys));
   return FlushStandardOutput();
 }
 
@@ -161,7 +161,7 @@ std::string Text(const config::Sensor& sensor) {
   return text;
 }
 
-ordered_json Json(const config::Sensor& sensor) {
+ordered_json JsonOfSensor(const config::Sensor& sensor) {
   ordered_json json = {{"name", sensor.name}, {"title", sensor.title}};
   for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
     if (!sensor.errors.stated[i]) continue;
@@ -187,7 +187,7 @@ ordered_json Json(const config::Sensor& sensor) {
 absl::Status RunSensors(const SensorsCommandOptions& options) {
   if (!options.name.empty()) {
     ASSIGN_OR_RETURN(const config::Sensor sensor, config::FindSensor(options.name));
-    std::cout << (options.json ? Json(sensor).dump(2) + "\n" : Text(sensor));
+    std::cout << (options.json ? JsonOfSensor(sensor).dump(2) + "\n" : Text(sensor));
     return FlushStandardOutput();
   }
   ASSIGN_OR_RETURN(const std::vector<config::Sensor> sensors, config::ListSensors());
@@ -197,7 +197,7 @@ absl::Status RunSensors(const SensorsCommandOptions& options) {
   }
   if (options.json) {
     ordered_json json = {{"sensors", ordered_json::array()}};
-    for (const config::Sensor& sensor : sensors) json["sensors"].push_back(Json(sensor));
+    for (const config::Sensor& sensor : sensors) json["sensors"].push_back(JsonOfSensor(sensor));
     std::cout << json.dump(2) << "\n";
   } else if (!sensors.empty()) {
     std::cout << Rows(sensors);

@@ -11,16 +11,16 @@ namespace albtpu::quality {
 namespace {
 
 constexpr int kBitsOfSecond = 48;
-constexpr std::int64_t kLatest = std::int64_t{1} << (kBitsOfSecond - 1);  // s
+constexpr std::int64_t kLatestTime = std::int64_t{1} << (kBitsOfSecond - 1);  // s
 constexpr std::uint64_t kNoSecond = 0;
 
-bool IsTime(double time) { return !formats::IsNoTime(time) && std::abs(time) < static_cast<double>(kLatest); }
+bool IsTime(double time) { return !formats::IsNoTime(time) && std::abs(time) < static_cast<double>(kLatestTime); }
 
 }  // namespace
 
 void LineTimes::Add(int id, double time) {
   const std::uint64_t second =
-      IsTime(time) ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(time)) + kLatest) : kNoSecond;
+      IsTime(time) ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(time)) + kLatestTime) : kNoSecond;
   const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint16_t>(id)) << kBitsOfSecond | second;
   if (key == last_ && !seen_.empty()) return;
   last_ = key;
@@ -34,7 +34,7 @@ std::map<int, std::set<std::int64_t>> LineTimes::seconds() const {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << kBitsOfSecond) - 1;
   for (const std::uint64_t key : seen_)
     if ((key & kMask) != kNoSecond)
-      by_id[static_cast<int>(key >> kBitsOfSecond)].insert(static_cast<std::int64_t>(key & kMask) - kLatest);
+      by_id[static_cast<int>(key >> kBitsOfSecond)].insert(static_cast<std::int64_t>(key & kMask) - kLatestTime);
   return by_id;
 }
 

@@ -15,8 +15,6 @@ constexpr double kResonanceWidth = 450;  // rad/m, Eq. 11
 constexpr double kResonanceGain = 0.8;   // a of Eq. 11, m
 constexpr double kDissipation = 6283;    // rad/m, Eq. 13
 
-double Square(double x) { return x * x; }
-
 // Eq. 14 with sqrt(2 pi) in place of its inverse: the integral of exp(-phi^2 / (2 phi_s^2)) over a full turn.
 double DirectionalIntegral(double k_over_k_p) {
   const double phi_s = 1 / std::sqrt(0.28 + 10 * std::pow(k_over_k_p, -1.3));
@@ -26,29 +24,29 @@ double DirectionalIntegral(double k_over_k_p) {
 }  // namespace
 
 double ApelSpectrum::InverseWaveAge(double wind_speed_10m, double fetch) {
-  const double k_0 = kGravity / Square(wind_speed_10m);  // Eq. 4
+  const double k_0 = kGravity / std::pow(wind_speed_10m, 2);  // Eq. 4
   return std::max(kFullyDevelopedOmega, 22 * std::pow(k_0 * fetch, -0.33));
 }
 
 double ApelSpectrum::FullyDevelopedFetch(double wind_speed_10m) {
-  const double k_0 = kGravity / Square(wind_speed_10m);
+  const double k_0 = kGravity / std::pow(wind_speed_10m, 2);
   return std::pow(22 / kFullyDevelopedOmega, 1 / 0.33) / k_0;
 }
 
 ApelSpectrum::ApelSpectrum(double wind_speed_10m, double fetch, Cosine2sSpreading spreading)
     : omega_(InverseWaveAge(wind_speed_10m, fetch)), peak_(omega_), spreading_(spreading) {
   assert(wind_speed_10m > 0 && fetch > 0);
-  k_p_ = kGravity / Square(wind_speed_10m) * Square(omega_);                // Eq. 3
+  k_p_ = kGravity / std::pow(wind_speed_10m, 2) * std::pow(omega_, 2);      // Eq. 3
   s_ = std::pow(10, -4.95 + 3.45 * (1 - std::exp(-wind_speed_10m / 4.7)));  // Eq. 12, base 10
 }
 
 double ApelSpectrum::operator()(double k) const {
   const double ratio = k / k_p_;
-  const double pierson_moskowitz = std::exp(-1.25 / Square(ratio));                             // Eq. 2
+  const double pierson_moskowitz = std::exp(-1.25 / std::pow(ratio, 2));                        // Eq. 2
   const double jonswap = peak_(ratio);                                                          // Eq. 6-9
-  const double roll_off = 1 / (1 + Square(k / kRollOff));                                       // Eq. 10
+  const double roll_off = 1 / (1 + std::pow(k / kRollOff, 2));                                  // Eq. 10
   const double resonance = kResonanceGain * k / std::cosh((k - kResonance) / kResonanceWidth);  // Eq. 11
-  const double dissipation = std::exp(-Square(k / kDissipation));                               // Eq. 13
+  const double dissipation = std::exp(-std::pow(k / kDissipation, 2));                          // Eq. 13
   return kSaturation / (k * k * k) * pierson_moskowitz * jonswap * (roll_off + s_ * resonance) * dissipation *
          DirectionalIntegral(ratio);  // Eq. 1
 }

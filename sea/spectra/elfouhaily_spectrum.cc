@@ -13,10 +13,8 @@ constexpr double kMinPhaseSpeed = 0.23;    // c_m, m/s
 constexpr double kFetchScale = 2.2e4;      // X_0 of Eq. 37
 constexpr double kAlmostDevelopedOmega = 1.01 * kFullyDevelopedOmega;
 
-double Square(double x) { return x * x; }
-
 // Gravity and capillarity, Eq. 24.
-double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + Square(k / kGravityCapillary))); }
+double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + std::pow(k / kGravityCapillary, 2))); }
 
 // Eq. 44, natural logarithms; never negative.
 double ShortWaveLevel(double friction_velocity) {
@@ -27,13 +25,13 @@ double ShortWaveLevel(double friction_velocity) {
 }  // namespace
 
 double ElfouhailySpectrum::InverseWaveAge(double wind_speed_10m, double fetch) {
-  const double x = fetch * kGravity / Square(wind_speed_10m);
+  const double x = fetch * kGravity / std::pow(wind_speed_10m, 2);
   return kFullyDevelopedOmega * std::pow(std::tanh(std::pow(x / kFetchScale, 0.4)), -0.75);
 }
 
 double ElfouhailySpectrum::FullyDevelopedFetch(double wind_speed_10m) {
   const double tanh = std::pow(kAlmostDevelopedOmega / kFullyDevelopedOmega, -1 / 0.75);
-  return kFetchScale * std::pow(std::atanh(tanh), 1 / 0.4) * Square(wind_speed_10m) / kGravity;
+  return kFetchScale * std::pow(std::atanh(tanh), 1 / 0.4) * std::pow(wind_speed_10m, 2) / kGravity;
 }
 
 ElfouhailySpectrum::ElfouhailySpectrum(double wind_speed_10m, double fetch)
@@ -41,7 +39,7 @@ ElfouhailySpectrum::ElfouhailySpectrum(double wind_speed_10m, double fetch)
       peak_(omega_),
       friction_velocity_(FrictionVelocity(wind_speed_10m)) {
   assert(wind_speed_10m > 0 && fetch > 0);
-  k_p_ = kGravity * Square(omega_ / wind_speed_10m);
+  k_p_ = kGravity * std::pow(omega_ / wind_speed_10m, 2);
   c_p_ = PhaseSpeed(k_p_);
   alpha_p_ = 6e-3 * std::sqrt(omega_);  // Eq. 34
   alpha_m_ = ShortWaveLevel(friction_velocity_);
@@ -50,15 +48,15 @@ ElfouhailySpectrum::ElfouhailySpectrum(double wind_speed_10m, double fetch)
 double ElfouhailySpectrum::operator()(double k) const {
   const double c = PhaseSpeed(k);
   const double root = std::sqrt(k / k_p_) - 1;
-  const double pierson_moskowitz = std::exp(-1.25 * Square(k_p_ / k));  // Eq. 2
-  const double jonswap = peak_(k / k_p_);                               // Eq. 3
+  const double pierson_moskowitz = std::exp(-1.25 * std::pow(k_p_ / k, 2));  // Eq. 2
+  const double jonswap = peak_(k / k_p_);                                    // Eq. 3
   const double long_waves = 0.5 * alpha_p_ * c_p_ / c * pierson_moskowitz * jonswap *
                             std::exp(-omega_ / std::sqrt(10.0) * root);  // Eq. 31, 32
   // Eq. 40, 41. As printed B_h has no cut-off below the peak, so the integral of S diverges at k = 0: here it
   // takes that of Pierson and Moskowitz, as in McDaniel (2001). Some authors also apply the peak enhancement, which
   // changes S only where B_h is negligible.
-  const double short_waves =
-      0.5 * alpha_m_ * kMinPhaseSpeed / c * pierson_moskowitz * std::exp(-0.25 * Square(k / kGravityCapillary - 1));
+  const double short_waves = 0.5 * alpha_m_ * kMinPhaseSpeed / c * pierson_moskowitz *
+                             std::exp(-0.25 * std::pow(k / kGravityCapillary - 1, 2));
   return (long_waves + short_waves) / (k * k * k);
 }
 
@@ -77,7 +75,7 @@ double ElfouhailySpectrum::Spreading(double k, double psi) const {
 WavenumberRange ElfouhailySpectrum::energetic_range() const {
   // Below 0.3 k_p Eq. 2 is under exp(-13.9). At the upper end Eq. 41 ends the short waves, exp(-16) at 9 k_m; in
   // light wind, which raises no short waves, Eq. 32 ends the long ones, here at exp(-8).
-  const double end_of_long_waves = k_p_ * Square(1 + 8 * std::sqrt(10.0) / omega_);
+  const double end_of_long_waves = k_p_ * std::pow(1 + 8 * std::sqrt(10.0) / omega_, 2);
   return {0.3 * k_p_, std::max(9 * kGravityCapillary, end_of_long_waves)};
 }
 

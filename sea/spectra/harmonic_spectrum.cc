@@ -12,9 +12,10 @@ constexpr double kLowest = 0.004, kHighest = 3500;  // rad/m
 constexpr double kRatio = 1.05;
 
 // Directions over which a spreading is averaged. The trapezoidal rule over a full turn is exact for a spreading whose
-// harmonics end below kDirections - 2 * harmonics. A spreading that is the same at all k is averaged only once, so it
-// gets more: cosine-2S spreadings whose s is not an integer have harmonics without end, which decay as n^(-2 s - 1).
-constexpr std::size_t kDirections = 32, kDirectionsOnce = 4096;
+// harmonics end below kDirectionsOfEach - 2 * harmonics. A spreading that is the same at all k is averaged only once,
+// so it gets more: cosine-2S spreadings whose s is not an integer have harmonics without end, which decay as
+// n^(-2 s - 1).
+constexpr std::size_t kDirectionsOfEach = 32, kDirectionsOfOne = 4096;
 
 struct Harmonics {
   std::vector<double> a, b;
@@ -68,7 +69,7 @@ HarmonicSpectrum Sampled(const WaveSpectrum& spectrum, const std::vector<double>
   sampled.a.assign(harmonics, std::vector<double>(wavenumbers.size()));
   sampled.b = sampled.a;
   const bool varies = spectrum.spreading_varies_with_wavenumber();
-  const std::vector<double> cosines = CosinesOfTurn(varies ? kDirections : kDirectionsOnce);
+  const std::vector<double> cosines = CosinesOfTurn(varies ? kDirectionsOfEach : kDirectionsOfOne);
   Harmonics at_k;
   for (std::size_t i = 0; i < wavenumbers.size(); ++i) {
     const double k = wavenumbers[i];

@@ -36,7 +36,7 @@ constexpr Range kDepth = {0.1, kDeepestWater, " m"};
 
 using Numbers = google::protobuf::RepeatedField<double>;
 
-class Reader {
+class SeaReader {
  public:
   absl::StatusOr<KnownSea> Read(const v1::SeaState& state) {
     KnownSea sea;
@@ -227,7 +227,7 @@ class Reader {
 
 }  // namespace
 
-absl::StatusOr<KnownSea> ReadSea(const v1::SeaState& state) { return Reader().Read(state); }
+absl::StatusOr<KnownSea> ReadSea(const v1::SeaState& state) { return SeaReader().Read(state); }
 
 Sha256Digest KeyOf(const v1::SeaState& state, double index) {
   v1::SeaState known = state;

@@ -14,7 +14,7 @@ namespace albtpu::server {
 namespace {
 
 // Half of the cores: seas never keep the answers from tables waiting.
-std::size_t ThreadCount() { return std::max(1u, std::thread::hardware_concurrency() / 2); }
+std::size_t ThreadsOfTables() { return std::max(1u, std::thread::hardware_concurrency() / 2); }
 
 // The bytes of a table and of its interpolator, which holds every number again.
 std::size_t BytesOf(const UncertaintyTable& table) {
@@ -33,7 +33,7 @@ SeaTables::SeaTables(SeaMetrics& metrics, CallLog& log, const Limits& limits)
       log_(log),
       queue_(
           metrics,
-          {.threads = ThreadCount(), .values = limits.tables, .bytes = limits.bytes, .waiting = limits.waiting},
+          {.threads = ThreadsOfTables(), .values = limits.tables, .bytes = limits.bytes, .waiting = limits.waiting},
           "the server cannot take another sea (too many wait to be computed); try again later",
           [this](const WantedTable& wanted) { return Make(wanted); },
           [](const ServedTable& table) { return BytesOf(table.table); }) {}

@@ -19,9 +19,9 @@ std::optional<Enum> ValueOf(int number, int greatest) {
   return static_cast<Enum>(number - 1);
 }
 
-class Reader {
+class WaterReader {
  public:
-  explicit Reader(const v1::WaterState& state) : state_(state) {}
+  explicit WaterReader(const v1::WaterState& state) : state_(state) {}
 
   absl::StatusOr<KnownWater> Read() {
     KnownWater water;
@@ -175,7 +175,7 @@ class Reader {
 
 }  // namespace
 
-absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state) { return Reader(state).Read(); }
+absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state) { return WaterReader(state).Read(); }
 
 Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table_digest) {
   v1::WaterState known = state;

@@ -16,7 +16,7 @@ namespace albtpu::server {
 namespace {
 
 // A quarter of the cores, beside the half of seas: waters never keep the answers from tables waiting.
-std::size_t ThreadCount() { return std::max(1u, std::thread::hardware_concurrency() / 4); }
+std::size_t ThreadsOfWaters() { return std::max(1u, std::thread::hardware_concurrency() / 4); }
 
 // On this thread alone.
 absl::StatusOr<CompiledWater> CompileHere(const WaterColumnTable* table, const KnownWater& water) {
@@ -45,7 +45,7 @@ v1::WaterSummary SummaryOf(const WaterColumnTable* table, const KnownWater& wate
   return summary;
 }
 
-std::size_t BytesOf(const ServedWater& served) {
+std::size_t BytesOfWater(const ServedWater& served) {
   return sizeof(ServedWater) + (served.water.share == nullptr ? 0 : served.water.share->memory());
 }
 
@@ -56,9 +56,9 @@ WaterShares::WaterShares(WaterMetrics& metrics, CallLog& log, const Limits& limi
       log_(log),
       queue_(
           metrics,
-          {.threads = ThreadCount(), .values = limits.waters, .bytes = limits.bytes, .waiting = limits.waiting},
+          {.threads = ThreadsOfWaters(), .values = limits.waters, .bytes = limits.bytes, .waiting = limits.waiting},
           "the server cannot take another water (too many wait to be computed); try again later",
-          [this](const WantedWater& wanted) { return Make(wanted); }, BytesOf) {}
+          [this](const WantedWater& wanted) { return Make(wanted); }, BytesOfWater) {}
 
 WaterShares::Result WaterShares::Make(const WantedWater& wanted) {
   const auto begin = std::chrono::steady_clock::now();
