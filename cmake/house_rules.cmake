@@ -40,43 +40,50 @@ include(CMakeDependentOption)
 cmake_dependent_option(ALBTPU_UNITY "Compile several files of a target at a time" ON
                        "NOT CMAKE_DISABLE_PRECOMPILE_HEADERS" OFF)
 
-# Compile options of all our own code; to be called once for each target. Headers that most of its files include, such
-# as <nlohmann/json.hpp>, are precompiled beside those of all targets:
-#   albtpu_target(NAME [<header> ...])
+# Compile options of all our own code; to be called once for each target:
+#   albtpu_target(NAME [APPLICATION|PROGRAM|TEST|VALIDATION])
+# What computes is optimized most. An APPLICATION handles files, settings and calls, and a PROGRAM its arguments; a TEST
+# runs for less time than its optimization takes, but a VALIDATION computes.
 function(albtpu_target target)
   albtpu_warn(${target})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
   if(ALBTPU_UNITY)
-    set(batch 12)
+    set(batch 24)
     if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests(/|$)")  # Tests have less code beside what they include.
       set(batch 9)
     endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
   endif()
-  # At the end of the folder it is known whether the target is position-independent.
-  cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
+  albtpu_precompile(${target} "${ARGN}")
 endfunction()
 
-# For code that takes longer to optimize than it runs. Its headers are precompiled with the same option, because g++
-# optimizes as they were told.
-function(albtpu_optimize_less target)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${target} PRIVATE -O1)
-    set_target_properties(${target} PROPERTIES ALBTPU_OPTIMIZATION -O1)
-  endif()
-endfunction()
-
-# Precompiles what most files include: half of the time of a short file goes into it. Targets that are compiled alike
-# and have the same `headers` share it, by an object library without code.
-function(albtpu_precompile target headers)
-  get_target_property(options ${target} ALBTPU_OPTIMIZATION)
-  if(NOT options)
-    set(options "")
-  endif()
-  get_target_property(test ${target} ALBTPU_TEST)
-  get_target_property(relocatable ${target} POSITION_INDEPENDENT_CODE)
+# Optimizes a target by its kind, and precompiles what most files include: half of the time of a short file goes into
+# it. Targets of a kind share it, by an object library without code, because g++ optimizes as precompiled headers were
+# told.
+function(albtpu_precompile target kind)
+  set(options -pthread)  # Some libraries ask for it, and all must be compiled alike.
   set(libraries Eigen3::Eigen)
+  set(headers "")
+  set(optimization "")
+  if(kind STREQUAL "APPLICATION")
+    set(optimization -O2)
+    set(headers <grpcpp/grpcpp.h> <nlohmann/json.hpp> <toml++/toml.h>)
+  elseif(kind STREQUAL "PROGRAM")
+    set(optimization -O1)
+    set(headers <CLI/CLI.hpp> <nlohmann/json.hpp> <toml++/toml.h>)
+  elseif(kind MATCHES "TEST|VALIDATION")
+    if(kind STREQUAL "TEST")
+      set(optimization -O1)
+    endif()
+    set(headers <gmock/gmock.h> <gtest/gtest.h> <fstream> <numbers> <random>)
+    list(APPEND libraries GTest::gmock GTest::gtest_main)
+  elseif(kind)
+    message(FATAL_ERROR "albtpu_target(${target}): unknown kind '${kind}'")
+  endif()
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    list(APPEND options ${optimization})
+  endif()
   if(headers MATCHES "toml[+][+]")
     set(toml tomlplusplus::tomlplusplus)
     list(APPEND libraries ${toml})
@@ -84,32 +91,21 @@ function(albtpu_precompile target headers)
     target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:${toml},INTERFACE_COMPILE_OPTIONS>)
     target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${toml},INTERFACE_COMPILE_DEFINITIONS>)
   endif()
-  if(test)
-    list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <fstream> <numbers> <random>)
-    list(APPEND libraries GTest::gmock GTest::gtest_main)
-  endif()
-  set(group "albtpu_headers ${headers} ${options}")
-  if(relocatable)
-    string(APPEND group " relocatable")
-  endif()
-  string(REGEX REPLACE "[^a-zA-Z0-9]+" "_" group "${group}")
+  string(TOLOWER "albtpu_headers_${kind}" group)
   string(REGEX REPLACE "_$" "" group "${group}")
   if(NOT TARGET ${group})
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${group}.cc CONTENT "")
     add_library(${group} OBJECT ${PROJECT_BINARY_DIR}/${group}.cc)
     albtpu_warn(${group})
     albtpu_sanitize(${group})
-    target_compile_options(${group} PRIVATE -pthread ${options})
+    target_compile_options(${group} PRIVATE ${options})
     target_link_libraries(${group} PRIVATE ${libraries})
-    if(relocatable)
-      set_target_properties(${group} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    endif()
     target_precompile_headers(${group} PRIVATE
       <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
       <string_view> <utility> <vector> <absl/status/statusor.h> <absl/strings/str_cat.h> <absl/strings/str_format.h>
       <Eigen/Core> ${headers})
   endif()
-  target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
+  target_compile_options(${target} PRIVATE ${options})
   target_precompile_headers(${target} REUSE_FROM ${group})
 endfunction()
 
@@ -139,18 +135,17 @@ endfunction()
 #   albtpu_test(NAME LABEL [ONE_PROCESS] SOURCES ... LIBRARIES ...)
 # It is one test of CTest: most of its tests take milliseconds, and to start it takes longer. Those of `validation` take
 # seconds and are registered one by one, to run beside each other, unless they share in ONE_PROCESS what takes longer
-# than they do. Others run for less time than the optimization of their own code takes; the libraries under test are as
-# released.
+# than they do.
 function(albtpu_test name label)
   cmake_parse_arguments(ARG "ONE_PROCESS" "" "SOURCES;LIBRARIES" ${ARGN})
   albtpu_skip_kernels(${ARG_SOURCES})
   add_executable(${name} ${ARG_SOURCES})
-  albtpu_target(${name})
-  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  if(NOT label STREQUAL "validation")
-    albtpu_optimize_less(${name})
+  set(kind TEST)
+  if(label STREQUAL "validation")
+    set(kind VALIDATION)
   endif()
-  set_target_properties(${name} PROPERTIES ALBTPU_TEST ON)
+  albtpu_target(${name} ${kind})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   if(label STREQUAL "validation" AND NOT ARG_ONE_PROCESS)
     include(GoogleTest)
     gtest_discover_tests(${name} PROPERTIES LABELS ${label} COST 100 DISCOVERY_TIMEOUT 60)
