@@ -12,6 +12,8 @@
 namespace albtpu::quality {
 namespace {
 
+constexpr double kSmallest = 1e-3;  // Of factors.
+
 // The places of two lines.
 struct Overlap {
   std::vector<const PairGroup*> places;
@@ -42,7 +44,7 @@ double ScatterOfCells(const PairGroups& groups) {
   return predicted > 0 ? std::max(squares / predicted, 1.0) : 1;
 }
 
-// Q and its mean and variance as functions of the factor.
+// Q and its distribution as functions of the factor.
 class SquaresOfLines {
  public:
   SquaresOfLines(const Overlaps& overlaps, double scatter) {
@@ -55,6 +57,7 @@ class SquaresOfLines {
         q_ += of.weight * place->mean * place->mean;
         line_ += of.weight * variance;
         noise_ += of.weight * noise;
+        each_ += std::pow(of.weight * variance, 2);
         of_line_[lines.first] += of.weight * place->line_a_variance;
         of_line_[lines.second] += of.weight * place->line_b_variance;
         of_both_[lines] += of.weight * place->line_product;
@@ -68,45 +71,55 @@ class SquaresOfLines {
   double lasting() const { return lasting_; }
   double Factor() const { return std::sqrt(std::max(q_ - noise_, 0.0) / line_); }
 
-  double Degrees(double factor) const {
-    const double squared = factor * factor, mean = Mean(factor);
-    double variance = lasting_ * squared * squared * whole_;
-    for (const Weighted& place : places_)
-      variance += std::pow(place.weight, 2) * (std::pow(squared * place.variance + place.noise, 2) -
-                                               lasting_ * std::pow(squared * place.variance, 2));
-    return mean * mean / variance;
-  }
+  double Degrees(double factor) const { return std::pow(Line(factor), 2) / SquaresOfLine(factor); }
 
-  Estimate Interval(double tail) const { return {Factor(), End(1 - tail), End(tail)}; }
+  // The probabilities to find so large a Q at its lower end, and so small a one at its upper end.
+  Estimate Interval(double larger, double smaller) const { return {Factor(), End(1 - larger), End(smaller)}; }
 
  private:
   struct Weighted {
     double weight, variance, noise;
   };
 
-  double Mean(double factor) const { return factor * factor * line_ + noise_; }
+  // What lines have in t_1 and t_2 (line_part.h).
+  double Line(double factor) const { return factor * factor * line_; }
+  double SquaresOfLine(double factor) const {
+    const double squared = factor * factor, lasting = std::max(squared - changing_, 0.0);
+    const double shared = lasting * (squared + lasting) / 2;
+    return shared * whole_ + (squared * squared - shared) * each_;
+  }
+
+  // The probability that Q is below what was found.
+  double Below(double factor) const {
+    const double line = Line(factor), of_line = SquaresOfLine(factor);
+    double squares = of_line, cubes = of_line * of_line / line;
+    for (const Weighted& place : places_) {
+      const double of_lines = factor * factor * place.variance, all = of_lines + place.noise;
+      squares += std::pow(place.weight, 2) * (all * all - of_lines * of_lines);
+      cubes += std::pow(place.weight, 3) * (std::pow(all, 3) - std::pow(of_lines, 3));
+    }
+    const double degrees = std::pow(squares, 3) / (cubes * cubes);
+    return ChiSquareBelow(std::max((q_ - line - noise_) * squares / cubes + degrees, 0.0), degrees);
+  }
 
   // The factor at which Q is not above what was found with the probability `below`, which falls with the factor.
   double End(double below) const {
-    const auto probability = [this](double factor) {
-      const double degrees = Degrees(factor);
-      return ChiSquareBelow(degrees * q_ / Mean(factor), degrees);
-    };
-    double low = std::log(1e-3), high = std::log(1e3);
-    if (noise_ > 0 && probability(0) <= below) return 0;
-    if (probability(std::exp(high)) > below) return std::numeric_limits<double>::infinity();
+    double low = std::log(kSmallest), high = std::log(1 / kSmallest);
+    if (Below(std::exp(low)) <= below) return 0;
+    if (Below(std::exp(high)) > below) return std::numeric_limits<double>::infinity();
     for (int i = 0; i < 50; ++i) {
       const double middle = (low + high) / 2;
-      (probability(std::exp(middle)) > below ? low : high) = middle;
+      (Below(std::exp(middle)) > below ? low : high) = middle;
     }
     return std::exp(low);
   }
 
   // The correlation of a line's error between two places of an overlap. A mean m_i has the variance v_i + noise_i, and
   // gets the weight r_i = sqrt(v_i) / (v_i + noise_i). With w_i = r_i sqrt(v_i), r_i r_j m_i m_j is in the mean w_i w_j
-  // times the correlation, and (r_i m_i)^2 less its noise is w_i^2: products and squares are compared by these.
+  // times the correlation, and (r_i m_i)^2 less its noise is w_i^2: products and squares are compared by these. Squares
+  // have more by what changes.
   void Lasting(const Overlaps& overlaps, double scatter) {
-    double products = 0, squares = 0;
+    double products = 0, squares = 0, weights = 0;
     for (const auto& [lines, overlap] : overlaps) {
       double sum = 0, sum_of_squares = 0, noise = 0, weight = 0, weight_of_squares = 0;
       int n = 0;
@@ -125,14 +138,16 @@ class SquaresOfLines {
       if (n < 2 || !(weight_of_products > 0)) continue;
       products += (sum * sum - sum_of_squares) * weight_of_squares / weight_of_products / n;
       squares += (sum_of_squares - noise) / n;
+      weights += weight_of_squares / n;
     }
+    changing_ = weights > 0 ? std::max(squares - products, 0.0) / weights : 0;
     lasting_ = squares > 0 ? std::clamp(products / squares, 0.0, 1.0) : 1;
   }
 
   std::vector<Weighted> places_;
   std::map<int, double> of_line_;
   std::map<std::pair<int, int>, double> of_both_;
-  double q_ = 0, line_ = 0, noise_ = 0, whole_ = 0, lasting_ = 1;
+  double q_ = 0, line_ = 0, noise_ = 0, each_ = 0, whole_ = 0, lasting_ = 1, changing_ = 0;
 };
 
 LineDifference DifferenceOf(const std::pair<int, int>& lines, const Overlap& overlap, double scatter, double lasting) {
@@ -162,9 +177,10 @@ LinePart TestLines(const PairGroups& groups) {
   part.lasting = squares.lasting();
   part.noise = std::sqrt(scatter);
   if (!squares.empty()) {
-    part.degrees = squares.Degrees(1);
-    part.factor = squares.Interval(0.025);
-    part.differs = std::abs(part.factor->value - 1) >= kMinDifference && squares.Interval(kTailOfPart).excludes(1);
+    part.factor = squares.Interval(0.025, 0.025);
+    part.degrees = squares.Degrees(std::max(part.factor->value, kSmallest));
+    part.differs = std::abs(part.factor->value - 1) >= kMinDifference &&
+                   squares.Interval(kTailOfLarger, kTailOfSmaller).excludes(1);
   }
   for (const auto& [lines, overlap] : overlaps)
     part.differences.push_back(DifferenceOf(lines, overlap, scatter, part.lasting));
