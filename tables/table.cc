@@ -190,11 +190,12 @@ absl::StatusOr<Table> Table::Create(const TableSchema& schema, Axes axes, Variab
 }
 
 Table::Table(const TableSchema& schema, Axes axes, Variables variables, Provenance provenance)
-    : schema_(&schema),
-      axes_(std::move(axes)),
-      variables_(std::move(variables)),
-      provenance_(std::move(provenance)),
-      digest_(Digest(schema, axes_, variables_, provenance_)) {}
+    : schema_(&schema), axes_(std::move(axes)), variables_(std::move(variables)), provenance_(std::move(provenance)) {}
+
+const std::string& Table::digest() const {
+  std::call_once(digest_->once, [&] { digest_->text = Digest(*schema_, axes_, variables_, provenance_); });
+  return digest_->text;
+}
 
 const Variable* Table::variable(std::size_t quantity) const {
   const std::optional<Variable>& variable = variables_[quantity];

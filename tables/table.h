@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,7 +46,8 @@ class Table {
 
   // SHA-256, 64 hexadecimal digits, over kind, id, axes, values, standard errors, units, scales and campaign; not
   // over date, version, commit or other attributes. Two tables with the same digest give the same answers.
-  const std::string& digest() const { return digest_; }
+  // Computed when it is asked for, once for all copies of a table.
+  const std::string& digest() const;
 
  private:
   Table(const TableSchema& schema, Axes axes, Variables variables, Provenance provenance);
@@ -53,7 +56,11 @@ class Table {
   Axes axes_;
   Variables variables_;
   Provenance provenance_;
-  std::string digest_;
+  struct LazyDigest {
+    std::once_flag once;
+    std::string text;
+  };
+  std::shared_ptr<LazyDigest> digest_ = std::make_shared<LazyDigest>();
 };
 
 // The number of values of a quantity on all axes of a table.

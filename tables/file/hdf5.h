@@ -16,15 +16,6 @@
 
 namespace albtpu::hdf5 {
 
-// Checks how the numbers of an HDF5 dataset are stored before HDF5 reads them.
-
-// Success if all values of a float32 dataset lie in its own file, contiguous or in chunks as FORMAT.md allows, and
-// each chunk has as many bytes as its shape requires. HDF5 1.10 does not check the size: if a chunk has fewer
-// bytes, by damage or malice, it reads beyond the memory of the chunk.
-//
-// InvalidArgument: the message continues a sentence that begins with the name of the dataset.
-absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape);
-
 // While a session exists, no other thread of the process calls HDF5 through this layer, and HDF5 prints nothing to
 // standard error. Neither does it at the end of the program, when it would report the objects that it lost track of
 // in damaged files.

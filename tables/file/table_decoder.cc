@@ -9,6 +9,7 @@
 #include "absl/strings/str_join.h"
 #include "status/status_macros.h"
 #include "tables/file/hdf5.h"
+#include "tables/file/hdf5_numbers.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
 #include "tables/format.h"
@@ -62,13 +63,8 @@ absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std:
 
 // Requires that the shape has been checked.
 absl::StatusOr<std::vector<float>> ReadFloats(const FloatDataset& from, std::string_view kind) {
-  if (const absl::Status status = hdf5::CheckStorage(from.dataset, from.shape); !status.ok())
-    return About(kind, from.name, std::string(status.message()));
-  std::size_t count = 1;
-  for (hsize_t size : from.shape) count *= size;
-  std::vector<float> values(count);
-  if (H5Dread(from.dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    return About(kind, from.name, "cannot be read");
+  absl::StatusOr<std::vector<float>> values = hdf5::ReadFloats(from.dataset, from.shape);
+  if (!values.ok()) return About(kind, from.name, std::string(values.status().message()));
   return values;
 }
 

@@ -8,8 +8,12 @@
 namespace albtpu {
 namespace {
 
-void Put(const std::vector<float>& numbers, std::size_t lane, bool as_logarithms, Records& records) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+// Lanes are put one after the other into this many records, which stay in the cache meanwhile.
+constexpr std::size_t kPutTogether = 1024;
+
+void Put(const std::vector<float>& numbers, std::size_t first, std::size_t lane, bool as_logarithms, Records& records) {
+  const std::size_t end = std::min(first + kPutTogether, numbers.size());
+  for (std::size_t i = first; i < end; ++i) {
     const double number = numbers[i];
     records[i * kRecordSize + lane] = static_cast<float>(as_logarithms ? std::log(number) : number);
   }
@@ -51,21 +55,25 @@ NodeRecords::NodeRecords(const Table& table) : quantity_count(table.schema().qua
     }
     if (members.empty()) continue;
     const std::size_t first = sets.size(), last = Place(members, any_errors, first, *this);
-    const Records zeros((ValueCount(table.axes(), quantities[members[0]]) + 1) * kRecordSize);
-    for (std::size_t set = first; set < last; ++set) sets.push_back({over_last_axis, zeros, {}});
+    const std::size_t count = ValueCount(table.axes(), quantities[members[0]]);
+    const std::size_t size = (count + 1) * kRecordSize;
+    for (std::size_t set = first; set < last; ++set) sets.push_back({over_last_axis, Records(size), {}});
     for (const std::size_t q : members)
-      if (is_log[q]) sets[values[q].set].plain = zeros;
+      if (is_log[q]) sets[values[q].set].plain.resize(size);
+    for (std::size_t record = 0; record < count; record += kPutTogether)
+      for (const std::size_t q : members) PutAll(table, q, record);
   }
   assert(sets.size() <= kMaxSets);
-  for (std::size_t q = 0; q < quantity_count; ++q) {
-    if (!has_values[q]) continue;
-    const Variable& variable = *table.variable(q);
-    Set& set = sets[values[q].set];
-    Put(variable.values, values[q].lane, is_log[q], set.numbers);
-    if (is_log[q]) Put(variable.values, values[q].lane, false, set.plain);
-    if (!has_standard_errors[q]) continue;
-    Put(variable.standard_errors, standard_errors[q].lane, false, sets[standard_errors[q].set].numbers);
-  }
+}
+
+void NodeRecords::PutAll(const Table& table, std::size_t q, std::size_t first) {
+  if (!has_values[q]) return;
+  const Variable& variable = *table.variable(q);
+  Set& set = sets[values[q].set];
+  Put(variable.values, first, values[q].lane, is_log[q], set.numbers);
+  if (is_log[q]) Put(variable.values, first, values[q].lane, false, set.plain);
+  if (!has_standard_errors[q]) return;
+  Put(variable.standard_errors, first, standard_errors[q].lane, false, sets[standard_errors[q].set].numbers);
 }
 
 namespace {

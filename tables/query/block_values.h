@@ -40,6 +40,10 @@ struct NodeRecords {
   std::size_t quantity_count;
   std::array<RecordPlace, kMaxQuantities> values, standard_errors;
   std::array<bool, kMaxQuantities> has_values{}, has_standard_errors{}, is_log{};
+
+ private:
+  // The numbers of a quantity, into the next records from `first` on.
+  void PutAll(const Table& table, std::size_t quantity, std::size_t first);
 };
 
 // The sets of records that have to be blended.

@@ -12,6 +12,7 @@
 
 #include "absl/strings/string_view.h"
 #include "tables/file/hdf5.h"
+#include "tables/file/hdf5_numbers.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoder.h"
 #include "tables/format.h"
@@ -158,12 +159,10 @@ void ChangeNumbers(hid_t file, Random& random) {
   if (count < 1 || static_cast<std::size_t>(count) > kMostNumbers) return;
   std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  // HDF5 would read beyond the end of a chunk that is too short.
-  if (!hdf5::CheckStorage(dataset, shape).ok()) return;
-  std::vector<float> numbers(static_cast<std::size_t>(count));
-  if (H5Dread(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0) return;
-  for (std::uint32_t i = 0; i <= random() % 3; ++i) numbers[random() % numbers.size()] = AnyNumber(random);
-  H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  absl::StatusOr<std::vector<float>> numbers = hdf5::ReadFloats(dataset, shape);
+  if (!numbers.ok()) return;
+  for (std::uint32_t i = 0; i <= random() % 3; ++i) (*numbers)[random() % numbers->size()] = AnyNumber(random);
+  H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers->data());
 }
 
 void ChangeAttribute(hid_t file, Random& random) {

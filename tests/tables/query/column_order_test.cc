@@ -93,39 +93,39 @@ TEST_P(ColumnOrder, AnswersTheSameInAnyOrderAndInPiecesBitByBit) {
 }
 
 // More pulses than are sorted at a time.
-constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2;
+constexpr std::size_t kPulseCount = 70'011, kFirst = 5, kPast = kPulseCount - 2;
 
 // One block at a time, which is too few pulses to be sorted.
 Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
-  Answers answers(kSize);
-  for (std::size_t first = kBegin; first < kEnd; first += kBlock)
-    interpolator.Interpolate(query, pulses, first, std::min(first + kBlock, kEnd), answers.columns());
+  Answers answers(kPulseCount);
+  for (std::size_t first = kFirst; first < kPast; first += kBlock)
+    interpolator.Interpolate(query, pulses, first, std::min(first + kBlock, kPast), answers.columns());
   return answers;
 }
 
 TEST_P(ColumnOrder, AnswersManyPulsesInRandomOrderLikeFewBitByBit) {
   ASSERT_LT(SortedPulses::Fewest(81'920), SortedPulses::kMost);
   const Query query{.coverage = Coverage::kP95, .s44_order = S44Order::kSpecial};
-  Columns columns = RandomColumns(LargeTable(Scale::kLinear, false), kSize, 8);
+  Columns columns = RandomColumns(LargeTable(Scale::kLinear, false), kPulseCount, 8);
   columns[Index(AxisId::kAzimuth)][300] = 4e9f;
   Columns constants = columns;
   constants[Index(AxisId::kWindSpeed)].resize(1);
   constants[Index(AxisId::kAzimuth)].clear();
   for (const Columns& asked : {columns, constants}) {
-    const PulseColumns pulses = Pulses(asked, kSize);
+    const PulseColumns pulses = Pulses(asked, kPulseCount);
     for (const bool errors : {true, false}) {
       for (const Scale scale : {Scale::kLinear, Scale::kLog}) {
         const ColumnInterpolator interpolator(LargeTable(scale, errors));
         const Answers few = AskInBlocks(interpolator, query, pulses);
-        Answers many(kSize);
-        interpolator.Interpolate(query, pulses, kBegin, kEnd, many.columns());
+        Answers many(kPulseCount);
+        interpolator.Interpolate(query, pulses, kFirst, kPast, many.columns());
         EXPECT_EQ(many.FirstDifference(few), std::nullopt);
 
-        std::vector<float> thu(kSize);
+        std::vector<float> thu(kPulseCount);
         AnswerColumns one_column;
         one_column.values[Index(Quantity::kThu)] = thu.data();
-        interpolator.Interpolate(query, pulses, kBegin, kEnd, one_column);
-        EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)), 0);
+        interpolator.Interpolate(query, pulses, kFirst, kPast, one_column);
+        EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kPulseCount * sizeof(float)), 0);
       }
     }
   }
@@ -135,10 +135,10 @@ TEST_P(ColumnOrder, AnswersManyPulsesInRandomOrderLikeFewBitByBit) {
 TEST_P(ColumnOrder, AnswersTheSameOnAllCoresAsOnOneBitByBit) {
   const UncertaintyTable table = LargeTable(Scale::kLinear, true);
   const ColumnInterpolator interpolator(table);
-  for (const Columns& columns : {LineColumns(kSize), RandomColumns(table, kSize, 4)}) {
-    const Answers one = Ask(interpolator, {}, Pulses(columns, kSize));
-    Answers all(kSize);
-    InterpolateOnAllCores(interpolator, {}, Pulses(columns, kSize), all.columns());
+  for (const Columns& columns : {LineColumns(kPulseCount), RandomColumns(table, kPulseCount, 4)}) {
+    const Answers one = Ask(interpolator, {}, Pulses(columns, kPulseCount));
+    Answers all(kPulseCount);
+    InterpolateOnAllCores(interpolator, {}, Pulses(columns, kPulseCount), all.columns());
     EXPECT_EQ(all.FirstDifference(one), std::nullopt);
   }
 }
