@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -92,41 +93,37 @@ struct PlaceOfBeam {
   }
 };
 
-// At a node of the incidence, interpolated over the other axes.
-WaterAnswer AtNode(const std::array<std::vector<float>, kWaterQuantityCount>& values, const std::vector<Axis>& axes,
-                   std::size_t node, const PlaceOfBeam& place) {
-  const std::size_t taus = AxisOf(axes, WaterAxis::kOpticalDepth).size(),
-                    views = AxisOf(axes, WaterAxis::kFieldOfView).size(),
-                    pulses = AxisOf(axes, WaterAxis::kPulseLength).size();
-  WaterAnswer answer = {};
-  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
-    const bool over_pulse = kWaterColumn.quantities[q].over_last_axis;
-    for (std::size_t j = 0; j < place.tau.count; ++j) {
-      for (std::size_t k = 0; k < place.view.count; ++k) {
-        const std::size_t at = (node * taus + place.tau.first + j) * views + place.view.first + k;
-        const double weight = place.tau.of[j] * place.view.of[k];
-        if (!over_pulse) {
-          answer[q] += weight * values[q][at];
-          continue;
-        }
-        const float* const row = values[q].data() + at * pulses + place.pulse.first;
-        double sum = 0;
-        for (std::size_t l = 0; l < place.pulse.count; ++l) sum += place.pulse.of[l] * row[l];
-        answer[q] += weight * sum;
+// At `count` nodes of the incidence from `first` on, interpolated over the other axes. `values` is as in OneWater: the
+// innermost loop runs over nodes and quantities, which lie side by side.
+std::vector<WaterAnswer> AtNodes(const std::vector<float>& values, const std::vector<Axis>& axes, std::size_t first,
+                                 std::size_t count, const PlaceOfBeam& place) {
+  const std::size_t views = AxisOf(axes, WaterAxis::kFieldOfView).size(),
+                    pulses = AxisOf(axes, WaterAxis::kPulseLength).size(),
+                    record = AxisOf(axes, WaterAxis::kIncidence).size() * kWaterQuantityCount;
+  std::vector<double> sums(count * kWaterQuantityCount);
+  for (std::size_t j = 0; j < place.tau.count; ++j) {
+    for (std::size_t k = 0; k < place.view.count; ++k) {
+      const std::size_t row = ((place.tau.first + j) * views + place.view.first + k) * pulses + place.pulse.first;
+      for (std::size_t l = 0; l < place.pulse.count; ++l) {
+        const double weight = place.tau.of[j] * place.view.of[k] * place.pulse.of[l];
+        const float* const numbers = values.data() + (row + l) * record + first * kWaterQuantityCount;
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * numbers[i];
       }
     }
   }
-  return answer;
+  std::vector<WaterAnswer> answers(count);
+  for (std::size_t i = 0; i < count; ++i)
+    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(i * kWaterQuantityCount), kWaterQuantityCount,
+                answers[i].begin());
+  return answers;
 }
 
-// The sum over nodes of the incidence, in the units of an answer. `at_node`: of node i.
-template <typename AtNodes>
-WaterAnswer OverNodes(const MirroredWeights& weights, double scattering, const AtNodes& at_node) {
+// The sum over nodes of the incidence, in the units of an answer. `nodes` begins with that of the first weight.
+WaterAnswer OverNodes(const MirroredWeights& weights, double scattering, std::span<const WaterAnswer> nodes) {
   WaterAnswer answer = {};
   for (std::size_t i = 0; i < weights.even.count; ++i) {
-    const WaterAnswer& node = at_node(weights.even.first + i);
     for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
-      answer[q] += (IsOdd(q) ? weights.odd : weights.even).of[i] * node[q];
+      answer[q] += (IsOdd(q) ? weights.odd : weights.even).of[i] * nodes[i][q];
   }
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
     if (IsOverScattering(q)) answer[q] *= scattering;
@@ -140,16 +137,17 @@ bool Covers(const Axis& axis, double x) { return x >= axis.nodes().front() && x 
 
 std::optional<WaterAnswer> WaterOverIncidence::At(double incidence) const {
   if (!Covers(*axis_, incidence)) return std::nullopt;
-  return OverNodes(WeightsOfIncidence(*axis_, incidence), scattering_,
-                   [&](std::size_t node) -> const WaterAnswer& { return of_[node]; });
+  const MirroredWeights weights = WeightsOfIncidence(*axis_, incidence);
+  return OverNodes(weights, scattering_, std::span(of_).subspan(weights.even.first));
 }
 
 std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
   const Axis& incidence = AxisOf(*axes_, WaterAxis::kIncidence);
   const std::optional<PlaceOfBeam> place = PlaceOfBeam::Of(*axes_, beam);
   if (!place || !Covers(incidence, beam.incidence)) return std::nullopt;
-  return OverNodes(WeightsOfIncidence(incidence, beam.incidence), scattering_ * beam.optical_depth,
-                   [&](std::size_t node) { return AtNode(values_, *axes_, node, *place); });
+  const MirroredWeights weights = WeightsOfIncidence(incidence, beam.incidence);
+  return OverNodes(weights, scattering_ * beam.optical_depth,
+                   AtNodes(values_, *axes_, weights.even.first, weights.even.count, *place));
 }
 
 std::optional<WaterOverIncidence> OneWater::OverIncidence(const WaterBeam& beam) const {
@@ -158,8 +156,7 @@ std::optional<WaterOverIncidence> OneWater::OverIncidence(const WaterBeam& beam)
   WaterOverIncidence over;
   over.axis_ = &AxisOf(*axes_, WaterAxis::kIncidence);
   over.scattering_ = scattering_ * beam.optical_depth;
-  over.of_.reserve(over.axis_->size());
-  for (std::size_t i = 0; i < over.axis_->size(); ++i) over.of_.push_back(AtNode(values_, *axes_, i, *place));
+  over.of_ = AtNodes(values_, *axes_, 0, over.axis_->size(), *place);
   return over;
 }
 
@@ -182,19 +179,27 @@ WaterColumnTable::WaterColumnTable(Table table) : table_(std::move(table)) {
   const std::vector<double>& fractions = axis(WaterAxis::kBackscatterFraction).nodes();
   const std::vector<double>& ratios = axis(WaterAxis::kScatteringOverAbsorption).nodes();
   const std::vector<double>& taus = axis(WaterAxis::kOpticalDepth).nodes();
+  const std::size_t incidences = axis(WaterAxis::kIncidence).size(), pulses = axis(WaterAxis::kPulseLength).size(),
+                    cells = axis(WaterAxis::kFieldOfView).size() * pulses;
+  values_.resize(fractions.size() * ratios.size() * taus.size() * cells * incidences * kWaterQuantityCount);
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
-    values_[q] = table_.variable(q)->values;
-    if (!IsOverScattering(q)) continue;
-    // Nodes of an axis take turns after each run of the faster axes.
-    std::size_t of_tau = axis(WaterAxis::kFieldOfView).size();
-    if (kWaterColumn.quantities[q].over_last_axis) of_tau *= axis(WaterAxis::kPulseLength).size();
-    const std::size_t of_ratio = of_tau * taus.size() * axis(WaterAxis::kIncidence).size();
-    for (std::size_t i = 0; i < values_[q].size(); ++i) {
-      double value = values_[q][i];
-      if (q == Index(WaterQuantity::kEnergy)) value = std::log(value);
-      const double ratio = ratios[i / of_ratio % ratios.size()], fraction = fractions[i / of_ratio / ratios.size()];
-      value *= OpticalDepthPerScattering(ratio, fraction) / taus[i / of_tau % taus.size()];
-      values_[q][i] = static_cast<float>(value);
+    const std::vector<float>& from = table_.variable(q)->values;
+    const std::size_t cells_of_value = kWaterColumn.quantities[q].over_last_axis ? 1 : pulses;
+    std::size_t at = 0;  // In the order of the table's axes.
+    for (std::size_t water = 0; water < fractions.size() * ratios.size(); ++water) {
+      const double per_scattering =
+          OpticalDepthPerScattering(ratios[water % ratios.size()], fractions[water / ratios.size()]);
+      for (std::size_t incidence = 0; incidence < incidences; ++incidence) {
+        for (std::size_t tau = 0; tau < taus.size(); ++tau, at += cells / cells_of_value) {
+          const std::size_t row = (water * taus.size() + tau) * cells;
+          for (std::size_t cell = 0; cell < cells; ++cell) {
+            double value = from[at + cell / cells_of_value];
+            if (q == Index(WaterQuantity::kEnergy)) value = std::log(value);
+            if (IsOverScattering(q)) value *= per_scattering / taus[tau];
+            values_[((row + cell) * incidences + incidence) * kWaterQuantityCount + q] = static_cast<float>(value);
+          }
+        }
+      }
     }
   }
 }
@@ -213,15 +218,12 @@ OneWater WaterColumnTable::Of(double backscatter_fraction, double scattering_ove
   OneWater water;
   water.scattering_ = 1 / OpticalDepthPerScattering(held_ratio, held_fraction);
   water.axes_ = &table_.axes();
-  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
-    const std::size_t size = values_[q].size() / fraction.size() / ratio.size();
-    water.values_[q].assign(size, 0);
-    for (std::size_t m = 0; m < i.count; ++m) {
-      for (std::size_t n = 0; n < j.count; ++n) {
-        const auto weight = static_cast<float>(i.of[m] * j.of[n]);
-        const float* const from = values_[q].data() + ((i.first + m) * ratio.size() + j.first + n) * size;
-        for (std::size_t k = 0; k < size; ++k) water.values_[q][k] += weight * from[k];
-      }
+  water.values_.resize(values_.size() / fraction.size() / ratio.size());
+  for (std::size_t m = 0; m < i.count; ++m) {
+    for (std::size_t n = 0; n < j.count; ++n) {
+      const auto weight = static_cast<float>(i.of[m] * j.of[n]);
+      const float* const from = &values_[((i.first + m) * ratio.size() + j.first + n) * water.values_.size()];
+      for (std::size_t k = 0; k < water.values_.size(); ++k) water.values_[k] += weight * from[k];
     }
   }
   return water;

@@ -56,8 +56,9 @@ class OneWater {
 
   const std::vector<Axis>* axes_;  // of the table
   double scattering_ = 0;          // b z over the optical depth
-  // Over the remaining axes; biases over b z, the energy as its logarithm over it.
-  std::array<std::vector<float>, kWaterQuantityCount> values_;
+  // Over optical depth, field of view, pulse length, incidence and, fastest, quantities; biases over b z, the energy as
+  // its logarithm over it.
+  std::vector<float> values_;
 };
 
 class WaterColumnTable {
@@ -81,7 +82,7 @@ class WaterColumnTable {
   explicit WaterColumnTable(Table table);
 
   Table table_;
-  std::array<std::vector<float>, kWaterQuantityCount> values_;  // as in OneWater, over all axes
+  std::vector<float> values_;  // Over the first two axes, then as in OneWater.
 };
 
 }  // namespace albtpu
