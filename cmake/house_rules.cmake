@@ -42,8 +42,8 @@ cmake_dependent_option(ALBTPU_UNITY "Compile several files of a target at a time
 
 # Compile options of all our own code; to be called once for each target:
 #   albtpu_target(NAME [APPLICATION|PROGRAM|TEST|VALIDATION])
-# What computes is optimized most. An APPLICATION handles files, settings and calls, and a PROGRAM its arguments; a TEST
-# runs for less time than its optimization takes, but a VALIDATION computes.
+# What computes, or serves many pulses, is optimized most. An APPLICATION handles files and settings, and a PROGRAM its
+# arguments; a TEST runs for less time than its optimization takes, but a VALIDATION computes.
 function(albtpu_target target)
   albtpu_warn(${target})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
@@ -68,7 +68,7 @@ function(albtpu_precompile target kind)
   set(optimization "")
   if(kind STREQUAL "APPLICATION")
     set(optimization -O2)
-    set(headers <grpcpp/grpcpp.h> <nlohmann/json.hpp> <toml++/toml.h>)
+    set(headers <nlohmann/json.hpp> <toml++/toml.h>)
   elseif(kind STREQUAL "PROGRAM")
     set(optimization -O1)
     set(headers <CLI/CLI.hpp> <nlohmann/json.hpp> <toml++/toml.h>)
