@@ -146,6 +146,24 @@ TEST(ForeignStorage, IsRefusedIfItIsSharedTooLargeOrAbsent) {
                    HasSubstr("attribute 'title' is longer than 16777216 bytes")}});
 }
 
+// Writers shuffle values by their size.
+TEST(ForeignStorage, IsRefusedIfItIsShuffledOtherwise) {
+  std::string file = testing::Forge([&](hid_t root) {
+    const Handle creation = Creation();
+    H5Pset_chunk(creation, 6, kShape.data());
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
+    ReplaceThu(root, creation);
+  });
+  // The level of deflate tells it from the other datasets. The parameter of shuffle is 16 bytes before.
+  const std::size_t at = file.find(std::string("deflate\0\1\0\0\0", 12));
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(file[at - 16], 4);
+  file[at - 16] = 2;
+  seal::Apply(file);
+  EXPECT_EQ(testing::Problem(file), "variable 'thu' is shuffled by 2 bytes: expected the 4 of a value");
+}
+
 // HDF5 1.10 would read beyond the data, in memory that it does not own; 1.14 does not open such a dataset.
 TEST(ForeignStorage, IsRefusedIfDataInTheObjectHeaderIsTooShort) {
   const std::vector<float> values(16, 42.5f);
