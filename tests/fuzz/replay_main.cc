@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
   if (argc < 3) return 2;
   LLVMFuzzerInitialize(&argc, &argv);
-  const Clock::duration time = std::chrono::seconds(std::stoi(argv[1]));
+  const std::chrono::duration<double> time(std::stod(argv[1]));
   const std::vector<std::string> inputs = ReadInputs({argv + 2, argv + argc});
   if (inputs.empty()) return 1;
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, LeaveInput);
@@ -150,6 +150,6 @@ int main(int argc, char** argv) {
   }
   mutator.emplace(inputs, kSeed);
   std::size_t made = 0;
-  for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; ++made) Try(NewInput(2 * longest));
+  for (const auto end = Clock::now() + time; Clock::now() < end; ++made) Try(NewInput(2 * longest));
   std::cout << inputs.size() << " inputs, " << made << " mutations of them\n";
 }
