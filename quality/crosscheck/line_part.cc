@@ -12,7 +12,7 @@
 namespace albtpu::quality {
 namespace {
 
-constexpr double kSmallest = 1e-3;  // Of factors.
+constexpr double kSmallest = 1e-3;  // The smallest factor that is distinguished from 0.
 
 // The places of two lines.
 struct Overlap {
@@ -114,10 +114,10 @@ class SquaresOfLines {
     return std::exp(low);
   }
 
-  // The correlation of a line's error between two places of an overlap. A mean m_i has the variance v_i + noise_i, and
-  // gets the weight r_i = sqrt(v_i) / (v_i + noise_i). With w_i = r_i sqrt(v_i), r_i r_j m_i m_j is in the mean w_i w_j
-  // times the correlation, and (r_i m_i)^2 less its noise is w_i^2: products and squares are compared by these. Squares
-  // have more by what changes.
+  // Estimates the correlation of a line's error between two places of an overlap. The mean m_i of a place has the
+  // variance v_i + noise_i; its weight is r_i = sqrt(v_i) / (v_i + noise_i), and w_i = r_i sqrt(v_i). The expected
+  // value of r_i r_j m_i m_j is w_i w_j times the correlation, that of (r_i m_i)^2 without its noise is w_i^2. So both
+  // sums are divided by those of the w. The squares exceed the products by the part that changes.
   void Lasting(const Overlaps& overlaps, double scatter) {
     double products = 0, squares = 0, weights = 0;
     for (const auto& [lines, overlap] : overlaps) {

@@ -8,7 +8,7 @@
 namespace albtpu {
 namespace {
 
-// Lanes are put one after the other into this many records, which stay in the cache meanwhile.
+// The number of records in a batch. All lanes of a batch are filled before the next one, while it is in the cache.
 constexpr std::size_t kPutTogether = 1024;
 
 void Put(const std::vector<float>& numbers, std::size_t first, std::size_t lane, bool as_logarithms, Records& records) {

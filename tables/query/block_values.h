@@ -42,7 +42,7 @@ struct NodeRecords {
   std::array<bool, kMaxQuantities> has_values{}, has_standard_errors{}, is_log{};
 
  private:
-  // The numbers of a quantity, into the next records from `first` on.
+  // Puts values and standard errors of a quantity into a batch of records, beginning with the record `first`.
   void PutAll(const Table& table, std::size_t quantity, std::size_t first);
 };
 
