@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -42,6 +43,8 @@ class Table {
   const Axes& axes() const { return axes_; }
   // Null if the table does not hold the quantity at this index of the schema.
   const Variable* variable(std::size_t quantity) const;
+  // Moves the variables out of a table that is not needed any more.
+  Variables ReleaseVariables() && { return std::move(variables_); }
   const Provenance& provenance() const { return provenance_; }
 
   // SHA-256, 64 hexadecimal digits, over kind, id, axes, values, standard errors, units, scales and campaign; not

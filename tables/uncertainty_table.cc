@@ -37,6 +37,13 @@ UncertaintyTable::UncertaintyTable(Table table)
   assert(IsOfSea(schema()));
 }
 
+UncertaintyTable::Variables UncertaintyTable::ReleaseVariables() && {
+  Table::Variables released = std::move(table_).ReleaseVariables();
+  Variables variables;
+  std::move(released.begin(), released.end(), variables.begin());
+  return variables;
+}
+
 std::size_t ValueCount(const UncertaintyTable::Axes& axes, Quantity quantity) {
   return ValueCount(axes, Describe(quantity));
 }

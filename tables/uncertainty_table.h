@@ -37,6 +37,8 @@ class UncertaintyTable {
   const Axes& axes() const { return axes_; }
   // Null if the table does not hold the quantity: tables of published numbers have no biases.
   const Variable* variable(Quantity quantity) const { return table_.variable(Index(quantity)); }
+  // Moves the variables out of a table that is not needed any more.
+  Variables ReleaseVariables() &&;
   const Provenance& provenance() const { return table_.provenance(); }
   // Whether the numbers were published by others: no campaign made the table.
   bool is_published() const { return provenance().campaign.empty(); }

@@ -26,7 +26,7 @@ absl::Status CheckName(const SourceOptions& options) {
 absl::StatusOr<std::unique_ptr<client::UncertaintySource>> OpenFile(std::string name, const std::filesystem::path& path,
                                                                     double index) {
   ASSIGN_OR_RETURN(UncertaintyTable table, ReadTable(path));
-  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), table, index));
+  return std::unique_ptr<client::UncertaintySource>(new client::LocalSource(std::move(name), std::move(table), index));
 }
 
 // Adds the other ways to choose a table, for when no installed table answers.

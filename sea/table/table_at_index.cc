@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -97,8 +98,8 @@ class SnellOnSea {
 // The nodes of a table as numbers of the rows of its variables.
 class Nodes {
  public:
-  explicit Nodes(const UncertaintyTable& table) {
-    for (const AxisId id : kAxes) sizes_[Index(id)] = table.axis(id).size();
+  explicit Nodes(const UncertaintyTable::Axes& axes) {
+    for (const AxisId id : kAxes) sizes_[Index(id)] = axes[Index(id)].size();
   }
   std::size_t size(AxisId id) const { return sizes_[Index(id)]; }
   std::size_t seas() const { return size(AxisId::kWindSpeed) * size(AxisId::kFetch); }
@@ -135,53 +136,80 @@ double DegreesOfTangent(double variance, double bias) {
   return DegreesOfRadians(2 * std::sqrt(variance) * (1 - std::min(variance + bias * bias, 0.3)));
 }
 
+// Scales the variables of a table in place.
 class Scaling {
  public:
-  Scaling(const UncertaintyTable& table, double to) : table_(table), nodes_(table) {
-    for (const double degrees : table.axis(AxisId::kIncidence).nodes()) {
+  Scaling(const UncertaintyTable::Axes& axes, double from, double to, UncertaintyTable::Variables& variables)
+      : axes_(axes), nodes_(axes), from_index_(from), variables_(variables) {
+    for (const double degrees : axes[Index(AxisId::kIncidence)].nodes()) {
       const double incidence = RadiansOfDegrees(std::min(degrees, 80.0));
-      from_.emplace_back(incidence, IndexOfTable(table));
+      from_.emplace_back(incidence, from);
       to_.emplace_back(incidence, to);
     }
-    for (const Quantity quantity : kQuantities)
-      if (const Variable* variable = table.variable(quantity)) scaled_[Index(quantity)] = *variable;
   }
 
-  UncertaintyTable::Variables Scaled() {
+  void Scale() {
     for (std::size_t sea = 0; sea < nodes_.seas(); ++sea) {
       const Eigen::Matrix2d slopes = SlopesOf(sea);
-      for (std::size_t i = 0; i < nodes_.size(AxisId::kIncidence); ++i)
+      // The vertical beam comes last, because the others need its values.
+      for (std::size_t i = nodes_.size(AxisId::kIncidence); i-- > 0;)
         for (std::size_t a = 0; a < nodes_.size(AxisId::kAzimuth); ++a) ScaleBeams(sea, i, a, slopes);
     }
-    return std::move(scaled_);
   }
 
  private:
-  const std::vector<float>& Values(Quantity quantity) const { return table_.variable(quantity)->values; }
+  // What the beams of one direction into one sea share, whatever their footprints.
+  struct Beams {
+    Beams(const Eigen::Matrix2d& beam_axes, const Snell& from_snell, const Snell& to_snell, const Snell& nadir_snell)
+        : axes(beam_axes), from(from_snell), to(to_snell), nadir(nadir_snell) {
+      const Eigen::Matrix2d squares = (axes * from.gain * axes.transpose()).cwiseAbs2();
+      const Eigen::Matrix2d new_squares = (axes * to.gain * axes.transpose()).cwiseAbs2();
+      seen_by_errors = squares.inverse();
+      change = new_squares - squares;
+      usual = new_squares.trace() / squares.trace();
+      const auto of_bias = [](double scaled, double original, double otherwise) {
+        return std::abs(original) > kNothing ? Ratio(scaled, original, otherwise) : otherwise;
+      };
+      bias_along = of_bias(to.bias.x(), from.bias.x(), std::sqrt(usual));
+      bias_vertical = of_bias(to.bias.z(), from.bias.z(), usual);
+    }
+
+    Eigen::Matrix2d axes;
+    Snell from, to, nadir;
+    // Variances of slopes on the axes of the sea, where they are uncorrelated, by those of the tangents; and how much
+    // more the latter are at the other index.
+    Eigen::Matrix2d seen_by_errors, change;
+    double usual;                      // ratio of the variances of tangents, of slopes that are alike in all directions
+    double bias_along, bias_vertical;  // ratios
+  };
+
+  const std::vector<float>& Values(Quantity quantity) const { return variables_[Index(quantity)]->values; }
   double Value(Quantity quantity, std::size_t node) const { return Values(quantity)[node]; }
 
-  // Multiplies a value, where it is one, and its standard error.
-  void Multiply(Quantity quantity, std::size_t at, double factor) {
-    std::optional<Variable>& variable = scaled_[Index(quantity)];
+  // Multiplies values, where there are any, and their standard errors.
+  void Multiply(Quantity quantity, std::size_t begin, std::size_t count, double factor) {
+    std::optional<Variable>& variable = variables_[Index(quantity)];
     if (!variable) return;
-    const auto multiply = [&](float& number) {
-      const auto product = static_cast<float>(number * factor);
-      // What is positive stays so: variables may be interpolated in their logarithm.
-      number = number > 0 ? std::clamp(product, std::numeric_limits<float>::min(), kMost) : std::max(product, -kMost);
+    const auto multiply = [&](std::vector<float>& numbers) {
+      for (float& number : std::span(numbers).subspan(begin, count)) {
+        const auto product = static_cast<float>(number * factor);
+        // What is positive stays so: variables may be interpolated in their logarithm.
+        number = number > 0 ? std::clamp(product, std::numeric_limits<float>::min(), kMost) : std::max(product, -kMost);
+      }
     };
-    multiply(variable->values[at]);
-    if (!variable->standard_errors.empty()) multiply(variable->standard_errors[at]);
+    multiply(variable->values);
+    if (!variable->standard_errors.empty()) multiply(variable->standard_errors);
   }
 
   // Of the whole sea, on its axes.
   Eigen::Matrix2d SlopesOf(std::size_t sea) const {
-    const double bent = Squared(1 - 1 / IndexOfTable(table_));
+    const double bent = Squared(1 - 1 / from_index_);
     const std::size_t node = nodes_.At(sea, 0, 0, 0);
     double x = VarianceOfTangent(Value(Quantity::kRefractionAlongWind, node), 0) / bent;
     double y = VarianceOfTangent(Value(Quantity::kRefractionCrossWind, node), 0) / bent;
-    const double depth = table_.axis(AxisId::kDepth).nodes().back();
+    const double depth = axes_[Index(AxisId::kDepth)].nodes().back();
     double all = x + y;
-    if (table_.variable(Quantity::kBiasVertical) != nullptr && depth > 0 && all > 0) {
+    if (variables_[Index(Quantity::kBiasVertical)] && depth > 0 && all > 0) {
       // At nadir the mean path is longer by half of (1 - 1/n)^2 times the mean square slope.
       const double bias = Value(Quantity::kBiasVertical, (node + 1) * nodes_.depths() - 1);
       all = std::max(all, -2 * bias / depth / bent);
@@ -192,39 +220,31 @@ class Scaling {
   }
 
   void ScaleBeams(std::size_t sea, std::size_t incidence, std::size_t azimuth, const Eigen::Matrix2d& slopes) {
-    const double angle = RadiansOfDegrees(table_.axis(AxisId::kAzimuth).nodes()[azimuth]);
-    const Eigen::Matrix2d axes = Eigen::Rotation2Dd(angle).toRotationMatrix();  // of the beam
+    const double angle = RadiansOfDegrees(axes_[Index(AxisId::kAzimuth)].nodes()[azimuth]);
+    const Eigen::Matrix2d axes = Eigen::Rotation2Dd(angle).toRotationMatrix();
     const Eigen::Matrix2d on_beam = axes.transpose() * slopes * axes;
-    const Snell from = from_[incidence](on_beam), to = to_[incidence](on_beam);
-    const Snell nadir = from_[0](on_beam);
-    for (std::size_t f = 0; f < nodes_.size(AxisId::kFootprint); ++f) {
-      const std::size_t node = nodes_.At(sea, incidence, azimuth, f);
-      const std::size_t vertical = nodes_.At(sea, 0, azimuth, f);
-      ScaleBeam(node, vertical, axes, from, to, nadir);
-    }
+    const Beams beams(axes, from_[incidence](on_beam), to_[incidence](on_beam), from_[0](on_beam));
+    for (std::size_t f = 0; f < nodes_.size(AxisId::kFootprint); ++f)
+      ScaleBeam(nodes_.At(sea, incidence, azimuth, f), nodes_.At(sea, 0, azimuth, f), beams);
   }
 
-  void ScaleBeam(std::size_t node, std::size_t vertical, const Eigen::Matrix2d& axes, const Snell& from,
-                 const Snell& to, const Snell& nadir) {
-    const Eigen::Matrix2d gain = axes * from.gain * axes.transpose(), new_gain = axes * to.gain * axes.transpose();
-    const Eigen::Vector2d bias = axes * from.bias.head<2>(), new_bias = axes * to.bias.head<2>();
+  void ScaleBeam(std::size_t node, std::size_t vertical, const Beams& beams) {
+    const Snell &from = beams.from, &to = beams.to;
+    const Eigen::Vector2d bias = beams.axes * from.bias.head<2>(), new_bias = beams.axes * to.bias.head<2>();
     const double along = Value(Quantity::kRefractionAlongWind, node);
     const double across = Value(Quantity::kRefractionCrossWind, node);
     const Eigen::Vector2d errors(VarianceOfTangent(along, bias.x()), VarianceOfTangent(across, bias.y()));
-    // Slopes on the axes of the sea are uncorrelated.
-    const Eigen::Matrix2d squares = gain.cwiseAbs2(), new_squares = new_gain.cwiseAbs2();
-    const Eigen::Vector2d seen = (squares.inverse() * errors).cwiseMax(0);
-    const Eigen::Vector2d change = (new_squares - squares) * seen;
-    const double usual = new_squares.trace() / squares.trace();
+    const Eigen::Vector2d seen = (beams.seen_by_errors * errors).cwiseMax(0);
+    const Eigen::Vector2d change = beams.change * seen;
     std::array<double, 2> new_errors;
-    for (int i = 0; i < 2; ++i) new_errors[i] = errors[i] * Ratio(errors[i] + change[i], errors[i], usual);
-    Multiply(Quantity::kRefractionAlongWind, node,
-             Ratio(DegreesOfTangent(new_errors[0], new_bias.x()), along, std::sqrt(usual)));
-    Multiply(Quantity::kRefractionCrossWind, node,
-             Ratio(DegreesOfTangent(new_errors[1], new_bias.y()), across, std::sqrt(usual)));
+    for (int i = 0; i < 2; ++i) new_errors[i] = errors[i] * Ratio(errors[i] + change[i], errors[i], beams.usual);
+    Multiply(Quantity::kRefractionAlongWind, node, 1,
+             Ratio(DegreesOfTangent(new_errors[0], new_bias.x()), along, std::sqrt(beams.usual)));
+    Multiply(Quantity::kRefractionCrossWind, node, 1,
+             Ratio(DegreesOfTangent(new_errors[1], new_bias.y()), across, std::sqrt(beams.usual)));
 
-    const double horizontal = Ratio(new_errors[0] + new_errors[1], errors.sum(), usual);
-    const Eigen::Matrix2d on_beam = axes.transpose() * seen.asDiagonal() * axes;
+    const double horizontal = Ratio(new_errors[0] + new_errors[1], errors.sum(), beams.usual);
+    const Eigen::Matrix2d on_beam = beams.axes.transpose() * seen.asDiagonal() * beams.axes;
     const double first_otherwise = Squared(to.gain(0, 0) / from.gain(0, 0));
     const double first = from.path.norm() > kNothing ? Ratio(to.path.dot(on_beam * to.path),
                                                              from.path.dot(on_beam * from.path), first_otherwise)
@@ -232,39 +252,35 @@ class Scaling {
     const auto forms = [&](const Snell& snell) {
       return (snell.curvature * on_beam * snell.curvature * on_beam).trace();
     };
-    const double second = Ratio(forms(to), forms(from), usual * usual);
-    const double more_than_nadir = Ratio(forms(from), forms(nadir), 1);
-    const auto of_bias = [](double scaled, double original, double otherwise) {
-      return std::abs(original) > kNothing ? Ratio(scaled, original, otherwise) : otherwise;
-    };
-    const double biases[2] = {of_bias(to.bias.x(), from.bias.x(), std::sqrt(usual)),
-                              of_bias(to.bias.z(), from.bias.z(), usual)};
+    const double second = Ratio(forms(to), forms(from), beams.usual * beams.usual);
+    const double more_than_nadir = Ratio(forms(from), forms(beams.nadir), 1);
 
-    const auto depths = table_.axis(AxisId::kDepth).nodes();
+    const auto depths = axes_[Index(AxisId::kDepth)].nodes();
     const std::size_t begin = node * depths.size(), nadir_begin = vertical * depths.size();
+    Multiply(Quantity::kThu, begin, depths.size(), std::sqrt(horizontal));
+    Multiply(Quantity::kBiasAlongBeam, begin, depths.size(), beams.bias_along);
+    Multiply(Quantity::kBiasVertical, begin, depths.size(), beams.bias_vertical);
     const auto variance = [&](std::size_t at) { return Squared(Value(Quantity::kTvu, at)); };
     const double surface = depths[0] == 0 ? variance(begin) : 0;
     const double nadir_surface = depths[0] == 0 ? variance(nadir_begin) : 0;
     for (std::size_t d = 0; d < depths.size(); ++d) {
-      const std::size_t at = begin + d;
-      Multiply(Quantity::kThu, at, std::sqrt(horizontal));
-      Multiply(Quantity::kBiasAlongBeam, at, biases[0]);
-      Multiply(Quantity::kBiasVertical, at, biases[1]);
-      const double below = std::max(0.0, variance(at) - surface);
+      const double at_depth = variance(begin + d);
+      const double below = std::max(0.0, at_depth - surface);
       const double of_nadir = std::max(0.0, variance(nadir_begin + d) - nadir_surface);
       const double bent = std::min(below, of_nadir * more_than_nadir);
-      const double all = std::min(surface, variance(at)) + below;
+      const double all = std::min(surface, at_depth) + below;
       const double scaled = (all - bent) * first + bent * second;
-      Multiply(Quantity::kTvu, at, std::sqrt(Ratio(scaled, all, first)));
+      Multiply(Quantity::kTvu, begin + d, 1, std::sqrt(Ratio(scaled, all, first)));
     }
   }
 
   static constexpr float kMost = 1e6f;
 
-  const UncertaintyTable& table_;
+  const UncertaintyTable::Axes& axes_;
   const Nodes nodes_;
+  double from_index_;
   std::vector<SnellOnSea> from_, to_;  // by incidence
-  UncertaintyTable::Variables scaled_;
+  UncertaintyTable::Variables& variables_;
 };
 
 }  // namespace
@@ -282,14 +298,16 @@ double IndexOfTable(const UncertaintyTable& table) {
   return std::get<double>(table.provenance().attributes.at(kIndexAttribute));
 }
 
-UncertaintyTable AtIndex(const UncertaintyTable& table, double index) {
-  if (index == IndexOfTable(table)) return table;
+UncertaintyTable AtIndex(UncertaintyTable table, double index) {
+  const double own = IndexOfTable(table);
+  if (index == own) return table;
+  const TableSchema& schema = table.schema();
   UncertaintyTable::Axes axes = table.axes();
   Provenance provenance = table.provenance();
   provenance.attributes[kIndexAttribute] = index;
-  return UncertaintyTable::Create(table.schema(), std::move(axes), Scaling(table, index).Scaled(),
-                                  std::move(provenance))
-      .value();
+  UncertaintyTable::Variables variables = std::move(table).ReleaseVariables();
+  Scaling(axes, own, index, variables).Scale();
+  return UncertaintyTable::Create(schema, std::move(axes), std::move(variables), std::move(provenance)).value();
 }
 
 }  // namespace albtpu

@@ -28,6 +28,6 @@ bool StatesIndex(const UncertaintyTable& table);
 //
 // From 1.33 to 1.36, and to any index between, all of them agree with the response theory computed at that index within
 // 0.1 % over wind seas (docs/physics.md, "Another index").
-UncertaintyTable AtIndex(const UncertaintyTable& table, double index);
+UncertaintyTable AtIndex(UncertaintyTable table, double index);
 
 }  // namespace albtpu

@@ -71,8 +71,8 @@ absl::Status CheckIndex(const BudgetOptions& options, const TableSummary& table)
                    table.refractive_index, " in the source of the sea's share; open the source at the same index"));
 }
 
-LocalSource::LocalSource(std::string name, const UncertaintyTable& table, double index)
-    : summary_(Summarize(std::move(name), table, index)), interpolator_(AtIndex(table, index)) {}
+LocalSource::LocalSource(std::string name, UncertaintyTable table, double index)
+    : summary_(Summarize(std::move(name), table, index)), interpolator_(AtIndex(std::move(table), index)) {}
 
 absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) {
   const PulseColumns used = summary_.sea ? OnOneSea(pulses) : pulses;

@@ -12,7 +12,7 @@ class LocalSource : public UncertaintySource {
  public:
   // `name` is the value of --table-name that selects the table; empty for a table file given by its path.
   // Answers are for water of the index: the table is scaled to it (sea/table/table_at_index.h), unless it is its own.
-  LocalSource(std::string name, const UncertaintyTable& table, double index = kSeaWaterIndex);
+  LocalSource(std::string name, UncertaintyTable table, double index = kSeaWaterIndex);
 
   const TableSummary& table() const override { return summary_; }
   bool in_process() const override { return true; }

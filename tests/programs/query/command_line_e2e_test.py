@@ -249,7 +249,9 @@ class CommandLineTest(programs.Test):
         before = self.names()
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             command = [programs.PATHS["query"], "csv", source, target, "--table", self.table]
-            process = subprocess.Popen(command, stderr=subprocess.PIPE)
+            # What starts the tests may ignore signals, as nohup does, and a program inherits that.
+            process = subprocess.Popen(command, stderr=subprocess.PIPE,
+                                       preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
             with open(source, "w") as pipe:
                 pipe.write("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
                 pipe.flush()
