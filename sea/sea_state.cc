@@ -11,6 +11,12 @@ const SpectrumModel* FindSpectrumModel(std::string_view key) {
   return found == kSpectrumModels.end() ? nullptr : *found;
 }
 
+const SpectrumModel& SpectrumModelNamed(std::string_view spectrum) {
+  const auto found = std::find_if(kSpectrumModels.begin(), kSpectrumModels.end(),
+                                  [&](const SpectrumModel* model) { return spectrum.starts_with(model->author); });
+  return found == kSpectrumModels.end() ? kElfouhailyModel : **found;
+}
+
 std::shared_ptr<const WaveSpectrum> WindSea::MakeSpectrum() const {
   assert(model != nullptr && wind_speed_10m >= 0);
   if (wind_speed_10m == 0) return std::make_shared<CalmSpectrum>();

@@ -171,6 +171,8 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
   json["command"] = settings.command;
   json["parameters"] = *settings.parameters;
   json["table"] = TableJson(settings.table);
+  if (const auto spectrum = settings.table.attributes.find("spectrum"); spectrum != settings.table.attributes.end())
+    json["table"]["spectrum"] = spectrum->second;
   json["input"] = {{"name", job.input.filename().string()}, {"bytes", findings.input_bytes}};
   json["input"].update(*findings.input);
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};

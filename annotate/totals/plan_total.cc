@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "annotate/run/file_progress.h"
@@ -287,10 +286,9 @@ std::string SpectrumOf(const client::TableSummary& table) {
 
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum) {
   if (wind_speed <= 0) return 0;
-  const bool apel = absl::StartsWith(spectrum, "Apel");
   const WindSea sea{.wind_speed_10m = wind_speed,
                     .fetch = fetch.has_value() ? *fetch : std::numeric_limits<double>::infinity(),
-                    .model = apel ? &kApelModel : &kElfouhailyModel};
+                    .model = &SpectrumModelNamed(spectrum)};
   return static_cast<float>(std::sqrt(ElevationVariance(Sampled(*sea.MakeSpectrum(), SeaWavenumbers(), 1))));
 }
 

@@ -17,6 +17,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
 #include "formats/text/text.h"
 
 namespace albtpu::programs {
@@ -59,6 +60,35 @@ CLI::Validator OneOf(const std::vector<std::string>& words) {
                     : absl::StrCat("'", text, "' is unknown; give one of ", choices);
       },
       "");
+}
+
+namespace {
+
+template <typename Value>
+CLI::Option* AddItems(CLI::App& app, const std::string& flag, std::vector<Value>& values,
+                      const std::string& description, const CLI::Validator& check) {
+  const auto read = [flag, &values, check](const std::vector<std::string>& texts) {
+    values.clear();
+    for (const std::string& text : texts) {
+      for (std::string item : std::vector<std::string>(absl::StrSplit(text, ','))) {
+        if (const std::string problem = check(item); !problem.empty()) throw CLI::ValidationError(flag, problem);
+        CLI::detail::lexical_cast(item, values.emplace_back());
+      }
+    }
+  };
+  return app.add_option_function<std::vector<std::string>>(flag, read, description);
+}
+
+}  // namespace
+
+CLI::Option* AddList(CLI::App& app, const std::string& flag, std::vector<double>& values,
+                     const std::string& description, const CLI::Validator& check) {
+  return AddItems(app, flag, values, description, check)->type_name("FLOAT");
+}
+
+CLI::Option* AddList(CLI::App& app, const std::string& flag, std::vector<std::string>& values,
+                     const std::string& description, const CLI::Validator& check) {
+  return AddItems(app, flag, values, description, check);
 }
 
 namespace {

@@ -26,6 +26,13 @@ CLI::Validator NumberIn(double least, double most, const std::string& unit);
 // One of `words`; a near match is named.
 CLI::Validator OneOf(const std::vector<std::string>& words);
 
+// Adds an option of several values, with commas between them or one after the other, each of which passes `check`. An
+// empty one is refused, as in "5,,6"; CLI11's own delimiter leaves it out.
+CLI::Option* AddList(CLI::App& app, const std::string& flag, std::vector<double>& values,
+                     const std::string& description, const CLI::Validator& check);
+CLI::Option* AddList(CLI::App& app, const std::string& flag, std::vector<std::string>& values,
+                     const std::string& description, const CLI::Validator& check);
+
 // The output of --help and --version.
 
 // "albtpu-query pulse": the names of the program and of the command, if `app` is one.

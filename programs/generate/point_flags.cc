@@ -233,11 +233,9 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
   point.add_option("--footprint", options.footprint, "Diameter of the beam at the mean surface, across its axis [m]")
       ->required()
       ->check(NumberIn(0, 1000, true));
-  point.add_option("--depth", options.depth, "Depths below the surface, separated by commas [m]")
+  AddList(point, "--depth", options.depth, "Depths below the surface, separated by commas [m]", NumberIn(0, 1e4))
       ->type_name("M,M")
-      ->required()
-      ->delimiter(',')
-      ->check(NumberIn(0, 1e4));
+      ->required();
   point.add_option("--profile", options.profile, "Irradiance across the beam: uniform (default) or gaussian")
       ->check(OneOf({"uniform", "gaussian"}));
   point.add_option("--refractive-index", options.refractive_index, "Refractive index of the water (default: 1.33)")

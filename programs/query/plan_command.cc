@@ -300,7 +300,7 @@ void AddPlanCommand(CLI::App& program, Run& run) {
     return command->add_option(flag, value, help)->check(NumberIn(least, most, unit));
   };
   const auto list = [&](const char* flag, std::vector<double>& values, const char* help, double least, double most,
-                        const char* unit) { number(flag, values, help, least, most, unit)->delimiter(','); };
+                        const char* unit) { AddList(*command, flag, values, help, NumberIn(least, most, unit)); };
   number("--altitude", options->altitude, "Planned height above the water [m]", 10, 5000, "m")->capture_default_str();
   number("--incidence", options->incidence, "Planned angle of the beams from the vertical [degree]", 0, 60, "degree")
       ->capture_default_str();

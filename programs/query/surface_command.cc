@@ -176,13 +176,10 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
       ->required();
   command->add_option("--output", options->output, "Folder for the files of the formats and surface.json")
       ->check(NotEmpty("folder"));
-  command
-      ->add_option("--format", options->formats,
-                   "Of surface.nc, surface.tif (Cloud Optimized) and surface.bag: one, or several with commas "
-                   "(default: netcdf)")
-      ->type_name("netcdf|geotiff|bag")
-      ->check(OneOf({quality::kSurfaceFormatNames.begin(), quality::kSurfaceFormatNames.end()}))
-      ->delimiter(',');
+  AddList(*command, "--format", options->formats,
+          "Of surface.nc, surface.tif (Cloud Optimized) and surface.bag: one, or several with commas (default: netcdf)",
+          OneOf({quality::kSurfaceFormatNames.begin(), quality::kSurfaceFormatNames.end()}))
+      ->type_name("netcdf|geotiff|bag");
   command->add_option("--organisation", options->organisation, "Who answers for the surface, for the metadata of BAG");
   command
       ->add_option("--partial", options->partial,

@@ -35,6 +35,13 @@ std::optional<double> TimeOf(const Json& sea) {
   return middle;
 }
 
+// By which the table of winds was made; empty if the summary, as those before 1.0, does not state it.
+std::string SpectrumOf(const AnnotatedLasFile& file) {
+  const Json table = file.summary().value("table", Json());
+  const Json spectrum = table.is_object() ? table.value("spectrum", Json()) : Json();
+  return spectrum.is_string() ? spectrum.get<std::string>() : "";
+}
+
 absl::Status NeedsTheSea(const AnnotatedLasFile& file, const std::string& why) {
   return absl::InvalidArgumentError(absl::StrCat(
       file.path().string(), ": ", why,
@@ -70,7 +77,7 @@ absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annota
   if (*wind > 0) {
     const WindSea waves{.wind_speed_10m = *wind,
                         .fetch = NumberOf(parameters, "fetch").value_or(kFullyDeveloped),
-                        .model = &kElfouhailyModel};
+                        .model = &SpectrumModelNamed(SpectrumOf(file))};
     sea.spectrum = Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics);
   } else {
     sea.spectrum = FlatSea(SeaWavenumbers(), 1);

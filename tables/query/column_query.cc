@@ -60,7 +60,7 @@ void ForEachColumn(const AnswerColumns& wanted, AnswerColumns& other, const Visi
 // `fewest_to_sort` pulses follow it. Returns the index of the first pulse that it has not interpolated.
 template <typename Layout>
 std::size_t InterpolateBlocks(const Layout& layout, const PulseColumns& pulses, std::size_t begin, std::size_t end,
-                              std::size_t fewest_to_sort, AnswerWriter writer) {
+                              std::size_t fewest_to_sort, AnswerWriter&& writer) {
   if (begin == end) return end;
   PulseBlock block(layout.grid, pulses, std::min(kBlock, end - begin));
   BlockValues values(layout.records, writer.needs());

@@ -148,6 +148,14 @@ TEST(SpectrumModels, AreFoundByTheirKeys) {
   EXPECT_EQ(FindSpectrumModel(""), nullptr);
 }
 
+TEST(SpectrumModels, AreFoundByTheNamesOfTheirSpectra) {
+  for (const SpectrumModel* model : kSpectrumModels)
+    EXPECT_EQ(&SpectrumModelNamed(MakeSpectrum(WindSea{.wind_speed_10m = 7, .model = model})->name()), model);
+  EXPECT_EQ(&SpectrumModelNamed("Elfouhaily"), &kElfouhailyModel);
+  EXPECT_EQ(&SpectrumModelNamed("not stated"), &kElfouhailyModel);
+  EXPECT_EQ(&SpectrumModelNamed(""), &kElfouhailyModel);
+}
+
 TEST(SpectrumModels, HaveDistinctKeys) {
   const std::set<std::string_view> keys(kSpectrumKeys.begin(), kSpectrumKeys.end());
   EXPECT_EQ(keys.size(), kSpectrumModels.size());

@@ -38,6 +38,31 @@ TEST(OneOf, NamesTheChoicesAndANearMatch) {
   EXPECT_EQ(ProblemOf(check, "square"), "'square' is unknown; give one of uniform, gaussian");
 }
 
+class ListTest : public ::testing::Test {
+ protected:
+  ListTest() { AddList(app_, "--depth", depths_, "Depths [m]", NumberIn(0, 100, "m")); }
+
+  std::vector<double> Depths(const std::vector<std::string>& arguments) {
+    app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    return depths_;
+  }
+
+  CLI::App app_;
+  std::vector<double> depths_ = {7};
+};
+
+TEST_F(ListTest, TakesNumbersWithCommasOrOneAfterTheOther) {
+  EXPECT_EQ(Depths({}), (std::vector<double>{7}));
+  EXPECT_EQ(Depths({"--depth", "1"}), (std::vector<double>{1}));
+  EXPECT_EQ(Depths({"--depth", "1,2.5"}), (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(Depths({"--depth", "1", "2.5,4"}), (std::vector<double>{1, 2.5, 4}));
+}
+
+TEST_F(ListTest, RefusesWhatIsNoNumberAndWhatIsEmpty) {
+  for (const std::string text : {"1,,2", ",1", "1,", "", "1,a", "1,101"})
+    EXPECT_THROW(Depths({"--depth", text}), CLI::ValidationError) << text;
+}
+
 class HelpTest : public ::testing::Test {
  protected:
   HelpTest() {

@@ -140,6 +140,7 @@ class Plan(programs.Test):
                                   (SENSOR, "water column is not decided"),
                                   ((*DRY, "--order", "3"), "1a"),
                                   ((*DRY, "--winds", "a"), "--winds"),
+                                  ((*DRY, "--winds", "5,,6"), "--winds: '' is not a number in the range"),
                                   ((*DRY, "--altitude", 0), "from 10 to 5000 m"),
                                   ((*DRY, "--kds", 0.1), "--kds has no effect"),
                                   ((*DRY, "--incidence", 60), "no table knows the planned beam"),

@@ -143,6 +143,26 @@ class Command(programs.Test):
         self.assertEqual((made / "surface.nc").read_bytes(), before)
         self.assertEqual(sorted(path.name for path in made.iterdir()), ["surface.json", "surface.nc"])
 
+    def test_takes_the_waves_of_the_table_of_the_annotation(self):
+        def surface_of(name, spectrum):
+            """The part of the sea, by the summaries of a table of this spectrum."""
+            files = self.folder / name
+            shutil.copytree(annotated, files)
+            for path in files.glob("*.json"):
+                summary = json.loads(path.read_text())
+                self.assertTrue(summary["table"].pop("spectrum").startswith("Elfouhaily"))
+                if spectrum:
+                    summary["table"]["spectrum"] = spectrum
+                path.write_text(json.dumps(summary))
+            query("surface", files, "--output", self.folder / f"{name}_surface", "--cell", CELL, check=0)
+            with netCDF4.Dataset(self.folder / f"{name}_surface/surface.nc") as grid:
+                return grid["sigma_sea"][:].compressed()
+        with netCDF4.Dataset(made / "surface.nc") as grid:
+            elfouhaily = grid["sigma_sea"][:].compressed()
+        np.testing.assert_array_equal(surface_of("before_1_0", None), elfouhaily)
+        apel = surface_of("apel", "Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading")
+        self.assertGreater(np.mean(apel != elfouhaily), 0.9)  # By little: neighbours share more, or less, of the waves.
+
     def test_wants_the_sea_of_the_annotation(self):
         self.assert_fails(query("surface", annotated, "--output", self.folder / "new", "--hs", 1, "--tp", 5,
                                 "--waves-from", 250, "--wind-speed", 5), 2)
