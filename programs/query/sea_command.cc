@@ -12,6 +12,7 @@
 #include "annotate/run/file_progress.h"
 #include "annotate/seas/sea_correlation.h"
 #include "annotate/seas/sea_facts.h"
+#include "annotate/totals/water_column.h"
 #include "formats/files/file_access.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
