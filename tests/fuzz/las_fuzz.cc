@@ -194,9 +194,9 @@ void LasTarget(std::string_view file) {
   static const LasAnnotation by_angle = Annotation(), by_track = TrackAnnotation();
   CheckAnnotated(file, *reader, Annotated(file, *reader, head->bytes, by_angle),
                  32768 * 0.006f);  // Of 16 bits.
-  // LasBeams refuses a track where the points have no times.
+  // LasBeams refuses a track where the points have no times. A point that lies above the sensor is seen upwards.
   if (HasGpsTime(reader->header().point_format))
-    CheckAnnotated(file, *reader, Annotated(file, *reader, head->bytes, by_track), 90);
+    CheckAnnotated(file, *reader, Annotated(file, *reader, head->bytes, by_track), 180);
 }
 
 const std::string kName = "file";
