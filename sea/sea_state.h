@@ -49,8 +49,8 @@ inline constexpr std::array kSpectrumKeys = [] {
 // The listed model with this key; null if there is none.
 const SpectrumModel* FindSpectrumModel(std::string_view key);
 
-// The listed model by whose author a spectrum that a table states is called ("Apel (1994) with ..."); Elfouhaily's if
-// it is called by none.
+// The listed model whose author's name begins that of a spectrum, as tables state it ("Apel (1994) with ..."); that of
+// Elfouhaily if no name does.
 const SpectrumModel& SpectrumModelNamed(std::string_view spectrum);
 
 // The waves that one steady wind raises over one fetch. A wind of 0 raises none.

@@ -35,7 +35,7 @@ std::optional<double> TimeOf(const Json& sea) {
   return middle;
 }
 
-// By which the table of winds was made; empty if the summary, as those before 1.0, does not state it.
+// The spectrum of the waves in the table of winds; empty in summaries of versions before 1.0, which do not state it.
 std::string SpectrumOf(const AnnotatedLasFile& file) {
   const Json table = file.summary().value("table", Json());
   const Json spectrum = table.is_object() ? table.value("spectrum", Json()) : Json();

@@ -176,8 +176,8 @@ class Scaling {
 
     Eigen::Matrix2d axes;
     Snell from, to, nadir;
-    // Variances of slopes on the axes of the sea, where they are uncorrelated, by those of the tangents; and how much
-    // more the latter are at the other index.
+    // From the variances of the tangents to those of the slopes, on the axes of the sea, where slopes are uncorrelated;
+    // and from those of the slopes to what the tangents' gain at the other index.
     Eigen::Matrix2d seen_by_errors, change;
     double usual;                      // ratio of the variances of tangents, of slopes that are alike in all directions
     double bias_along, bias_vertical;  // ratios
