@@ -33,8 +33,10 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
   if (node < 0) return absl::StrCat(WithUnits(node, schema), ": nodes must not be negative");
   if (node > format::kMaxNode)
     return absl::StrFormat("%s: nodes must not be above %g", WithUnits(node, schema), format::kMaxNode);
-  if (scale == Scale::kLog && node == 0)
-    return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
+  if (scale == Scale::kLog && node < format::kMinNodeDistance) {
+    return absl::StrFormat("%s: nodes on a log scale must be positive, %g at least", WithUnits(node, schema),
+                           format::kMinNodeDistance);
+  }
   if (schema.fold != Fold::kNone && node > MaxAngle(schema.fold)) {
     const double greatest = MaxAngle(schema.fold);
     return absl::StrFormat("%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",

@@ -22,8 +22,8 @@ struct Bracket {
 class Axis {
  public:
   // Fails with InvalidArgument, naming the axis and the node, if there is no node, or if a node is not finite, is not
-  // representable in float32, is negative, does not increase, is not positive on a log scale, breaks the limits of
-  // format.h, or is above the largest angle of a folded axis. Without a scale, the axis has that of its schema. The
+  // representable in float32, is negative, does not increase, breaks the limits of format.h, which on a log scale are
+  // above 0, or is above the largest angle of a folded axis. Without a scale, the axis has that of its schema. The
   // axis copies `schema`, but not its texts (name, units, long_name): they must outlive the axis.
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale);

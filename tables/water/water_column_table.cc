@@ -8,6 +8,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "tables/format.h"
 
 namespace albtpu {
 namespace {
@@ -171,7 +172,14 @@ absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
     return absl::InvalidArgumentError("variable 'energy' has a value of 0; an echo has energy");
   if (!(AxisOf(table.axes(), WaterAxis::kOpticalDepth).nodes().front() > 0))
     return absl::InvalidArgumentError("axis 'optical_depth' begins at 0; its first node must be above");
-  return WaterColumnTable(std::move(table));
+  WaterColumnTable water(std::move(table));
+  // Within the limit of all values of a table, nothing overflows between nodes.
+  const auto wrong = std::ranges::find_if(water.values_, [](float v) { return !(std::abs(v) <= format::kMaxValue); });
+  if (wrong == water.values_.end()) return water;
+  const auto quantity = static_cast<std::size_t>(wrong - water.values_.begin()) % kWaterQuantityCount;
+  return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[quantity].name),
+                                                 "' has more than ", format::kMaxValue,
+                                                 " for each time that light is scattered; is an axis in other units?"));
 }
 
 WaterColumnTable::WaterColumnTable(Table table) : table_(std::move(table)) {

@@ -63,8 +63,8 @@ class OneWater {
 
 class WaterColumnTable {
  public:
-  // Requires a table of kWaterColumn. InvalidArgument if it lacks a bias, an energy is not positive, or the optical
-  // depth begins at 0.
+  // Requires a table of kWaterColumn. InvalidArgument if it lacks a bias, an energy is not positive, the optical depth
+  // begins at 0, or a value over the number of scatterings b z is above 1e6 in magnitude.
   static absl::StatusOr<WaterColumnTable> Create(Table table);
 
   const Table& table() const { return table_; }

@@ -43,7 +43,7 @@ GATES = {
     "containers": (["tests/e2e/containers.sh"], (r"Ran \d+ tests.*",)),
     "sanitizers": (["tests/sanitizers/run.sh"], (r"[at]san: .*",)),
     "aarch64": (["tests/generator/aarch64.sh"], (r"\[  PASSED  \].*",)),
-    "fuzz": (["tests/fuzz/run.sh", "FUZZ"], (r"\w+: \d+ executions.*", r"\w+: FOUND.*")),
+    "fuzz": (["tests/fuzz/run.sh", "--at-least", "1000000", "FUZZ"], (r"\w+: \d+ executions.*", r"\w+: FOUND.*")),
     "soak": (["tests/faults/soak.sh", "SOAK"], (r"\w+: \d+", r"resident memory .*", r"at rest: .*")),
 }
 

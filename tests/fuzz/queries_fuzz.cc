@@ -1,6 +1,7 @@
 // Arbitrary bytes as the request of a query are rejected with a reason, or answered: QueryColumns as the slow twin
 // answers, QueryBudget with a number for each pulse that has the outcome INTERPOLATED, and with none for any other.
 // No sea is compiled: sea_state_fuzz.cc is for those.
+#include <google/protobuf/stubs/logging.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <cmath>
@@ -28,6 +29,7 @@ using namespace albtpu::server;
 class Tables {
  public:
   Tables() : catalog_(MakeCatalog()), seas_(metrics_.seas, log_) {
+    google::protobuf::SetLogHandler(nullptr);  // Of each input that is no message.
     for (const auto& entry : catalog_.entries()) twins_.try_emplace(entry.get(), entry->table);
   }
   const TableCatalog& catalog() const { return catalog_; }

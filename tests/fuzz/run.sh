@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Fuzzes the targets one after the other, and prints how many inputs each was given.
+# Fuzzes the targets, as many at a time as there are cores, and prints how many inputs each was given.
 #
-# Usage: run.sh SECONDS [TARGET...]    SECONDS for each target; all targets unless some are given
+# Usage: run.sh [--at-least RUNS] SECONDS [TARGET...]
+#   SECONDS for each target, and longer until it was given RUNS inputs; all targets unless some are given
 #
 # Inputs that reached new code are kept in build/fuzz/corpus for the next run. An input on which a target fails is left
 # beside them; when the fault is fixed, add the input to tests/fuzz/found/TARGET, so that every test run tries it again.
@@ -9,8 +10,13 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
+at_least=0
+if [[ ${1-} == --at-least && ${2-} =~ ^[0-9]+$ ]]; then
+  at_least=$2
+  shift 2
+fi
 if (($# < 1)) || [[ ! $1 =~ ^[0-9]+$ ]]; then
-  echo "$0: '${1-}' is not a number of seconds; usage: run.sh SECONDS [TARGET...]" >&2
+  echo "$0: '${1-}' is not a number of seconds; usage: run.sh [--at-least RUNS] SECONDS [TARGET...]" >&2
   exit 2
 fi
 seconds=$1
@@ -22,7 +28,8 @@ declare -A longest=([ascii_trajectory]=1500 [budget]=2400 [campaign]=2048 [clock
                     [csv_file]=300 [las]=1500 [las_head]=1500 [laz_chunk]=600 [laz_file]=1500 [laz_records]=620
                     [ndbc_bulk]=400 [ndbc_spectra]=700 [sbet]=1088 [sea_csv]=300 [sea_gzip]=200 [sea_state]=4000
                     [sea_text]=700 [seal]=600 [sensor_file]=500 [smrmsg]=640 [span_index]=300 [specification]=500
-                    [survey_description]=900 [swan_spectra]=400 [table]=131072 [water_level]=500 [ww3_points]=600)
+                    [survey_description]=900 [swan_spectra]=400 [table]=131072 [table_values]=600 [water_level]=500
+                    [water_values]=600 [ww3_points]=600)
 (($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
 for target in "${targets[@]}"; do
   if [[ -z ${longest[$target]-} ]]; then
@@ -50,28 +57,47 @@ export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=8
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=tests/sanitizers/lsan.supp:print_suppressions=0
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm  # Keeps the files of targets in memory.
-status=0
-figure() { sed -n "s/^stat::$1: *//p" "$log"; }
-for target in "${targets[@]}"; do
-  corpus=build/fuzz/corpus/$target
-  mkdir -p "$corpus"
+failed=build/fuzz/failed
+rm -f "$failed"
+
+# run_fuzzer TARGET OPTION...: libFuzzer with the options; adds the inputs that it ran to `runs`, and fails if it found
+# something.
+run_fuzzer() {
+  local target=$1 corpus=build/fuzz/corpus/$1 kind log=build/fuzz/$1.log
+  shift
   # Which features are rare is not followed: that took more than half of the time of targets that run fast.
-  options=(-max_len="${longest[$target]}" -detect_leaks=0 -entropic=0)
-  dictionary=tests/fuzz/${target%%_*}.dict  # One per format: csv and csv_file share one.
+  local options=(-max_len="${longest[$target]}" -detect_leaks=0 -entropic=0 "$@")
+  local dictionary=tests/fuzz/${target%%_*}.dict  # One per format: csv and csv_file share one.
   [[ -f $dictionary ]] || dictionary=tests/fuzz/sea/${target%%_*}.dict
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
-  known=("build/fuzz/seeds/$target")
+  local known=("build/fuzz/seeds/$target")
   for kind in found reached; do
     [[ ! -d tests/fuzz/$kind/$target ]] || known+=("tests/fuzz/$kind/$target")
   done
-  log=build/fuzz/$target.log
-  if "$folder/${target}_fuzz" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=60 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/corpus/$target." "${options[@]}" "$corpus" "${known[@]}" >"$log" 2>&1; then
-    echo "$target: $(figure number_of_executed_units) executions, $(figure average_exec_per_sec)/s, nothing found"
+  mkdir -p "$corpus"
+  local code=0
+  "$folder/${target}_fuzz" -rss_limit_mb=2048 -timeout=60 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/corpus/$target." "${options[@]}" "$corpus" "${known[@]}" >"$log" 2>&1 || code=$?
+  runs=$((runs + $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") + 0))
+  return "$code"
+}
+
+fuzz() {
+  local target=$1 start=$SECONDS runs=0
+  if run_fuzzer "$target" -max_total_time="$seconds" &&
+    { ((runs >= at_least)) || run_fuzzer "$target" -runs=$((at_least - runs)); }; then
+    echo "$target: $runs executions in $((SECONDS - start)) s, nothing found"
   else
-    echo "$target: FOUND SOMETHING, see $log:"
-    grep -m 5 -E 'does not hold|ERROR|SUMMARY|runtime error|Test unit written' "$log" || tail -n 5 "$log"
-    status=1
+    touch "$failed"
+    local log=build/fuzz/$target.log
+    printf '%s\n' "$target: FOUND SOMETHING, see $log:" \
+      "$(grep -m 5 -E 'does not hold|ERROR|SUMMARY|runtime error|Test unit written' "$log" || tail -n 5 "$log")"
   fi
+}
+
+for target in "${targets[@]}"; do
+  while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+  fuzz "$target" &
 done
-exit "$status"
+wait
+[[ ! -e $failed ]]

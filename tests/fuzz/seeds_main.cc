@@ -111,6 +111,14 @@ std::vector<std::string> TableSeeds() {
   return seeds;
 }
 
+// Two nodes on every axis, and one value: flags, one less than the length, and the numbers of each list.
+std::vector<std::string> ValueSeeds(const TableSchema& schema) {
+  std::string seed;
+  for (std::size_t i = 0; i < schema.axes.size(); ++i) seed += std::string("\0\1", 2) + Column({0.25f, 2});
+  for (std::size_t i = 0; i < schema.quantities.size(); ++i) seed += std::string("\4\0", 2) + Column({0.5f});
+  return {seed, seed + '\1'};
+}
+
 // Sealed files with arbitrary content, and files without a valid seal: the seal does not depend on the content.
 std::vector<std::string> SealSeeds() {
   using seal::kSize;
@@ -147,7 +155,9 @@ std::map<std::string, std::vector<std::string>> AllSeeds(const std::filesystem::
                                                            {"columns", ColumnSeeds()},
                                                            {"sea_state", SeaStateSeeds()},
                                                            {"seal", SealSeeds()},
-                                                           {"table", TableSeeds()}};
+                                                           {"table", TableSeeds()},
+                                                           {"table_values", ValueSeeds(kSeaSurface)},
+                                                           {"water_values", ValueSeeds(kWaterColumn)}};
   for (const auto& entry : std::filesystem::directory_iterator(written))
     seeds[entry.path().filename().string()] = FilesIn(entry.path());
   const auto add = [&](const char* target, std::initializer_list<const char*> others) {

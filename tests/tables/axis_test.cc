@@ -47,7 +47,8 @@ TEST(Axis, RefusesNodesThatItCannotHave) {
         {AxisId::kFootprint, {0.1}, "not representable in single precision"},
         {AxisId::kFetch, {1, 1e300}, "not representable"},
         {AxisId::kDepth, {-1, 0}, "'depth' node 0 is -1 m: nodes must not be negative"},
-        {AxisId::kFootprint, {0, 1}, "nodes on a log scale must be positive"},
+        {AxisId::kFootprint, {0, 1}, "nodes on a log scale must be positive, 1e-06 at least"},
+        {AxisId::kFootprint, {kLeastFloat, 1}, "node 0 is 1.40129846e-45 m: nodes on a log scale must be positive"},
         {AxisId::kAzimuth, {0, 91}, "'azimuth' node 1 is 91 degree: nodes must not be above 90 degree"}})
     EXPECT_THAT(Problem(c.id, c.nodes), HasSubstr(c.problem));
   EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {static_cast<double>(0.1f)}).ok());

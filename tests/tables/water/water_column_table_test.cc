@@ -143,15 +143,23 @@ TEST(WaterColumnTable, AnswersNothingBeyond) {
 }
 
 TEST(WaterColumnTable, NeedsAllQuantitiesAndLight) {
-  const auto problem = [](const Table::Variables& variables) {
+  const auto problem = [](const Table::Variables& variables, const Table::Axes& axes = Axes()) {
     return std::string(
-        WaterColumnTable::Create(*Table::Create(kWaterColumn, Axes(), variables, Origin())).status().message());
+        WaterColumnTable::Create(*Table::Create(kWaterColumn, axes, variables, Origin())).status().message());
   };
   Table::Variables incomplete = Values(), dark = Values();
   incomplete[1].reset();
   dark[8]->values[3] = 0;
   EXPECT_THAT(problem(incomplete), HasSubstr("bias_vertical_half"));
   EXPECT_THAT(problem(dark), HasSubstr("energy"));
+
+  Table::Axes shallow = Axes();
+  std::vector<double> depths = shallow[Index(WaterAxis::kOpticalDepth)].nodes();
+  depths.front() = 0x1p-120;
+  shallow[Index(WaterAxis::kOpticalDepth)] =
+      *Axis::Create(kWaterColumn.axes[Index(WaterAxis::kOpticalDepth)], depths, Scale::kLinear);
+  EXPECT_THAT(problem(Values(), shallow),
+              HasSubstr("'bias_vertical_peak' has more than 1e+06 for each time that light is scattered"));
 }
 
 }  // namespace
