@@ -153,6 +153,12 @@ absl::StatusOr<CsvReader> CsvReader::Open(const std::filesystem::path& path) {
 
 absl::StatusOr<std::size_t> CsvReader::Fill(std::size_t size) {
   const std::size_t before = rest_.size();
+  if (stamp_.is_regular()) {
+    // A short file needs no memory for a long one. Beyond its size is its end, or what was appended meanwhile.
+    constexpr std::uint64_t kBeyond = 1 << 12;
+    const std::uint64_t known = bytes_read_ + before;
+    size = std::min<std::uint64_t>(size, file_size() > known ? file_size() - known : kBeyond);
+  }
   rest_.resize(before + size);
   ssize_t count = 0;
   do count = read(fileno(file_.get()), rest_.data() + before, size);
