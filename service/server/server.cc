@@ -1,5 +1,6 @@
 #include "service/server/server.h"
 
+#include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <spdlog/spdlog.h>
@@ -13,12 +14,19 @@
 namespace albtpu::server {
 namespace {
 
-// Writes the errors of gRPC to our log. Anyone who reaches the port can cause them, so they are limited like lines
-// about calls.
-void LogGrpcMessage(gpr_log_func_args* message) {
+// Writes what a library reports to our log. Anyone who reaches the port can cause it, so it is limited like lines about
+// calls.
+void LogOfLibrary(const char* library, const std::string& message) {
   static CallLog log;
-  if (message->severity != GPR_LOG_SEVERITY_ERROR) return;
-  log.Write(spdlog::level::warn, absl::StrCat("gRPC: ", message->message), LogFields::object());
+  log.Write(spdlog::level::warn, absl::StrCat(library, ": ", message), LogFields::object());
+}
+
+void LogGrpcMessage(gpr_log_func_args* message) {
+  if (message->severity == GPR_LOG_SEVERITY_ERROR) LogOfLibrary("gRPC", message->message);
+}
+
+void LogProtobufMessage(google::protobuf::LogLevel, const char*, int, const std::string& message) {
+  LogOfLibrary("Protobuf", message);
 }
 
 int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.count()); }
@@ -76,6 +84,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const 
   auto acceptor = builder.experimental().AddExternalConnectionAcceptor(
       grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server->credentials_);
   gpr_set_log_function(LogGrpcMessage);
+  google::protobuf::SetLogHandler(LogProtobufMessage);
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr) return absl::InternalError("gRPC cannot start");
   server->address_ = address.WithPort(sockets->front().port());

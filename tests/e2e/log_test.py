@@ -88,6 +88,17 @@ class Log(TablesTest):
         # A second as counted by the server may extend over two seconds of the clock.
         self.assertLessEqual(max(per_second.values()), 200)
 
+    def test_cannot_be_flooded_by_what_is_no_message(self):
+        self.start("--log-json")
+        call = self.channel.unary_unary("/albtpu.v1.UncertaintyService/QueryColumns")
+        request = columns(PULSES, table="??").SerializeToString().replace(b"??", b"\xff\xff")  # No UTF-8.
+        for _ in range(1000):
+            with self.assertRaises(grpc.RpcError):
+                call(request, timeout=PATIENCE, wait_for_ready=True)
+        lines = [json.loads(line) for line in self.stop()]
+        self.assertTrue(any(line["message"].startswith("Protobuf: ") for line in lines))
+        self.assertLess(len(lines), 1000)
+
     def test_is_plain_text_by_default(self):
         self.start()
         self.request_missing_table(ID)
