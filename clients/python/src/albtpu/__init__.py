@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .service import Service, connect
     from .table_file import TableFile, open_table
 
-__version__ = "1.0.0rc1"
+__version__ = "1.0.0"
 __all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Correlation", "Error",
            "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
            "ServiceError", "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
