@@ -38,8 +38,8 @@ inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
 inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
 
 // The largest node, the smallest distance between two nodes (on a log scale also the smallest node) and the largest
-// magnitude of a value, each in its own units. They are far beyond any sea, and within them single precision suffices to
-// interpolate.
+// magnitude of a value, each in its own units. They are far beyond any sea, and within them single precision suffices
+// to interpolate.
 inline constexpr double kMaxNode = 1e9;
 inline constexpr double kMinNodeDistance = 1e-6;
 inline constexpr float kMaxValue = 1e6f;

@@ -218,7 +218,7 @@ std::vector<TomlKeys> TomlKeys::Table(std::string_view key) {
   const toml::node* const node = Find(key);
   std::vector<TomlKeys> tables;
   if (node == nullptr) return tables;
-  const std::string name = name_.empty() ? std::string(key) : absl::StrCat(name_, ".", std::string(key));
+  const std::string name = NameOf(key);
   if (const toml::table* const table = node->as_table())
     tables.emplace_back(*table, name, problem_);
   else
@@ -230,7 +230,7 @@ std::vector<TomlKeys> TomlKeys::Tables(std::string_view key) {
   const toml::node* const node = Find(key);
   std::vector<TomlKeys> tables;
   if (node == nullptr) return tables;
-  const std::string name = absl::StrCat(name_, ".", std::string(key));
+  const std::string name = NameOf(key);
   const toml::array* const array = node->as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous<toml::table>()) {
     Wrong(*node, key, "tables", absl::StrCat("begin each of them with [[", name, "]]"));
@@ -257,9 +257,13 @@ const toml::node* TomlKeys::Find(std::string_view key) {
   return table_.get(key);
 }
 
+std::string TomlKeys::NameOf(std::string_view key) const {
+  return absl::StrCat(name_.empty() ? "" : name_ + ".", std::string(key));
+}
+
 std::string TomlKeys::Quoted(std::string_view key) const {
   if (key.empty()) return absl::StrCat("[", name_, "] ");
-  return absl::StrCat("'", name_.empty() ? "" : name_ + ".", std::string(key), "' ");
+  return absl::StrCat("'", NameOf(key), "' ");
 }
 
 void TomlKeys::WrongElement(const toml::node& element, std::string_view key, const std::string& expected) {

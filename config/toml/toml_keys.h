@@ -97,6 +97,7 @@ class TomlKeys {
 
  private:
   const toml::node* Find(std::string_view key);
+  std::string NameOf(std::string_view key) const;  // "sea.tail"; of the root "tail"
   std::string Quoted(std::string_view key) const;  // "'sea.tail' "; of the table itself "[sea] "
   void Wrong(const toml::node& node, std::string_view key, const std::string& expected, const std::string& remedy);
   template <typename Element, typename Read>

@@ -104,6 +104,18 @@ class Service(ContainerTest):
         with urllib.request.urlopen(f"http://{server.address(9464)}/metrics", timeout=PATIENCE) as metrics:
             self.assertRegex(metrics.read(), rb'albtpu_pulses_total\{axis="",outcome="INTERPOLATED"\} [1-9]')
 
+    def test_computes_totals_on_a_sea_and_in_a_water(self):
+        server = self.serve()
+        sea = albtpu.Sea.jonswap(hs=0.42, tp=2.7, waves_from=225)
+        water = albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=1.5, bias="none")
+        with albtpu.connect(server.address()) as service:
+            budget = service.query_budget(sea=sea, water=water, incidence=12, footprint=0.5, depth=[3, 6], altitude=400,
+                                          beam_azimuth=90, located="level", errors=dict(scan=0.001, bottom_range=0.02),
+                                          quantities=("tvu_sea", "tvu_water", "total_tvu"))
+        self.assertTrue((budget.outcomes == 1).all())
+        self.assertTrue((budget.total_tvu > np.hypot(budget.tvu_sea, budget.tvu_water)).all())
+        self.assertGreater(budget.tvu_water.min(), 0)
+
     def test_answers_from_the_tables_of_a_volume(self):
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)

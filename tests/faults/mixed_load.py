@@ -2,13 +2,13 @@
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets
-and pulses on seas are queried; requests are invalid; streams are cancelled or never read; connections are silent or do
-not speak HTTP/2; tables are replaced. Every answer is compared with that of the table file, budgets with that of the
-server at rest. Prints what was done, and the resident memory of the server after a tenth of the time and at the end.
-Under load, from 10 minutes on, a growth of more than 5 % between the two is a failure. At rest, the load has paused and
-the server has given back its free memory; some MiB of what remains are caches of threads that come and go. Seeds are
-fixed, so that only timing differs between runs.
+At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets,
+these in several waters, and pulses on seas are queried; requests are invalid; streams are cancelled or never read;
+connections are silent or do not speak HTTP/2; tables are replaced. Every answer is compared with that of the table
+file, budgets with that of the server at rest. Prints what was done, and a straight line through the resident memory of
+the server after a tenth of the time. From 10 minutes on, a line that rises by more than 5 % is a failure. At rest, the
+load has paused and the server has given back its free memory; some MiB of what remains are caches of threads that come
+and go. Seeds are fixed, so that only timing differs between runs.
 """
 
 import argparse
@@ -18,7 +18,6 @@ import pathlib
 import random
 import signal
 import socket
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -38,7 +37,7 @@ from serving import PATIENCE, Server, connect
 FLIGHT = ("--scanner", "across-track", "--water-level", "0", "--wind-speed", "5", "--footprint", "1")
 MOST_GROWTH = 1.05
 PAUSES = {"replace_table": 2, "silent_connections": 0.5, "strange_connections": 0.5, "invalid_requests": 0.1}  # s
-SEAS = 8
+SEAS, WATERS = 8, 8
 FLAT_FROM = 10  # Minutes; a shorter run has too little load of each kind to judge whether memory is flat.
 EARLY = 0.1  # Of the running time.
 GIVEN_BACK = 10  # s; after this time the server has given back its free memory: service/allocator.cc.
@@ -80,7 +79,8 @@ class MixedLoad:
                 answer = table.query(**self._some(slice(0, 1000)))
                 self.replacements[answer.table.digest] = answer
         self.server = Server(programs.serve, "--tables", self.tables)
-        self.expected_budget = self._budget()
+        self.expected_budget = self._budget(self.pulses)
+        self.expected_in_waters = [self._budget_in_water(i) for i in range(WATERS)]
 
     def file(self):
         self._annotate(self._output())
@@ -99,9 +99,11 @@ class MixedLoad:
             self._compare(service.query(**self.pulses), self.expected)
 
     def budget(self):
-        budget = self._budget()
-        for name, expected in self.expected_budget.values.items():
-            expect(budget.values[name].tobytes() == expected.tobytes(), name)
+        self._compare_budgets(self._budget(self.pulses), self.expected_budget)
+
+    def water(self):
+        i = next(self.numbers) % WATERS
+        self._compare_budgets(self._budget_in_water(i), self.expected_in_waters[i])
 
     def single_pulses(self):
         with connect(self.server.address) as channel:
@@ -162,11 +164,20 @@ class MixedLoad:
         numbers = random.Random(next(self.numbers))
         self._talk([b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + numbers.randbytes(200) for _ in range(50)])
 
-    def _budget(self):
+    def _budget(self, pulses, **more):
         errors = dict(position=(0.03, 0.03, 0.05), scan=0.001, bottom_range=0.025)
         with albtpu.connect(self.server.address, patience=PATIENCE) as service:
-            return service.query_budget(**self.pulses, table="survey", altitude=400, beam_azimuth=90, located="local",
-                                        errors=errors, aircraft=dict(roll=5))
+            return service.query_budget(**pulses, table="survey", altitude=400, beam_azimuth=90, located="local",
+                                        errors=errors, aircraft=dict(roll=5), **more)
+
+    def _budget_in_water(self, i):
+        water = albtpu.Water(secchi=4 + i, detector="half", field_of_view=8, pulse_length=1.5, bias="none")
+        return self._budget(self._some(slice(0, 1000)), water=water)
+
+    @staticmethod
+    def _compare_budgets(budget, expected):
+        for name, column in expected.values.items():
+            expect(budget.values[name].tobytes() == column.tobytes(), name)
 
     def _talk(self, messages):
         host, port = self.server.address.rsplit(":", 1)
@@ -274,10 +285,13 @@ class Run:
         pages = pathlib.Path(f"/proc/{self.load.server.process.pid}/statm").read_text().split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE") / 2**20
 
-    def memory_at(self, part):
-        """MiB; the median over the last twentieth of the run before `part` of it."""
-        last = max(1, round(part * len(self.memory)))
-        return statistics.median(self.memory[max(0, last - max(1, len(self.memory) // 20)):last])
+    def fitted_memory(self):
+        """MiB at the ends of a straight line through all but the first tenth of the run."""
+        memory = self.memory[round(EARLY * len(self.memory)):]
+        if len(memory) < 2:
+            return memory[0], memory[0]
+        rise, start = np.polyfit(np.arange(len(memory)), memory, 1)
+        return start, start + rise * (len(memory) - 1)
 
 
 def main():
@@ -297,10 +311,11 @@ def main():
         print(f"{name}: {count}")
     is_flat = True
     if run.memory:  # Empty if the run failed at once.
-        early, late = run.memory_at(EARLY), run.memory_at(1)
-        print(f"resident memory under load: {early:.1f} MiB after {EARLY * arguments.minutes:g} minutes, "
-              f"{late:.1f} MiB after {arguments.minutes:g} ({late / early - 1:+.1%}); "
-              f"at most {max(run.memory):.1f} MiB")
+        early, late = run.fitted_memory()
+        hours = (1 - EARLY) * arguments.minutes / 60
+        print(f"resident memory under load, by a line through it: {early:.1f} MiB after "
+              f"{EARLY * arguments.minutes:g} minutes, {late:.1f} MiB after {arguments.minutes:g} "
+              f"({late / early - 1:+.1%}, {(late - early) / hours:+.2f} MiB an hour); at most {max(run.memory):.1f} MiB")
         is_flat = arguments.minutes < FLAT_FROM or late <= MOST_GROWTH * early
     if len(run.memory_at_rest) == 2:
         early, late = run.memory_at_rest

@@ -1,12 +1,14 @@
-"""A table of the water column from outside: threads, shards, and a run that was interrupted give the same bytes.
+"""A table of the water column from outside: threads, shards, ranks, and a run that was interrupted give the same bytes.
 
-Usage: water_table_test.py ALBTPU_GENERATE
+Usage: water_table_test.py ALBTPU_GENERATE [MPIRUN]
 """
 
 import functools
 import json
+import os
 import pathlib
 import resource
+import shutil
 import sys
 import unittest
 
@@ -14,6 +16,7 @@ from commands import FolderTest, run
 from serving import ALLOWANCE
 
 GENERATE = sys.argv[1]
+MPIRUN = shutil.which(sys.argv[2]) if sys.argv[2:] else None
 SHIPPED = pathlib.Path(__file__).resolve().parents[3] / "generator/campaigns/water.toml"
 CAMPAIGN = """
 id = "few_waters"
@@ -61,6 +64,16 @@ class WaterTableTest(FolderTest):
         self.assertEqual(self.table("resumed.h5", "--work", work, "--resume")[0], whole)
         names = {unit.name.split("-")[0] for unit in work.glob("*.unit")}
         self.assertEqual(names, {"water", "pulse"})
+
+    @unittest.skipUnless(MPIRUN, "built without MPI (libopenmpi-dev), or there is no mpirun (openmpi-bin)")
+    def test_is_the_same_by_ranks(self):
+        # Open MPI leaks memory in libraries that it unloads before AddressSanitizer checks.
+        environment = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                       "SOURCE_DATE_EPOCH": "1700000000",
+                       "ASAN_OPTIONS": f"{os.environ.get('ASAN_OPTIONS', '')}:detect_leaks=0"}
+        self.assert_succeeds(run(MPIRUN, "--oversubscribe", "-n", 2, GENERATE, "table", "--campaign", self.campaign,
+                                 "--output", self.folder / "ranks.h5", "--threads", 1, environment=environment))
+        self.assertEqual((self.folder / "ranks.h5").read_bytes(), self.table("whole.h5")[0])
 
     def test_plan_counts_its_cells(self):
         plan = self.assert_succeeds(generate("plan", "--campaign", self.campaign))

@@ -10,6 +10,7 @@
 namespace albtpu::quality {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // The folder of the specifications that ship.
@@ -152,7 +153,8 @@ TEST(Specifications, SayWhatIsWrongWithThem) {
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {of_depth = 0.1, combined = 'sum'}\n"),
               HasSubstr("constant is missing"));
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {constant = -1}\n"), HasSubstr("constant"));
-  EXPECT_THAT(ProblemOf(std::string(kGood) + "vertikal = {constant = 1}\n"), HasSubstr("did you mean vertical?"));
+  EXPECT_THAT(ProblemOf(std::string(kGood) + "vertikal = {constant = 1}\n"),
+              AllOf(HasSubstr("'class.vertikal' is no key"), HasSubstr("did you mean vertical?")));
 }
 
 }  // namespace
