@@ -2,13 +2,13 @@
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets,
-these in several waters, and pulses on seas are queried; requests are invalid; streams are cancelled or never read;
-connections are silent or do not speak HTTP/2; tables are replaced. Every answer is compared with that of the table
-file, budgets with that of the server at rest. Prints what was done, and a straight line through the resident memory of
-the server after a tenth of the time. From 10 minutes on, a line that rises by more than 5 % is a failure. At rest, the
-load has paused and the server has given back its free memory; some MiB of what remains are caches of threads that come
-and go. Seeds are fixed, so that only timing differs between runs.
+At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole
+budgets, these in several waters, and pulses on seas are queried; requests are invalid; streams are cancelled or never
+read; connections are silent or do not speak HTTP/2; tables are replaced. Every answer is compared with that of the
+table file, budgets with that of the server at rest. Prints what was done, and a straight line through the resident
+memory of the server after a tenth of the time. From 10 minutes on, a line that rises by more than 5 % is a failure. At
+rest, the load has paused and the server has given back its free memory; some MiB of what remains are caches of threads
+that come and go. Seeds are fixed, so that only timing differs between runs.
 """
 
 import argparse
@@ -315,7 +315,8 @@ def main():
         hours = (1 - EARLY) * arguments.minutes / 60
         print(f"resident memory under load, by a line through it: {early:.1f} MiB after "
               f"{EARLY * arguments.minutes:g} minutes, {late:.1f} MiB after {arguments.minutes:g} "
-              f"({late / early - 1:+.1%}, {(late - early) / hours:+.2f} MiB an hour); at most {max(run.memory):.1f} MiB")
+              f"({late / early - 1:+.1%}, {(late - early) / hours:+.2f} MiB an hour); "
+              f"at most {max(run.memory):.1f} MiB")
         is_flat = arguments.minutes < FLAT_FROM or late <= MOST_GROWTH * early
     if len(run.memory_at_rest) == 2:
         early, late = run.memory_at_rest
