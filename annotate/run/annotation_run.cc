@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -37,7 +39,13 @@ class Run {
         settings_{run.command, run.parameters, table, run.resume ? NewestOf(run.files) : std::nullopt},
         jobs_(jobs),
         progress_(run.records, jobs.size(), TotalSize(jobs)),
-        verdict_(run.cause, run.record) {}
+        verdict_(run.cause, run.record) {
+    const auto add = [&](const fs::path& file) {
+      if (const auto identity = formats::IdentityOf(file)) read_.insert(*identity);
+    };
+    for (const Job& job : jobs) add(job.input);
+    std::ranges::for_each(run.files, add);
+  }
 
   absl::Status operator()() {
     const absl::Status status = AnnotateAll();
@@ -116,10 +124,8 @@ class Run {
   absl::Status CheckWritesNoInput(const Job& job) const {
     const auto check = [&](const fs::path& output) -> absl::Status {
       RETURN_IF_ERROR(formats::CheckNotTheSameFile(job.input, output));
-      const auto is_output = [&](const fs::path& file) { return !formats::CheckNotTheSameFile(file, output).ok(); };
-      const bool is_read = std::ranges::any_of(jobs_, [&](const Job& each) { return is_output(each.input); }) ||
-                           std::ranges::any_of(run_.files, is_output);
-      if (!is_read) return absl::OkStatus();
+      const std::optional<formats::FileIdentity> identity = formats::IdentityOf(output);
+      if (!identity.has_value() || !read_.contains(*identity)) return absl::OkStatus();
       return absl::FailedPreconditionError(
           absl::StrCat(output.string(), ": is read by this run and would be replaced; write to another file"));
     };
@@ -137,6 +143,7 @@ class Run {
   const AnnotationRun& run_;
   OutputSettings settings_;
   const std::vector<Job>& jobs_;
+  std::set<formats::FileIdentity> read_;  // Inputs, and all other files that the run reads.
   FileProgress progress_;
   RunVerdict verdict_;
   std::size_t done_ = 0, failed_ = 0;

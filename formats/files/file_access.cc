@@ -69,6 +69,12 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
                    "), so nothing was written; run again when no program writes to it"));
 }
 
+std::optional<FileIdentity> IdentityOf(const std::filesystem::path& path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileIdentity(status.st_dev, status.st_ino);
+}
+
 bool IsVisible(const std::filesystem::path& path) { return !path.filename().string().starts_with('.'); }
 
 absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem::path& path) {
@@ -86,8 +92,8 @@ absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem
 }
 
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(input, output, ignored))
+  const std::optional<FileIdentity> written = IdentityOf(output);
+  if (written.has_value() && IdentityOf(input) == written)
     return absl::FailedPreconditionError(absl::StrCat(output.string(), ": is the input itself; write to another file"));
   return absl::OkStatus();
 }

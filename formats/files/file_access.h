@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,6 +67,10 @@ class FileStamp {
   std::uint64_t size_ = 0;
   std::timespec modified_ = {};
 };
+
+// What is the same for all names of one file: hard and symbolic links, other ways to its folder.
+using FileIdentity = std::pair<dev_t, ino_t>;
+std::optional<FileIdentity> IdentityOf(const std::filesystem::path& path);  // nullopt if there is no such file.
 
 // Whether a file or folder that lies in a given one belongs to the user: programs keep their own under names that begin
 // with a dot, such as the half of a file that a copy has not finished. Nothing is said of the others.

@@ -85,12 +85,13 @@ class NdbcBulkReader {
       return lines_.Error("is one record too many (at most ", kMaxSeaRecords, "); split the file");
     SeaRecord record{.time = time};
     std::vector<JonswapWaves> components;
+    const std::size_t before = without_period_;
     for (std::size_t i = 0; i < waves_.size(); ++i)
       if (absl::Status status = AddWaves(words, waves_[i], separated_ && i == 1, components); !status.ok())
         return status;
     RETURN_IF_ERROR(AddWind(words, record));
     if (components.empty()) {
-      ++without_waves_;
+      without_waves_ += without_period_ == before;
       with_speed_ += record.wind_speed_10m.has_value();
       const bool directed = record.wind_from.has_value() || record.wind_speed_10m == 0;
       if (record.wind_speed_10m.has_value() && directed) {
@@ -106,6 +107,11 @@ class NdbcBulkReader {
 
   // Stations on the coast measure no waves.
   absl::Status TakeWinds() {
+    if (without_period_ > 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("none of its records has a period (DPD) with the height of its waves, up to ",
+                       highest_without_period_, " m; give a file that has periods, or --hs, --tp and --waves-from"));
+    }
     is_of_winds_ = !winds_.empty();
     series_.records = std::exchange(winds_, {});
     if (is_of_winds_) {
@@ -127,7 +133,12 @@ class NdbcBulkReader {
     const auto direction = Direction(words, columns.direction);
     for (const absl::Status& status : {height.status(), period.status(), direction.status()})
       if (!status.ok()) return status;
-    if (!*height || !*period || **period == 0) return absl::OkStatus();
+    if (!*height) return absl::OkStatus();
+    if (!*period || **period == 0) {
+      without_period_ += **height > 0;
+      highest_without_period_ = std::max(highest_without_period_, **height);
+      return absl::OkStatus();
+    }
     if (**period < kShortestPeak)
       return lines_.Error("has a period of ", **period, " s (expected ", kShortestPeak, " to ", kLongestPeak,
                           "); get another copy of the file");
@@ -191,6 +202,9 @@ class NdbcBulkReader {
     if (!separated_) say("swell and wind waves are not separated: spectra or a .spec file are more accurate");
     if (wind_speed_ != kNone) say("winds are taken as measured ", anemometer_height_, " m above the water");
     if (without_waves_ > 0) say(without_waves_, " records have no waves and are left out");
+    if (without_period_ > 0) {
+      say(without_period_, " heights of waves, up to ", highest_without_period_, " m, have no period and are left out");
+    }
     if (without_direction_ > 0) say(without_direction_, " wave heights have no direction and are taken as isotropic");
   }
 
@@ -205,7 +219,8 @@ class NdbcBulkReader {
   std::vector<SeaRecord> winds_;  // Of records without waves.
   bool has_waves_ = true, is_of_winds_ = false;
   std::size_t with_speed_ = 0;  // Records without waves that have a speed of the wind.
-  std::size_t without_waves_ = 0, without_direction_ = 0;
+  std::size_t without_waves_ = 0, without_period_ = 0, without_direction_ = 0;
+  double highest_without_period_ = 0;  // m
 };
 
 }  // namespace

@@ -42,7 +42,11 @@ absl::Status AlreadyThere(const std::filesystem::path& path) {
 
 absl::Status CheckTarget(const std::filesystem::path& path, Existing existing) {
   struct stat target;
-  if (stat(path.c_str(), &target) != 0) return absl::OkStatus();
+  if (lstat(path.c_str(), &target) != 0) return absl::OkStatus();
+  if (S_ISLNK(target.st_mode)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": is a link, which a new file would replace; give the name of the file itself"));
+  }
   if (!S_ISREG(target.st_mode))
     return absl::FailedPreconditionError(absl::StrCat(path.string(), ": is not a regular file; give a file to write"));
   return existing == Existing::kKeep ? AlreadyThere(path) : absl::OkStatus();

@@ -64,6 +64,26 @@ MirroredWeights WeightsOfIncidence(const Axis& axis, double coordinate) {
           {.first = 0, .count = 3, .of = {of[1], of[2] - of[0], of[3], 0}}};
 }
 
+// A polynomial through nodes of very different distances overshoots by the cube of their ratio: far beyond any water,
+// and in the end beyond single precision.
+absl::Status CheckDistances(const std::vector<Axis>& axes) {
+  constexpr double kMostUneven = 1000;
+  for (const Axis& axis : axes) {
+    for (std::size_t first = 0; first + 1 < axis.size(); ++first) {
+      const std::size_t last = std::min(first + 3, axis.size() - 1);
+      const double whole = Scaled(axis, axis.nodes()[last]) - Scaled(axis, axis.nodes()[first]);
+      for (std::size_t i = first; i < last; ++i) {
+        if (whole <= kMostUneven * (Scaled(axis, axis.nodes()[i + 1]) - Scaled(axis, axis.nodes()[i]))) continue;
+        return absl::InvalidArgumentError(absl::StrCat(
+            "axis '", std::string(axis.schema().name), "' has nodes at ", axis.nodes()[i], " and ", axis.nodes()[i + 1],
+            ", which are too close for its other nodes: polynomials of the third "
+            "degree join four of them"));
+      }
+    }
+  }
+  return absl::OkStatus();
+}
+
 double Held(const Axis& axis, double x) { return std::clamp(x, axis.nodes().front(), axis.nodes().back()); }
 
 const Axis& AxisOf(const std::vector<Axis>& axes, WaterAxis axis) { return axes[Index(axis)]; }
@@ -172,13 +192,14 @@ absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
     return absl::InvalidArgumentError("variable 'energy' has a value of 0; an echo has energy");
   if (!(AxisOf(table.axes(), WaterAxis::kOpticalDepth).nodes().front() > 0))
     return absl::InvalidArgumentError("axis 'optical_depth' begins at 0; its first node must be above");
+  if (absl::Status status = CheckDistances(table.axes()); !status.ok()) return status;
   WaterColumnTable water(std::move(table));
-  // Within the limit of all values of a table, nothing overflows between nodes.
   const auto wrong = std::ranges::find_if(water.values_, [](float v) { return !(std::abs(v) <= format::kMaxValue); });
   if (wrong == water.values_.end()) return water;
   const auto quantity = static_cast<std::size_t>(wrong - water.values_.begin()) % kWaterQuantityCount;
-  return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[quantity].name),
-                                                 "' has more than ", format::kMaxValue,
+  return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[quantity].name), "'",
+                                                 quantity == Index(WaterQuantity::kEnergy) ? " in its logarithm" : "",
+                                                 " is beyond ", format::kMaxValue,
                                                  " for each time that light is scattered; is an axis in other units?"));
 }
 

@@ -64,7 +64,8 @@ class OneWater {
 class WaterColumnTable {
  public:
   // Requires a table of kWaterColumn. InvalidArgument if it lacks a bias, an energy is not positive, the optical depth
-  // begins at 0, or a value over the number of scatterings b z is above 1e6 in magnitude.
+  // begins at 0, a value over the number of scatterings b z is above 1e6 in magnitude, or the distances of four nodes
+  // differ by a factor of 1000.
   static absl::StatusOr<WaterColumnTable> Create(Table table);
 
   const Table& table() const { return table_; }

@@ -2,8 +2,8 @@
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole
-budgets, these in several waters, and pulses on seas are queried; requests are invalid; streams are cancelled or never
+At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets
+with and without a water column, and pulses on seas are queried; requests are invalid; streams are cancelled or never
 read; connections are silent or do not speak HTTP/2; tables are replaced. Every answer is compared with that of the
 table file, budgets with that of the server at rest. Prints what was done, and a straight line through the resident
 memory of the server after a tenth of the time. From 10 minutes on, a line that rises by more than 5 % is a failure. At

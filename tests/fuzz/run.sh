@@ -57,8 +57,6 @@ export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=8
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=tests/sanitizers/lsan.supp:print_suppressions=0
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm  # Keeps the files of targets in memory.
-failed=build/fuzz/failed
-rm -f "$failed"
 
 # run_fuzzer TARGET OPTION...: libFuzzer with the options; adds the inputs that it ran to `runs`, and fails if it found
 # something.
@@ -82,22 +80,36 @@ run_fuzzer() {
   return "$code"
 }
 
+# fuzz TARGET: fails if it found something.
 fuzz() {
-  local target=$1 start=$SECONDS runs=0
-  if run_fuzzer "$target" -max_total_time="$seconds" &&
-    { ((runs >= at_least)) || run_fuzzer "$target" -runs=$((at_least - runs)); }; then
-    echo "$target: $runs executions in $((SECONDS - start)) s, nothing found"
-  else
-    touch "$failed"
-    local log=build/fuzz/$target.log
-    printf '%s\n' "$target: FOUND SOMETHING, see $log:" \
-      "$(grep -m 5 -E 'does not hold|ERROR|SUMMARY|runtime error|Test unit written' "$log" || tail -n 5 "$log")"
+  local target=$1 start=$SECONDS runs=0 known
+  run_fuzzer "$target" -max_total_time="$seconds" || return 1
+  if ((runs < at_least)); then
+    # Inputs that are already in the corpus are run again first.
+    known=$(find "build/fuzz/corpus/$target" -type f | wc -l)
+    run_fuzzer "$target" -runs=$((at_least - runs + known)) || return 1
   fi
+  echo "$target: $runs executions in $((SECONDS - start)) s, nothing found"
 }
 
+# Prints what a target found.
+found() {
+  local log=build/fuzz/$1.log
+  echo "$1: FOUND SOMETHING, see $log:"
+  grep -m 5 -E 'does not hold|ERROR|SUMMARY|runtime error|Test unit written' "$log" || tail -n 5 "$log"
+}
+
+status=0
+declare -A target_of=()  # By process.
+await_one() {
+  local process
+  wait -n -p process "${!target_of[@]}" || { status=1; found "${target_of[$process]}"; }
+  unset "target_of[$process]"
+}
 for target in "${targets[@]}"; do
-  while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+  ((${#target_of[@]} < $(nproc))) || await_one
   fuzz "$target" &
+  target_of[$!]=$target
 done
-wait
-[[ ! -e $failed ]]
+while ((${#target_of[@]} > 0)); do await_one; done
+exit "$status"

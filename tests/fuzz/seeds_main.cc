@@ -116,7 +116,7 @@ std::vector<std::string> ValueSeeds(const TableSchema& schema) {
   std::string seed;
   for (std::size_t i = 0; i < schema.axes.size(); ++i) seed += std::string("\0\1", 2) + Column({0.25f, 2});
   for (std::size_t i = 0; i < schema.quantities.size(); ++i) seed += std::string("\4\0", 2) + Column({0.5f});
-  return {seed, seed + '\1'};
+  return {seed + '\0', seed + '\1'};
 }
 
 // Sealed files with arbitrary content, and files without a valid seal: the seal does not depend on the content.

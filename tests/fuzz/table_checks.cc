@@ -36,10 +36,11 @@ double Coordinate(const Axis& axis, Place place) {
   return last;
 }
 
+// Finite but for the energy, which is interpolated as its logarithm.
 bool IsNumber(const std::optional<WaterAnswer>& answer) {
   if (!answer.has_value()) return false;
-  for (const double value : *answer)
-    if (std::isnan(value)) return false;
+  for (std::size_t q = 0; q < answer->size(); ++q)
+    if (q == Index(WaterQuantity::kEnergy) ? std::isnan((*answer)[q]) : !std::isfinite((*answer)[q])) return false;
   return true;
 }
 

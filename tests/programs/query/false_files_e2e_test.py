@@ -253,6 +253,35 @@ class Outputs(FalseFiles):
             self.assert_fails(query("las", source, "--csv", path, *common), 1, f"{path.name}: is read by this run")
         self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, before)
 
+    def test_are_never_a_second_input(self):
+        """Two names with `--csv FOLDER` are an input and its output; of more names, all are inputs."""
+        lines, tables = [self.folder / f"{name}.las" for name in "ab"], self.folder / "tables of points"
+        tables.mkdir()
+        for line in lines:
+            line.write_bytes(self.sound)
+        common = ("--csv", tables, "--survey", self.toml_file, "--table", self.quick, "--trajectory", self.survey.sbet,
+                  "--trajectory-errors", self.survey.errors, "--water-level", self.survey.water_level)
+        for more in ((), ("--overwrite",)):
+            self.assert_fails(query("las", *lines, *common, *more), 2, "if both are inputs, add --output-dir")
+            self.assertEqual(lines[1].read_bytes(), self.sound)
+        lines[1].unlink()
+        self.assertEqual(query("las", *lines, *common).returncode, 0)
+        self.assertEqual(query("las", *lines, *common, "--overwrite").returncode, 0)
+
+    def test_are_no_links(self):
+        common = ("--survey", self.toml_file, "--table", self.quick, "--trajectory", self.survey.sbet,
+                  "--trajectory-errors", self.survey.errors, "--water-level", self.survey.water_level, "--overwrite")
+        source, link, file = (self.folder / name for name in ("in.las", "link.las", "file.las"))
+        source.write_bytes(self.sound)
+        file.write_bytes(b"a file of someone")
+        for target in (file, "/dev/stdout", "nowhere"):
+            link.symlink_to(target)
+            self.assert_fails(query("las", source, link, *common), 1, "link.las: is a link")
+            self.assertTrue(link.is_symlink())
+            link.unlink()
+        self.assertEqual(file.read_bytes(), b"a file of someone")
+        self.assert_fails(query("las", source, self.folder / "out.csv", *common), 2, "for text")
+
 
 if __name__ == "__main__":
     programs.main()

@@ -104,6 +104,21 @@ TEST(NdbcBulk, RefusesWhatIsDamaged) {
   EXPECT_FALSE(ReadNdbcBulk(kSummary.substr(0, kSummary.size() - 1)).ok());
 }
 
+TEST(NdbcMeteorology, DoesNotTakeWavesWithoutAPeriodForNone) {
+  const std::string columns =
+      "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES  ATMP\n"
+      "#yr  mo dy hr mn degT m/s  m/s     m   sec   sec degT   hPa  degC\n";
+  const std::string without = "2026 07 31 12 00  90  8.0  9.0   2.5 99.00  5.90 191 1021.2    MM\n";
+  EXPECT_THAT(std::string(ReadNdbcBulk(columns + without).status().message()),
+              HasSubstr("a period (DPD) with the height of its waves, up to 2.5 m"));
+  const auto series =
+      ReadNdbcBulk(columns + without + "2026 07 31 11 00  90  8.0  9.0   1.2     7   6.6 191 1021.2    MM\n");
+  ASSERT_TRUE(series.ok()) << series.status();
+  EXPECT_EQ(series->records.size(), 1u);
+  EXPECT_THAT(series->assumed, Contains(HasSubstr("1 heights of waves, up to 2.5 m, have no period")));
+  EXPECT_THAT(series->assumed, Not(Contains(HasSubstr("have no waves"))));
+}
+
 // A station on the coast (C-MAN), which has an anemometer and no waves.
 const std::string kCoast =
     "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES  ATMP\n"

@@ -159,7 +159,12 @@ TEST(WaterColumnTable, NeedsAllQuantitiesAndLight) {
   shallow[Index(WaterAxis::kOpticalDepth)] =
       *Axis::Create(kWaterColumn.axes[Index(WaterAxis::kOpticalDepth)], depths, Scale::kLinear);
   EXPECT_THAT(problem(Values(), shallow),
-              HasSubstr("'bias_vertical_peak' has more than 1e+06 for each time that light is scattered"));
+              HasSubstr("'bias_vertical_peak' is beyond 1e+06 for each time that light is scattered"));
+
+  Table::Axes uneven = Axes();
+  uneven[Index(WaterAxis::kIncidence)] =
+      *Axis::Create(kWaterColumn.axes[Index(WaterAxis::kIncidence)], {0, 4, 4.00390625, 16, 25});
+  EXPECT_THAT(problem(Values(), uneven), HasSubstr("axis 'incidence' has nodes at 4 and 4.00391, which are too close"));
 }
 
 }  // namespace
