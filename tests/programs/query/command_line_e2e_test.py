@@ -188,8 +188,9 @@ class CommandLineTest(programs.Test):
                 (("csv", source, target, "--table", self.folder / "no.h5"), "no.h5"),
                 (("csv", source, target, "--table", source), "in.csv"),
                 (("csv", source, target, "--server", "127.0.0.1:1"), "127.0.0.1:1"),
-                (("las", source, target, *table, *FLAGS), "is not a LAS file"),
-                (("las", self.folder / "pipe", target, *table, *FLAGS), "pipe: is not a regular file")):
+                (("las", source, target.with_suffix(".las"), *table, *FLAGS), "is not a LAS file"),
+                (("las", self.folder / "pipe", target.with_suffix(".las"), *table, *FLAGS),
+                 "pipe: is not a regular file")):
             self.assert_fails(query(*arguments), 1, part)
         self.assert_fails(query("csv", source, target, *table, "--depth", 3), 2, "--depth")
         self.assertEqual(self.names(), before)
