@@ -139,6 +139,10 @@ std::string Describe(const Motion& motion) {
       DegreesOfRadians(motion.crab));
 }
 
+// Two solutions that were joined differ by metres at most, and survey aircraft are slower.
+constexpr double kLongestJump = 20;   // m
+constexpr double kFastestJump = 400;  // m/s
+
 constexpr std::size_t kMaxPairs = 4096;
 constexpr double kStretch = 0.1;         // s
 constexpr std::size_t kMaxSteps = 1000;  // In a stretch: disorder costs no more time than order.
@@ -158,6 +162,27 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
   // X and Y alone are checked later, with the map frame.
   if (motion.fits()) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", Describe(motion)));
+}
+
+absl::Status CheckJumps(const Trajectory& trajectory, const std::function<TrajectoryRecord(std::size_t)>& place_at) {
+  constexpr double kEarthRadius = 6.371e6;  // m; a jump is known to some percent.
+  TrajectoryRecord before = place_at(0);
+  const double parallel = kEarthRadius * std::cos(before.latitude);
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const TrajectoryRecord record = place_at(i);
+    const double north = kEarthRadius * (record.latitude - before.latitude);
+    const double east = parallel * std::remainder(record.longitude - before.longitude, 2 * std::numbers::pi);
+    const double up = record.height - before.height, duration = record.time - before.time;
+    const double least = std::max(kLongestJump, kFastestJump * duration);
+    if (north * north + east * east + up * up > least * least) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "%s: record %d of %d, at %.3f s, is %.0f m from the one %.3f s before it, farther than an aircraft flies; "
+          "leave out the records that jump, or give the parts between them as separate files",
+          trajectory.name(), i + 1, trajectory.size(), record.time, std::hypot(north, east, up), duration));
+    }
+    before = record;
+  }
+  return absl::OkStatus();
 }
 
 std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory, double longest_step) {

@@ -302,6 +302,7 @@ absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::str
   if (!trajectory.ok()) return trajectory;
   const auto grid_position = [&trajectory](std::size_t i) { return (*trajectory)->GridPositionAt(i); };
   RETURN_IF_ERROR(CheckMotion(**trajectory, grid_position));
+  RETURN_IF_ERROR(CheckJumps(**trajectory, [&trajectory](std::size_t i) { return (*trajectory)->Record(i); }));
   return trajectory;
 }
 

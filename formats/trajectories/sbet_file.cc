@@ -184,8 +184,12 @@ absl::Status SbetFile::CheckRecords(VelocityAxes axes) {
   const FoundFrame found = FindVelocityFrame(pairs, axes);
   frame_ = found.frame;
   if (!found.remark.empty()) set_remark(absl::StrCat(name(), ": ", found.remark));
-  if (is_slow) return absl::OkStatus();
-  return CheckSbetMotion(name(), pairs, frame_);
+  if (!is_slow) RETURN_IF_ERROR(CheckSbetMotion(name(), pairs, frame_));
+  return CheckJumps(*this, [this](std::size_t i) {
+    const SbetRecord& record = records_[i];
+    return TrajectoryRecord{
+        .time = TimeAt(i), .latitude = record.latitude, .longitude = record.longitude, .height = record.height};
+  });
 }
 
 namespace {

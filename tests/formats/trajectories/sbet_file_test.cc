@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "tests/formats/trajectories/flight_files.h"
 #include "tests/temporary_folder.h"
@@ -99,6 +100,16 @@ TEST_F(SbetFileTest, ToleratesAJumpBetweenTwoSolutions) {
   std::vector<SbetRow> rows = Fly(Flight());
   for (std::size_t i = rows.size() / 2; i < rows.size(); ++i) rows[i][kHeight] += 5;
   EXPECT_TRUE(Open(rows).ok());
+}
+
+TEST_F(SbetFileTest, RefusesRecordsThatJumpFartherThanAnAircraftFlies) {
+  const std::vector<SbetRow> sound = Fly(Flight());
+  for (const auto& [field, jump] : {std::pair(kHeight, 50.0), {kLatitude, 1e-5}, {kLongitude, -1e-4}}) {
+    std::vector<SbetRow> rows = sound;
+    rows[rows.size() / 2][field] += jump;
+    EXPECT_THAT(Refusal(rows), HasSubstr(absl::StrCat("record ", rows.size() / 2 + 1, " of ", rows.size())));
+    EXPECT_THAT(Refusal(rows), HasSubstr("farther than an aircraft flies"));
+  }
 }
 
 TEST_F(SbetFileTest, RefusesDamagedFiles) {
