@@ -49,8 +49,8 @@ inline constexpr double kLargestVelocityDifference = 1;
 // rounded.
 inline constexpr double kLongestStep = 0.2 + 1e-6;
 
-// InvalidArgument if a record is more than 20 m from the one before it and was reached faster than 400 m/s: points would
-// lie between a right position and a wrong one. Names the record and its time. Looks at all records, of which
+// InvalidArgument if a record is more than 20 m from the one before it and was reached faster than 400 m/s: points
+// would lie between a right position and a wrong one. Names the record and its time. Looks at all records, of which
 // `place_at` gives time and position alone.
 absl::Status CheckJumps(const Trajectory& trajectory, const std::function<TrajectoryRecord(std::size_t)>& place_at);
 
