@@ -252,9 +252,8 @@ absl::StatusOr<std::vector<annotate::Job>> JobsOf(const LasOptions& options) {
   if (folder && files.output_folder.empty() && std::filesystem::exists(jobs.front().output, ignored) &&
       !std::filesystem::exists(annotate::SummaryPath(jobs.front().output), ignored)) {
     return formats::UsageError(
-        absl::StrCat("las: ", jobs.front().output.string(),
-                     " is the output of two files with --csv, and is there "
-                     "already, from elsewhere; if both are inputs, add --output-dir DIR or annotate one at a time"));
+        absl::StrCat("las: ", jobs.front().output.string(), " would be the output of ", jobs.front().input.string(),
+                     ", but is another file; if both are inputs, add --output-dir DIR or annotate one at a time"));
   }
   if (!folder && jobs.size() > 1) {
     return formats::UsageError(absl::StrCat("las: --csv ", options.csv, " is no folder, in which each of ", jobs.size(),
@@ -278,10 +277,8 @@ absl::StatusOr<std::optional<formats::LasKind>> OutputKind(const LasOptions& opt
   const std::vector<std::string>& files = options.files.files;
   if (!options.files.output_folder.empty() || files.size() != 2) return options.format;
   if (annotate::HasExtension(files[1], kCsv) || annotate::HasExtension(files[1], ".txt")) {
-    return formats::UsageError(absl::StrCat("las: ", files[1],
-                                            " would be a LAS file; name it .las or .laz, or give "
-                                            "--csv ",
-                                            files[1], " for text"));
+    return formats::UsageError(absl::StrCat(
+        "las: ", files[1], " would be a LAS file; name it .las or .laz, or give --csv ", files[1], " for text"));
   }
   std::optional<formats::LasKind> named;
   for (const formats::LasKind kind : {formats::LasKind::kLas, formats::LasKind::kLaz})

@@ -177,7 +177,7 @@ class Scaling {
     Eigen::Matrix2d axes;
     Snell from, to, nadir;
     // From the variances of the tangents to those of the slopes, on the axes of the sea, where slopes are uncorrelated;
-    // and from those of the slopes to what the tangents' gain at the other index.
+    // and from these to how much the variances of the tangents grow at the other index.
     Eigen::Matrix2d seen_by_errors, change;
     double usual;                      // ratio of the variances of tangents, of slopes that are alike in all directions
     double bias_along, bias_vertical;  // ratios

@@ -76,8 +76,7 @@ absl::Status CheckDistances(const std::vector<Axis>& axes) {
         if (whole <= kMostUneven * (Scaled(axis, axis.nodes()[i + 1]) - Scaled(axis, axis.nodes()[i]))) continue;
         return absl::InvalidArgumentError(absl::StrCat(
             "axis '", std::string(axis.schema().name), "' has nodes at ", axis.nodes()[i], " and ", axis.nodes()[i + 1],
-            ", which are too close for its other nodes: polynomials of the third "
-            "degree join four of them"));
+            ", which are too close for its other nodes: cubic polynomials join four of them"));
       }
     }
   }

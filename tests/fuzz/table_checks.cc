@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostValues = 100'000;  // A larger table takes too long.
 
-// Where a node, the middle of two, a fraction of the range or a place beyond it is asked for.
+// Where a table is asked on one axis.
 enum class Place { kFirst, kLast, kBetween, kNearLast, kBelow, kAbove };
 
 double Coordinate(const Axis& axis, Place place) {

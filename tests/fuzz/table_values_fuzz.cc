@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 5, kMostNumbers = 8, kMostValues = 4096;
 
-// A list of numbers behind a byte of flags and its length. The values of a variable repeat it.
+// The nodes of an axis, or numbers that the values of a variable repeat. In an input, the flags and the length, a byte
+// each, come before the numbers.
 struct Numbers {
   unsigned flags = 0;  // 1: absent, 2: on a log scale, 4: with standard errors
   std::vector<float> of;
