@@ -59,6 +59,8 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
     levels->LevelsAt(points.times, heights);
     for (double& height : heights) height = frame.Z(height);
   }
+  std::optional<LocalWaterSurface::Reader> nearby;
+  if (surface != nullptr) nearby.emplace(*surface);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double own = points.pulse_surface.empty() ? kNoHeight : frame.Z(points.pulse_surface[i]);
     const auto count = [&](SurfaceFrom from) {
@@ -69,10 +71,10 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
       count(SurfaceFrom::kPulse);
       continue;
     }
-    const std::optional<double> local = surface == nullptr
-                                            ? std::nullopt
-                                            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
-                                                                points.times.empty() ? 0 : seconds * points.times[i]);
+    std::optional<double> local;
+    if (nearby.has_value())
+      local = nearby->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
+                               points.times.empty() ? 0 : seconds * points.times[i]);
     if (local.has_value()) {
       heights[i] = *local;
       count(SurfaceFrom::kLocal);
@@ -96,6 +98,7 @@ std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHe
   water.At(upper, frame, heights, ignored);
   const double trough = DeepestTrough(pairs, heights);
   std::vector<AirRay> rays;
+  rays.reserve(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!(pairs[i].upper.z() <= heights[i] - (pairs[i].upper_is_bottom ? 0 : trough))) continue;
     const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index);

@@ -202,21 +202,22 @@ void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const 
     const std::string_view record = Record(chunk, i);
     if (!is_water_[fields_.Class(record)] || (!use_withheld_ && fields_.IsWithheld(record))) continue;
     if (scanner.points != nullptr && !scanner.points->Has(fields_, record)) continue;
-    chunk.water.push_back(static_cast<std::uint32_t>(i));
+    chunk.water.push_back({fields_.GpsTime(record), i});
   }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
   std::size_t first = 0;  // The first return from the surface that is within reach.
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     if (chunk.points.is_dry(i)) continue;
     const std::size_t point = chunk.chosen[i];
-    while (first < chunk.water.size() && chunk.water[first] + kPulseReach < point) ++first;
+    const double time = chunk.points.times[i];
+    while (first < chunk.water.size() && chunk.water[first].record + kPulseReach < point) ++first;
     std::size_t nearest = kPulseReach + 1;
-    for (std::size_t at = first; at < chunk.water.size() && chunk.water[at] <= point + kPulseReach; ++at) {
-      const std::size_t other = chunk.water[at];
+    for (std::size_t at = first; at < chunk.water.size() && chunk.water[at].record <= point + kPulseReach; ++at) {
+      if (chunk.water[at].time != time) continue;
+      const std::size_t other = chunk.water[at].record;
       const std::size_t distance = other > point ? other - point : point - other;
       if (distance == 0 || distance >= nearest) continue;
       const std::string_view record = Record(chunk, other);
-      if (fields_.GpsTime(record) != chunk.points.times[i]) continue;
       if (!fields_.OfOnePulse(record, Record(chunk, point))) continue;
       nearest = distance;
       chunk.points.pulse_surface[i] = fields_.Z(record);

@@ -107,11 +107,17 @@ class LasChunkWork {
 
    private:
     friend class LasChunkWork;
+    // A return from the water surface, by its index in `records`.
+    struct WaterReturn {
+      double time;
+      std::size_t record;
+    };
+
     std::vector<std::uint8_t> scanners;  // Of each own record, that of a point that may get a number; or kNoScanner.
     // The block of own records that is worked on; what follows is of one scanner in it.
     std::size_t begin = 0, end = 0;
     std::vector<std::uint32_t> chosen;  // Indices of own records.
-    std::vector<std::uint32_t> water;   // Indices of records from the surface.
+    std::vector<WaterReturn> water;     // In order.
     SurveyPoints points;                // Of the chosen records.
     BeamScratch scratch;
     PointBeams beams;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -59,7 +60,7 @@ struct Part {
   formats::TimeTally tally;
   SurfaceReturns surface;
   TerrainReturns ground, unclassified;
-  std::vector<ReturnPair> pairs;
+  PairSample pairs;
   std::uint64_t of_several = 0, alone = 0;
   std::vector<PulseReturn> incomplete;  // Returns whose pulse has others than those within reach.
 };
@@ -93,12 +94,12 @@ class PrescanWork {
   }
 
   // Two returns of one pulse, of classes that may belong to a pair.
-  void AddPair(const PulseReturn& a, const PulseReturn& b, std::vector<ReturnPair>& pairs) const {
+  void AddPair(const PulseReturn& a, const PulseReturn& b, PairSample& pairs) const {
     const bool a_is_upper = a.position.z() >= b.position.z();
     const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
     if (!lower.chosen || upper.position.z() > highest_ + kHighestCrest) return;
     if ((upper.position - lower.position).norm() < kMinSeparation) return;
-    pairs.push_back({a.time, upper.position, lower.position, upper.chosen});
+    pairs.Add({a.time, upper.position, lower.position, upper.chosen});
   }
 
   absl::Status operator()(Part& part) const {
@@ -120,7 +121,7 @@ class PrescanWork {
     part.surface = SurfaceReturns();
     part.ground.Clear();
     part.unclassified.Clear();
-    part.pairs.clear();
+    part.pairs.Clear();
     part.of_several = part.alone = 0;
     part.incomplete.clear();
     for (std::size_t i = 0; i < part.run.own; ++i) {
@@ -137,6 +138,7 @@ class PrescanWork {
       if (pulse.has_value()) AddPulses(part, *pulse, i);
       pulse = i;
     }
+    part.pairs.Prune();
     return absl::OkStatus();
   }
 
@@ -204,11 +206,19 @@ class PrescanWork {
             .chosen = (part.roles[i] & kChosen) != 0};
   }
 
+  // How many records from `begin` to `end` have the time of record i. Counting needs no branches, and the bits of two
+  // times are compared faster than their numbers.
+  static std::size_t EqualTimes(const Part& part, std::size_t i, std::size_t begin, std::size_t end) {
+    const auto time = std::bit_cast<std::uint64_t>(part.times[i]);
+    std::size_t equal = 0;
+    for (std::size_t j = begin; j < end; ++j) equal += std::bit_cast<std::uint64_t>(part.times[j]) == time;
+    return equal;
+  }
+
   // Each pair belongs to the chunk of its first record.
   void AddPairs(Part& part, std::size_t i) const {
     const std::size_t end = std::min(i + kPulseReach + 1, part.times.size());
-    std::size_t equal = 0;  // Counting needs no branches.
-    for (std::size_t j = i + 1; j < end; ++j) equal += part.times[j] == part.times[i];
+    const std::size_t equal = EqualTimes(part, i, i + 1, end);
     if (fields_.ReturnCount(Record(part, i)) > 1) AddReturnOfSeveral(part, i, equal);
     if (equal == 0 || (part.roles[i] & kOfPair) == 0) return;
     for (std::size_t j = i + 1; j < end; ++j) {
@@ -221,8 +231,7 @@ class PrescanWork {
   // `after`: records of the same time within reach behind this one. The first records of a chunk do not see those of
   // the chunk before; what they seem to miss is found twice then, and counts once.
   void AddReturnOfSeveral(Part& part, std::size_t i, std::size_t after) const {
-    std::size_t equal = after;
-    for (std::size_t j = i > kPulseReach ? i - kPulseReach : 0; j < i; ++j) equal += part.times[j] == part.times[i];
+    const std::size_t equal = after + EqualTimes(part, i, i > kPulseReach ? i - kPulseReach : 0, i);
     ++part.of_several;
     part.alone += equal == 0;
     const bool complete = equal + 1 >= static_cast<std::size_t>(fields_.ReturnCount(Record(part, i)));
@@ -279,21 +288,19 @@ absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const Local
                                                   unclassified.Merge(part.unclassified);
                                                 else
                                                   unclassified.Clear();
-                                                for (const ReturnPair& pair : part.pairs) pairs.Add(pair);
+                                                pairs.Merge(part.pairs);
                                                 for (const PulseReturn& one : part.incomplete) incomplete.Add(one);
                                                 return absl::OkStatus();
                                               }));
   if (prescan.off_level > 0) prescan.off_level_height /= static_cast<double>(prescan.off_level);
-  std::vector<ReturnPair> apart;
   for (const std::vector<PulseReturn>& pulse : incomplete.Take()) {
     for (std::size_t i = 0; i < pulse.size(); ++i) {
       for (std::size_t j = i + 1; j < pulse.size(); ++j) {
         const std::uint64_t a = pulse[i].record, b = pulse[j].record;
-        if ((a > b ? a - b : b - a) > kPulseReach) work.AddPair(pulse[i], pulse[j], apart);
+        if ((a > b ? a - b : b - a) > kPulseReach) work.AddPair(pulse[i], pulse[j], pairs);
       }
     }
   }
-  for (const ReturnPair& pair : apart) pairs.Add(pair);
   prescan.pair_count = pairs.seen();
   prescan.terrain_is_classified = !ground.empty();
   tbb::parallel_invoke([&] { prescan.pairs = pairs.Take(); },

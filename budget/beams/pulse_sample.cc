@@ -17,13 +17,25 @@ void PairSample::Add(const ReturnPair& pair) {
   if (pairs_.size() >= 2 * size_.pairs) Thin(size_.pairs);
 }
 
+void PairSample::Merge(const PairSample& other) {
+  seen_ += other.seen_;
+  pairs_.insert(pairs_.end(), other.pairs_.begin(), other.pairs_.end());
+  if (pairs_.size() >= 2 * size_.pairs) Thin(size_.pairs);
+}
+
+void PairSample::Clear() {
+  pairs_.clear();
+  seen_ = 0;
+  now_ = size_;
+}
+
 std::vector<ReturnPair> PairSample::Take() {
   Thin(size_.pairs);
   const auto order = [](const ReturnPair& pair) {
     return std::tuple(pair.time, pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x());
   };
-  std::sort(pairs_.begin(), pairs_.end(),
-            [&](const ReturnPair& a, const ReturnPair& b) { return order(a) < order(b); });
+  const auto is_before = [&](const ReturnPair& a, const ReturnPair& b) { return order(a) < order(b); };
+  if (!std::is_sorted(pairs_.begin(), pairs_.end(), is_before)) std::sort(pairs_.begin(), pairs_.end(), is_before);
   return std::exchange(pairs_, {});
 }
 
@@ -34,29 +46,38 @@ void PairSample::Thin(std::size_t most) {
     std::uint64_t hash;
     std::size_t pair;
   };
-  const auto order = [this](const Rank& rank) {
-    const ReturnPair& pair = pairs_[rank.pair];
-    return std::tuple(rank.bin, rank.hash, pair.lower.z(), pair.upper.z());
+  const auto is_before_in_bin = [this](const Rank& a, const Rank& b) {
+    if (a.hash != b.hash) return a.hash < b.hash;
+    const ReturnPair &first = pairs_[a.pair], &second = pairs_[b.pair];
+    return std::tuple(first.lower.z(), first.upper.z()) < std::tuple(second.lower.z(), second.upper.z());
   };
+  const auto is_of_earlier_bin = [](const Rank& a, const Rank& b) { return a.bin < b.bin; };
   std::vector<Rank> ranks(pairs_.size());
   std::vector<bool> is_kept(pairs_.size());
   while (true) {
     for (std::size_t i = 0; i < ranks.size(); ++i)
-      ranks[i] = {std::floor(pairs_[i].time / size_.bin), HashOfTime(pairs_[i].time), i};
-    std::sort(ranks.begin(), ranks.end(), [&](const Rank& a, const Rank& b) { return order(a) < order(b); });
+      ranks[i] = {std::floor(pairs_[i].time / now_.bin), HashOfTime(pairs_[i].time), i};
+    // Most files are in order of time.
+    if (!std::is_sorted(ranks.begin(), ranks.end(), is_of_earlier_bin))
+      std::sort(ranks.begin(), ranks.end(), is_of_earlier_bin);
     is_kept.assign(pairs_.size(), false);
-    std::size_t kept = 0, in_bin = 0;
-    for (std::size_t i = 0; i < ranks.size(); ++i) {
-      in_bin = i > 0 && ranks[i].bin == ranks[i - 1].bin ? in_bin + 1 : 0;
-      if (in_bin >= size_.pairs_per_bin) continue;
-      is_kept[ranks[i].pair] = true;
-      ++kept;
+    std::size_t kept = 0;
+    for (auto first = ranks.begin(); first != ranks.end();) {
+      const auto last = std::find_if(first, ranks.end(), [&](const Rank& rank) { return rank.bin != first->bin; });
+      auto end = last;
+      if (last - first > static_cast<std::ptrdiff_t>(now_.pairs_per_bin)) {
+        end = first + static_cast<std::ptrdiff_t>(now_.pairs_per_bin);
+        std::nth_element(first, end, last, is_before_in_bin);
+      }
+      for (auto rank = first; rank != end; ++rank) is_kept[rank->pair] = true;
+      kept += static_cast<std::size_t>(end - first);
+      first = last;
     }
     if (kept <= most) break;
-    if (size_.pairs_per_bin > 1)
-      size_.pairs_per_bin = (size_.pairs_per_bin + 1) / 2;
+    if (now_.pairs_per_bin > 1)
+      now_.pairs_per_bin = (now_.pairs_per_bin + 1) / 2;
     else
-      size_.bin *= 2;
+      now_.bin *= 2;
   }
   std::size_t end = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i)

@@ -34,6 +34,14 @@ class PairSample {
   // Requires finite numbers.
   void Add(const ReturnPair& pair);
 
+  // Leaves out the pairs that no sample of the same size keeps, whatever is added to it: for parts that are merged.
+  void Prune() { Thin(std::numeric_limits<std::size_t>::max()); }
+
+  // `other` must be of the same size.
+  void Merge(const PairSample& other);
+
+  void Clear();
+
   // The sample, in order of time.
   std::vector<ReturnPair> Take();
 
@@ -43,6 +51,7 @@ class PairSample {
   void Thin(std::size_t most);
 
   PairSampleSize size_;
+  PairSampleSize now_ = size_;  // What a bin keeps, and how wide it is, so far.
   std::vector<ReturnPair> pairs_;
   std::uint64_t seen_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "budget/beams/track_check.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -148,7 +150,11 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   check.rays = tracked.size();
   if (tracked.size() < std::max<std::size_t>(options.min_rays, 8)) return check;
 
-  const DisplacementFit offset = FitDisplacement(tracked, Displacement::kOffset, options.index);
+  DisplacementFit offset, turned;
+  double among = 0;
+  tbb::parallel_invoke([&] { offset = FitDisplacement(tracked, Displacement::kOffset, options.index); },
+                       [&] { turned = FitDisplacement(tracked, Displacement::kOffsetRotation, options.index); },
+                       [&] { among = AngleAmongRays(kept); });
   check.forward = CorrectionOf(offset, 0);
   check.right = CorrectionOf(offset, 1);
   check.up = CorrectionOf(offset, 2);
@@ -162,14 +168,12 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   const auto matters = [&](const Correction& c, double per) {
     return Significant(c, options) && std::abs(c.value) * per > options.limit;
   };
-  const double among = AngleAmongRays(kept);
   constexpr double kFar = 0.01;  // rad; what curved flight adds to the deviation from straight windows.
   const bool far = check.median_angle > 2 * among + kFar;
   const bool across = matters(check.forward, per_across) || matters(check.right, per_across);
   const bool up = matters(check.up, per_up);
 
   // A rotation moves the ends of lines; its effect is that at the root mean square distance from the middle.
-  const DisplacementFit turned = FitDisplacement(tracked, Displacement::kOffsetRotation, options.index);
   check.rotation = CorrectionOf(turned, 3);
   check.angle_with_rotation = turned.median_angle;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -1,5 +1,7 @@
 #include "sea/table/table_at_index.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -149,12 +151,12 @@ class Scaling {
   }
 
   void Scale() {
-    for (std::size_t sea = 0; sea < nodes_.seas(); ++sea) {
+    tbb::parallel_for(std::size_t{0}, nodes_.seas(), [this](std::size_t sea) {
       const Eigen::Matrix2d slopes = SlopesOf(sea);
       // The vertical beam comes last, because the others need its values.
       for (std::size_t i = nodes_.size(AxisId::kIncidence); i-- > 0;)
         for (std::size_t a = 0; a < nodes_.size(AxisId::kAzimuth); ++a) ScaleBeams(sea, i, a, slopes);
-    }
+    });
   }
 
  private:

@@ -1,14 +1,19 @@
 #include "tables/file/hdf5_numbers.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -80,43 +85,70 @@ class ChunkReader {
   ChunkReader(hid_t dataset, const std::vector<hsize_t>& shape, const std::vector<hsize_t>& chunk, Filters filters,
               std::vector<float>& values)
       : dataset_(dataset), shape_(shape), chunk_(chunk), filters_(filters), size_(Product(chunk)), values_(values) {
-    inflated_.resize(size_ * sizeof(float));
     while (whole_ > 1 && chunk_[whole_ - 1] == shape_[whole_ - 1]) --whole_;
   }
 
   // False if a chunk is missing or damaged.
-  bool ReadAll() {
+  bool ReadAll() const {
+    // HDF5 serves one thread at a time.
+    std::vector<StoredChunk> chunks;
+    std::vector<hsize_t> corner(shape_.size());
     do {
-      if (!Inflate()) return false;
-      Place(0, 0, 0);
-    } while (Advance());
-    return true;
+      std::optional<StoredChunk> chunk = ReadStored(corner);
+      if (!chunk.has_value()) return false;
+      chunks.push_back(*std::move(chunk));
+    } while (Advance(corner));
+    std::atomic<bool> is_sound = true;
+    const auto inflate = [&](const auto& range) {
+      std::vector<Bytef> inflated(size_ * sizeof(float));
+      for (const StoredChunk& chunk : range) {
+        if (Inflate(chunk, inflated))
+          Place(chunk, inflated, 0, 0, 0);
+        else
+          is_sound = false;
+      }
+    };
+    // Isolated, because this thread has HDF5: a task of another table would wait for it forever.
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(tbb::blocked_range(chunks.begin(), chunks.end()), inflate); });
+    return is_sound;
   }
 
  private:
+  struct StoredChunk {
+    std::vector<hsize_t> corner;
+    std::vector<Bytef> bytes;  // Deflated, and the checksum if there is one.
+  };
+
   // Moves to the corner of the next chunk, last dimension first; false after the last chunk.
-  bool Advance() {
+  bool Advance(std::vector<hsize_t>& corner) const {
     for (std::size_t i = shape_.size(); i-- > 0;) {
-      corner_[i] += chunk_[i];
-      if (corner_[i] < shape_[i]) return true;
-      corner_[i] = 0;
+      corner[i] += chunk_[i];
+      if (corner[i] < shape_[i]) return true;
+      corner[i] = 0;
     }
     return false;
   }
 
-  bool Inflate() {
-    const std::size_t behind = filters_.checksum ? kChecksumBytes : 0;
+  std::size_t checksum_bytes() const { return filters_.checksum ? kChecksumBytes : 0; }
+
+  std::optional<StoredChunk> ReadStored(const std::vector<hsize_t>& corner) const {
     hsize_t size = 0;
-    if (H5Dget_chunk_storage_size(dataset_, corner_.data(), &size) < 0) return false;
-    if (size <= behind || size > compressBound(inflated_.size()) + behind) return false;
-    stored_.resize(size);
+    if (H5Dget_chunk_storage_size(dataset_, corner.data(), &size) < 0) return std::nullopt;
+    const std::size_t behind = checksum_bytes();
+    if (size <= behind || size > compressBound(size_ * sizeof(float)) + behind) return std::nullopt;
+    StoredChunk chunk{corner, std::vector<Bytef>(size)};
     std::uint32_t skipped_filters = 0;
-    if (H5Dread_chunk(dataset_, H5P_DEFAULT, corner_.data(), &skipped_filters, stored_.data()) < 0) return false;
-    const std::span<const Bytef> deflated = std::span(stored_).first(size - behind);
+    if (H5Dread_chunk(dataset_, H5P_DEFAULT, corner.data(), &skipped_filters, chunk.bytes.data()) < 0)
+      return std::nullopt;
+    return skipped_filters == 0 ? std::optional(std::move(chunk)) : std::nullopt;
+  }
+
+  bool Inflate(const StoredChunk& chunk, std::vector<Bytef>& inflated) const {
+    const std::span<const Bytef> deflated = std::span(chunk.bytes).first(chunk.bytes.size() - checksum_bytes());
     if (filters_.checksum && !HasChecksum(deflated)) return false;
-    uLongf inflated = inflated_.size();
-    return skipped_filters == 0 && uncompress(inflated_.data(), &inflated, deflated.data(), deflated.size()) == Z_OK &&
-           inflated == inflated_.size();
+    uLongf size = inflated.size();
+    return uncompress(inflated.data(), &size, deflated.data(), deflated.size()) == Z_OK && size == inflated.size();
   }
 
   // Whether the little-endian checksum behind the bytes is theirs.
@@ -129,24 +161,26 @@ class ChunkReader {
 
   // Copies the part of the chunk that lies in the dataset: along `dimension` and the later ones, from `from` in the
   // chunk to `to` in the dataset.
-  void Place(std::size_t dimension, std::size_t from, std::size_t to) {
+  void Place(const StoredChunk& chunk, const std::vector<Bytef>& inflated, std::size_t dimension, std::size_t from,
+             std::size_t to) const {
     const auto after = [&](const std::vector<hsize_t>& sizes) {
       return Product(std::span(sizes).subspan(dimension + 1));
     };
-    const std::size_t count = std::min(chunk_[dimension], shape_[dimension] - corner_[dimension]);
+    const std::size_t count = std::min(chunk_[dimension], shape_[dimension] - chunk.corner[dimension]);
     const std::size_t step = after(chunk_), step_of_values = after(shape_);
-    to += corner_[dimension] * step_of_values;
-    if (dimension + 1 == whole_) return Copy(from, count * step, &values_[to]);
-    for (std::size_t i = 0; i < count; ++i) Place(dimension + 1, from + i * step, to + i * step_of_values);
+    to += chunk.corner[dimension] * step_of_values;
+    if (dimension + 1 == whole_) return Copy(inflated, from, count * step, &values_[to]);
+    for (std::size_t i = 0; i < count; ++i)
+      Place(chunk, inflated, dimension + 1, from + i * step, to + i * step_of_values);
   }
 
   // Shuffled chunks have the first bytes of all values, then the second ones, and so on.
-  void Copy(std::size_t from, std::size_t count, float* to) const {
-    const Bytef* const bytes = inflated_.data() + from;
+  void Copy(const std::vector<Bytef>& inflated, std::size_t from, std::size_t count, float* to) const {
     if (!filters_.shuffle) {
-      std::memcpy(to, inflated_.data() + from * sizeof(float), count * sizeof(float));
+      std::memcpy(to, inflated.data() + from * sizeof(float), count * sizeof(float));
       return;
     }
+    const Bytef* const bytes = inflated.data() + from;
     for (std::size_t i = 0; i < count; ++i) {
       to[i] =
           std::bit_cast<float>(std::uint32_t{bytes[i]} | std::uint32_t{bytes[size_ + i]} << 8 |
@@ -159,8 +193,6 @@ class ChunkReader {
   const Filters filters_;
   const std::size_t size_;             // of a chunk, in values
   std::size_t whole_ = shape_.size();  // From this dimension on, chunks span the dataset; 1 or more.
-  std::vector<hsize_t> corner_ = std::vector<hsize_t>(shape_.size());
-  std::vector<Bytef> stored_, inflated_;
   std::vector<float>& values_;
 };
 

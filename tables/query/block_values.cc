@@ -1,5 +1,7 @@
 #include "tables/query/block_values.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -60,8 +62,9 @@ NodeRecords::NodeRecords(const Table& table) : quantity_count(table.schema().qua
     for (std::size_t set = first; set < last; ++set) sets.push_back({over_last_axis, Records(size), {}});
     for (const std::size_t q : members)
       if (is_log[q]) sets[values[q].set].plain.resize(size);
-    for (std::size_t record = 0; record < count; record += kPutTogether)
+    tbb::parallel_for(std::size_t{0}, count, kPutTogether, [&](std::size_t record) {
       for (const std::size_t q : members) PutAll(table, q, record);
+    });
   }
   assert(sets.size() <= kMaxSets);
 }

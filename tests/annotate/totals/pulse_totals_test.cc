@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "annotate/totals/total_summary.h"
 
@@ -146,6 +148,24 @@ TEST(LengthSpread, FindsQuantilesToAPerCent) {
   EXPECT_NEAR(spread.quantile(0.5), 0.5, 0.006);
   EXPECT_NEAR(spread.quantile(0.95), 0.95, 0.01);
   EXPECT_EQ(spread.greatest(), 1);
+}
+
+// A length alone: the middle of its bin, by the logarithm, or itself where that is less.
+TEST(LengthSpread, HasBinsOfAPerCent) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> logarithm(std::log(1e-5), std::log(1e5));
+  const auto check = [](float metres) {
+    LengthSpread spread;
+    spread.Add(metres);
+    const double bin = std::clamp(std::floor(std::log(std::max(1e-4, double{metres}) / 1e-4) / 0.01), 0.0, 1842.0);
+    EXPECT_DOUBLE_EQ(spread.quantile(0.5), std::min(1e-4 * std::exp(0.01 * (bin + 0.5)), double{metres})) << metres;
+  };
+  for (int i = 0; i < 3000; ++i) check(static_cast<float>(std::exp(logarithm(random))));
+  for (int bin = -1; bin < 1850; ++bin) {
+    const auto bound = static_cast<float>(1e-4 * std::exp(0.01 * bin));
+    for (const float metres : {std::nextafter(bound, 0.f), bound, std::nextafter(bound, 1e9f)}) check(metres);
+  }
+  for (const float metres : {0.f, 1e-30f, 1e4f, 16384.f, 3e38f}) check(metres);
 }
 
 // Of a grid whose north points 30 degrees east of true north. An error of fixed direction has the covariance of its

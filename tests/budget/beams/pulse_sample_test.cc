@@ -124,5 +124,31 @@ TEST(PairSample, DoesNotDependOnTheOrder) {
   }
 }
 
+// Of several pairs a pulse, so that the last place of a bin falls among equal times.
+TEST(PairSample, OfPartsIsThatOfAll) {
+  for (const std::size_t most : {300u, 3000u, 100'000u}) {
+    const PairSampleSize size{.bin = 0.25, .pairs_per_bin = 10, .pairs = most};
+    std::vector<ReturnPair> pairs = PairsAt(5, 1.0 / 256, 40000);
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time = pairs[i - i % 3].time;
+    const std::vector<double> expected = TimesOfSample(pairs, size);
+    std::mt19937 random(3);
+    for (const bool in_order : {true, false}) {
+      if (!in_order) std::shuffle(pairs.begin(), pairs.end(), random);
+      PairSample sample(size), part(size);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        part.Add(pairs[i]);
+        if (i % 1777 != 0 && i + 1 != pairs.size()) continue;
+        part.Prune();
+        sample.Merge(part);
+        part.Clear();
+      }
+      EXPECT_EQ(sample.seen(), pairs.size());
+      std::vector<double> times;
+      for (const ReturnPair& pair : sample.Take()) times.push_back(pair.time);
+      EXPECT_EQ(times, expected) << most << " " << in_order;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace albtpu

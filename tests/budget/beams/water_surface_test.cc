@@ -62,24 +62,34 @@ Returns Waves(std::size_t count, double side, double duration, double outliers =
   return returns;
 }
 
-TEST(LocalWaterSurface, IsTheMedianOfAllReturnsWhereThereAreFew) {
-  const Returns returns = Waves(2000, 200, 300);  // On average, a return in 4 cells and slots.
+class FewReturns : public testing::TestWithParam<double> {};
+
+// Also of heights that many returns share: in steps of the parameter, in m.
+TEST_P(FewReturns, HaveTheMedianOfAll) {
+  Returns returns = Waves(2000, 200, 300);  // On average, a return in 4 cells and slots.
+  for (Return& r : returns)
+    if (GetParam() > 0) r.height = GetParam() * std::round(r.height / GetParam());
   std::map<std::tuple<double, double, double>, int> in_cell;
   for (const Return& r : returns)
     ASSERT_LE(++in_cell[std::tuple(std::floor(r.x / 5), std::floor(r.y / 5), std::floor(r.time / 60))], 8);
   const LocalWaterSurface surface = SurfaceOf(returns);
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> place(-130, 130), time(-100, 400);
+  LocalWaterSurface::Reader reader(surface);
   int found = 0;
   for (int i = 0; i < 20'000; ++i) {
     const double x = place(random), y = place(random), t = 3e8 + time(random);
     const std::optional<double> median = surface.HeightAt(x, y, t);
     ASSERT_EQ(median, MedianAt(returns, x, y, t)) << x << " " << y << " " << t;
+    ASSERT_EQ(reader.HeightAt(x, y, t), median);
+    ASSERT_EQ(reader.HeightAt(x, y, t), median);  // Of the tile that it has.
     found += median.has_value();
   }
   EXPECT_GT(found, 4000);
   EXPECT_LT(found, 16'000);
 }
+
+INSTANTIATE_TEST_SUITE_P(HeightsOfSteps, FewReturns, testing::Values(0, 0.1, 100));
 
 TEST(LocalWaterSurface, IsWithinItsStandardErrorWhereThereAreMany) {
   std::mt19937_64 random(1);
