@@ -46,7 +46,7 @@ class LengthBins {
   }
 
   std::size_t operator()(float metres) const {
-    const auto bits = std::bit_cast<std::uint32_t>(std::clamp(metres, kLeast, kMost));
+    const auto bits = std::bit_cast<std::uint32_t>(metres >= kLeast ? std::min(metres, kMost) : kLeast);
     const Group& group = groups_[(bits >> kShift) - kFirst];
     return group.bin + (bits >= group.end ? 1 : 0);
   }

@@ -26,6 +26,7 @@ namespace albtpu::hdf5 {
 namespace {
 
 constexpr std::size_t kChecksumBytes = 4;     // appended to a chunk by fletcher32
+constexpr std::size_t kTogether = 64;         // Chunks in memory, of which a hostile file has millions.
 constexpr std::size_t kMostDeflation = 1032;  // Deflate makes nothing smaller than by this factor.
 
 template <typename... Arguments>
@@ -90,28 +91,21 @@ class ChunkReader {
 
   // False if a chunk is missing or damaged.
   bool ReadAll() const {
-    // HDF5 serves one thread at a time.
     std::vector<StoredChunk> chunks;
     std::vector<hsize_t> corner(shape_.size());
-    do {
-      std::optional<StoredChunk> chunk = ReadStored(corner);
-      if (!chunk.has_value()) return false;
-      chunks.push_back(*std::move(chunk));
-    } while (Advance(corner));
-    std::atomic<bool> is_sound = true;
-    const auto inflate = [&](const auto& range) {
-      std::vector<Bytef> inflated(size_ * sizeof(float));
-      for (const StoredChunk& chunk : range) {
-        if (Inflate(chunk, inflated))
-          Place(chunk, inflated, 0, 0, 0);
-        else
-          is_sound = false;
+    bool is_last = false;
+    while (!is_last) {
+      // HDF5 serves one thread at a time.
+      chunks.clear();
+      while (!is_last && chunks.size() < kTogether) {
+        std::optional<StoredChunk> chunk = ReadStored(corner);
+        if (!chunk.has_value()) return false;
+        chunks.push_back(*std::move(chunk));
+        is_last = !Advance(corner);
       }
-    };
-    // Isolated, because this thread has HDF5: a task of another table would wait for it forever.
-    tbb::this_task_arena::isolate(
-        [&] { tbb::parallel_for(tbb::blocked_range(chunks.begin(), chunks.end()), inflate); });
-    return is_sound;
+      if (!InflateAll(chunks)) return false;
+    }
+    return true;
   }
 
  private:
@@ -128,6 +122,23 @@ class ChunkReader {
       corner[i] = 0;
     }
     return false;
+  }
+
+  bool InflateAll(const std::vector<StoredChunk>& chunks) const {
+    std::atomic<bool> is_sound = true;
+    const auto inflate = [&](const auto& range) {
+      std::vector<Bytef> inflated(size_ * sizeof(float));
+      for (const StoredChunk& chunk : range) {
+        if (Inflate(chunk, inflated))
+          Place(chunk, inflated, 0, 0, 0);
+        else
+          is_sound = false;
+      }
+    };
+    // Isolated, because this thread has HDF5: a task of another table would wait for it forever.
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(tbb::blocked_range(chunks.begin(), chunks.end()), inflate); });
+    return is_sound;
   }
 
   std::size_t checksum_bytes() const { return filters_.checksum ? kChecksumBytes : 0; }
