@@ -8,6 +8,7 @@
 #   --here     for the Debian on which it runs, without a root; installs the packages that the build needs
 #   --portable an archive and a wheel for any Linux instead, in build/packages/portable
 set -euo pipefail
+umask 022  # Of the files of packages, whatever that of the user is.
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
 # Of the changelogs and all files. A root knows them only from here: it need not see the repository.
