@@ -56,7 +56,7 @@ class LengthBins {
     std::uint32_t end, bin;  // The bits of the first float that is not of the bin.
   };
 
-  // The bins begin above the one and end below the other.
+  // A power of two below the first bin, and one above the last.
   static constexpr float kLeast = 0x1p-14f, kMost = 0x1p14f;
   static constexpr int kShift = std::numeric_limits<float>::digits - 1 - 8;
   static constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(kLeast) >> kShift;

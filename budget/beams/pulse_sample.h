@@ -12,8 +12,6 @@
 
 namespace albtpu {
 
-// Pairs of returns of a long file in bounded memory: a sample that is spread over its time.
-
 // A number that decides which pulses a sample keeps: equal for the returns of one pulse, and without order in time. The
 // finalizer of SplitMix64 (Steele, Lea and Flood 2014, doi:10.1145/2714064.2660195).
 std::uint64_t HashOfTime(double time);
@@ -24,6 +22,8 @@ struct PairSampleSize {
   std::size_t pairs = 1 << 19;     // Of all bins, 32 MB; while pairs are added, up to twice as many.
 };
 
+// Pairs of returns of a long file in bounded memory: a sample that is spread over its time.
+//
 // A bin with more pairs keeps those whose times come first in the order of a hash, so that the pairs of one pulse stay
 // together and the sample depends on the pairs alone, not on their order. When there are too many in all, bins keep
 // fewer, and after that become wider.
@@ -34,7 +34,7 @@ class PairSample {
   // Requires finite numbers.
   void Add(const ReturnPair& pair);
 
-  // Leaves out the pairs that no sample of the same size keeps, whatever is added to it: for parts that are merged.
+  // Drops pairs that no sample of this size would keep, whatever is added to it. Merging is faster after it.
   void Prune() { Thin(std::numeric_limits<std::size_t>::max()); }
 
   // `other` must be of the same size.
