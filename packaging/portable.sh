@@ -6,6 +6,7 @@
 # Usage: portable.sh [--here]
 #   --here   compile on this machine, which must be a Debian 12
 set -euo pipefail
+umask 022  # Of the files of the archive, whatever that of the user is.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source ./packages.sh
 

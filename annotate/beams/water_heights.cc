@@ -1,5 +1,8 @@
 #include "annotate/beams/water_heights.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -32,6 +35,44 @@ double DeepestTrough(std::span<const ReturnPair> pairs, const std::vector<double
   if (crests.size() < kLeastCrests || static_cast<double>(crests.size()) < kFewCrests * static_cast<double>(below))
     return 0;
   return kDeviations / kMedianOfHalfNormal * Median(std::move(crests));
+}
+
+constexpr std::size_t kPairsOfPart = 1 << 14;
+
+// Calls function(part, begin, end) for parts of `count` pairs, in parallel.
+template <typename Function>
+void ForEachPart(std::size_t count, const Function& function) {
+  tbb::parallel_for(std::size_t{0}, (count + kPairsOfPart - 1) / kPairsOfPart, [&](std::size_t part) {
+    function(part, part * kPairsOfPart, std::min((part + 1) * kPairsOfPart, count));
+  });
+}
+
+// Of the water at the upper return of each pair.
+std::vector<double> HeightsAtUpper(std::span<const ReturnPair> pairs, const WaterHeights& water,
+                                   const LocalFrame& frame) {
+  std::vector<double> heights(pairs.size());
+  ForEachPart(pairs.size(), [&](std::size_t /*part*/, std::size_t begin, std::size_t end) {
+    SurveyPoints upper;
+    for (const ReturnPair& pair : pairs.subspan(begin, end - begin)) {
+      upper.x.push_back(frame.origin_x + pair.upper.x() / frame.metres_per_x);
+      upper.y.push_back(frame.origin_y + pair.upper.y() / frame.metres_per_y);
+      upper.z.push_back(pair.upper.z() / frame.metres_per_z);
+      upper.times.push_back(pair.time);
+    }
+    std::vector<double> of_part;
+    SurfaceCounts ignored;
+    water.At(upper, frame, of_part, ignored);
+    std::ranges::copy(of_part, heights.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+  return heights;
+}
+
+// Of rays of one time in a row, the longest stays.
+void AddLongest(const AirRay& ray, std::vector<AirRay>& rays) {
+  if (rays.empty() || rays.back().time != ray.time)
+    rays.push_back(ray);
+  else if (ray.separation > rays.back().separation)
+    rays.back() = ray;
 }
 
 }  // namespace
@@ -86,28 +127,21 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
 
 std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
                                 double index) {
-  SurveyPoints upper;
-  for (const ReturnPair& pair : pairs) {
-    upper.x.push_back(frame.origin_x + pair.upper.x() / frame.metres_per_x);
-    upper.y.push_back(frame.origin_y + pair.upper.y() / frame.metres_per_y);
-    upper.z.push_back(pair.upper.z() / frame.metres_per_z);
-    upper.times.push_back(pair.time);
-  }
-  std::vector<double> heights;
-  SurfaceCounts ignored;
-  water.At(upper, frame, heights, ignored);
+  const std::vector<double> heights = HeightsAtUpper(pairs, water, frame);
   const double trough = DeepestTrough(pairs, heights);
+  // Of parts of the pairs, in order.
+  std::vector<std::vector<AirRay>> parts((pairs.size() + kPairsOfPart - 1) / kPairsOfPart);
+  ForEachPart(pairs.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!(pairs[i].upper.z() <= heights[i] - (pairs[i].upper_is_bottom ? 0 : trough))) continue;
+      if (const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index); ray.has_value())
+        AddLongest(*ray, parts[part]);
+    }
+  });
   std::vector<AirRay> rays;
   rays.reserve(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!(pairs[i].upper.z() <= heights[i] - (pairs[i].upper_is_bottom ? 0 : trough))) continue;
-    const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index);
-    if (!ray.has_value()) continue;
-    if (rays.empty() || rays.back().time != ray->time)
-      rays.push_back(*ray);
-    else if (ray->separation > rays.back().separation)
-      rays.back() = *ray;
-  }
+  for (const std::vector<AirRay>& part : parts)
+    for (const AirRay& ray : part) AddLongest(ray, rays);
   return rays;
 }
 

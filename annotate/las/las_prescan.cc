@@ -3,7 +3,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -51,6 +50,7 @@ void Extend(const std::array<double, 3>& least, const std::array<double, 3>& gre
 struct Part {
   formats::LasRun run;  // Some records of the next chunk follow.
   std::vector<double> times;
+  bool in_order = false;  // The times.
   std::vector<std::uint8_t> roles;
 
   std::uint64_t numbered = 0, surface_returns = 0, synthetic_surface = 0, level_returns = 0, off_level = 0;
@@ -111,6 +111,8 @@ class PrescanWork {
       part.roles[i] = RolesOf(record);
       if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
     }
+    part.in_order = std::ranges::adjacent_find(part.times, [](double a, double b) { return !(a <= b); }) ==
+                    part.times.end();  // Not where one is NaN.
     part.numbered = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
     part.off_level_height = 0;
     part.all = part.of_numbered = EmptyBox();
@@ -206,12 +208,18 @@ class PrescanWork {
             .chosen = (part.roles[i] & kChosen) != 0};
   }
 
-  // How many records from `begin` to `end` have the time of record i. Counting needs no branches, and the bits of two
-  // times are compared faster than their numbers.
+  // How many records from `begin` to `end` have the time of record i, which lies before or behind them. Most files are
+  // in order of time, so that such records are the nearest ones.
   static std::size_t EqualTimes(const Part& part, std::size_t i, std::size_t begin, std::size_t end) {
-    const auto time = std::bit_cast<std::uint64_t>(part.times[i]);
+    const double time = part.times[i];
     std::size_t equal = 0;
-    for (std::size_t j = begin; j < end; ++j) equal += std::bit_cast<std::uint64_t>(part.times[j]) == time;
+    if (!part.in_order) {
+      for (std::size_t j = begin; j < end; ++j) equal += part.times[j] == time;
+    } else if (begin > i) {
+      while (begin + equal < end && part.times[begin + equal] == time) ++equal;
+    } else {
+      while (begin + equal < end && part.times[end - equal - 1] == time) ++equal;
+    }
     return equal;
   }
 

@@ -124,7 +124,8 @@ MeanOverTime WeightedMean(std::span<const double> times, std::span<const double>
 }
 
 DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement displacement, double index) {
-  constexpr int kDistanceRounds = 9, kAngleRounds = 15;
+  constexpr int kDistanceRounds = 9, kAngleRounds = 15, kFlattenedFrom = 2;
+  constexpr double kSmallStep = 1e-6;  // Of a standard error.
   const int size = Parameters(displacement);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const TrackedRay& ray : rays) centre += ray.position / static_cast<double>(rays.size());
@@ -196,14 +197,16 @@ DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement d
   fit.noise = RobustRayNoise(squares, separations);
   for (int round = 0; round < kAngleRounds; ++round) {
     fit.noise = FitRayNoise(squares, separations, fit.noise, round == 0 ? 10 : 3);
-    if (round >= 2)
+    if (round >= kFlattenedFrom)
       fit.flattening =
           std::pow(std::min(fit.noise.slopes, kSteepest) / facing.gain, 2) * facing.bias / std::sin(incidence);
     assemble();
     Column right = Column::Zero(size);
     for (const Column& score : scores) right += score;
-    values += normal.ldlt().solve(right);
+    const Column step = normal.ldlt().solve(right);
+    values += step;
     look();
+    if (round > kFlattenedFrom && step.dot(normal * step) < kSmallStep * kSmallStep) break;
   }
   assemble();
   const double curvature = std::clamp(response / weight, 0.3, 1.0);

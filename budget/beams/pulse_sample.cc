@@ -19,8 +19,9 @@ void PairSample::Add(const ReturnPair& pair) {
 
 void PairSample::Merge(const PairSample& other) {
   seen_ += other.seen_;
+  if (pairs_.size() + other.pairs_.size() > 2 * size_.pairs) Thin(size_.pairs);
+  pairs_.reserve(2 * size_.pairs);  // To grow would copy all pairs, and take the memory of all of them once more.
   pairs_.insert(pairs_.end(), other.pairs_.begin(), other.pairs_.end());
-  if (pairs_.size() >= 2 * size_.pairs) Thin(size_.pairs);
 }
 
 void PairSample::Clear() {

@@ -308,8 +308,6 @@ std::optional<double> GpsTimeOfTrajectory(double stated) {
   return stated < kAdjustedGpsOffset ? stated + kAdjustedGpsOffset : stated;
 }
 
-bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
-
 double Overlap(const TimeSpan& a, const TimeSpan& b) { return std::min(a.last, b.last) - std::max(a.first, b.first); }
 
 std::string DescribePointTimes(const PointTimes& points) {

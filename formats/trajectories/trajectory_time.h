@@ -1,6 +1,7 @@
 // GPS time (weeks, dates, leap seconds), and the relation between the times of trajectories and those of points.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,7 +48,7 @@ struct TimeSpan {
 double Overlap(const TimeSpan& a, const TimeSpan& b);
 
 // A time that no clock gives: 0, which files have where the clock was not known, or not finite.
-bool IsNoTime(double stated);
+inline bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
 
 // The form of GPS times in a LAS file, global encoding bit 0.
 enum class PointTimeForm { kWeekSeconds, kAdjustedStandard };
