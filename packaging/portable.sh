@@ -6,7 +6,7 @@
 # Usage: portable.sh [--here]
 #   --here   compile on this machine, which must be a Debian 12
 set -euo pipefail
-umask 022  # Of the files of the archive, whatever that of the user is.
+umask 022  # All may read the root and what is made in it, whatever the umask of the user is.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source ./packages.sh
 

@@ -47,7 +47,7 @@ void ForEachPart(std::size_t count, const Function& function) {
   });
 }
 
-// Of the water at the upper return of each pair.
+// The height of the water at the upper return of each pair.
 std::vector<double> HeightsAtUpper(std::span<const ReturnPair> pairs, const WaterHeights& water,
                                    const LocalFrame& frame) {
   std::vector<double> heights(pairs.size());
@@ -67,7 +67,7 @@ std::vector<double> HeightsAtUpper(std::span<const ReturnPair> pairs, const Wate
   return heights;
 }
 
-// Of rays of one time in a row, the longest stays.
+// Adds a ray. Of rays of one time that follow each other, the longest stays.
 void AddLongest(const AirRay& ray, std::vector<AirRay>& rays) {
   if (rays.empty() || rays.back().time != ray.time)
     rays.push_back(ray);
@@ -129,14 +129,16 @@ std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHe
                                 double index) {
   const std::vector<double> heights = HeightsAtUpper(pairs, water, frame);
   const double trough = DeepestTrough(pairs, heights);
-  // Of parts of the pairs, in order.
   std::vector<std::vector<AirRay>> parts((pairs.size() + kPairsOfPart - 1) / kPairsOfPart);
   ForEachPart(pairs.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<AirRay> of_part;
+    of_part.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       if (!(pairs[i].upper.z() <= heights[i] - (pairs[i].upper_is_bottom ? 0 : trough))) continue;
       if (const std::optional<AirRay> ray = RayOfPair(pairs[i], heights[i], index); ray.has_value())
-        AddLongest(*ray, parts[part]);
+        AddLongest(*ray, of_part);
     }
+    parts[part] = std::move(of_part);
   });
   std::vector<AirRay> rays;
   rays.reserve(pairs.size());

@@ -112,7 +112,7 @@ class PrescanWork {
       if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
     }
     part.in_order = std::ranges::adjacent_find(part.times, [](double a, double b) { return !(a <= b); }) ==
-                    part.times.end();  // Not where one is NaN.
+                    part.times.end();  // False if one is NaN.
     part.numbered = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
     part.off_level_height = 0;
     part.all = part.of_numbered = EmptyBox();
@@ -209,7 +209,7 @@ class PrescanWork {
   }
 
   // How many records from `begin` to `end` have the time of record i, which lies before or behind them. Most files are
-  // in order of time, so that such records are the nearest ones.
+  // in order of time, so such records are the nearest ones.
   static std::size_t EqualTimes(const Part& part, std::size_t i, std::size_t begin, std::size_t end) {
     const double time = part.times[i];
     std::size_t equal = 0;

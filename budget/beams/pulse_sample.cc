@@ -19,8 +19,10 @@ void PairSample::Add(const ReturnPair& pair) {
 
 void PairSample::Merge(const PairSample& other) {
   seen_ += other.seen_;
-  if (pairs_.size() + other.pairs_.size() > 2 * size_.pairs) Thin(size_.pairs);
-  pairs_.reserve(2 * size_.pairs);  // To grow would copy all pairs, and take the memory of all of them once more.
+  const std::size_t size = pairs_.size() + other.pairs_.size();
+  if (size >= 2 * size_.pairs) Thin(size_.pairs);
+  // Growing step by step would copy all pairs, and meanwhile hold them twice.
+  if (size > size_.pairs / 8) pairs_.reserve(2 * size_.pairs);
   pairs_.insert(pairs_.end(), other.pairs_.begin(), other.pairs_.end());
 }
 

@@ -1,5 +1,3 @@
-#include <tbb/parallel_invoke.h>
-
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
@@ -248,18 +246,13 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(annotate::LasAnnotation annotation, Annotation(options, settings));
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, JobsOf(options));
-  absl::Status opened;
-  absl::StatusOr<Answerer> answering;
-  tbb::parallel_invoke(
-      [&] { opened = OpenFilesOf(annotation.plan); },
-      [&] { answering = Answerer::Open(sea, options.source, annotate::IndexOrUsual(settings.water)); });
-  RETURN_IF_ERROR(opened);
-  ASSIGN_OR_RETURN(Answerer answerer, std::move(answering));
+  RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
   for (annotate::LasChannel& channel : annotation.channels) {
     channel.plan.trajectories = annotation.plan.trajectories;
     channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
     channel.plan.water_levels = annotation.plan.water_levels;
   }
+  ASSIGN_OR_RETURN(Answerer answerer, Answerer::Open(sea, options.source, annotate::IndexOrUsual(settings.water)));
   annotation.seas = answerer.timeline();
   const annotate::AnswerSource source = answerer.source();
   if (annotation.total.has_value() && !sea.has_waves()) {

@@ -164,6 +164,26 @@ TEST(PairRays, PassOverALongerPairThatMakesNoRay) {
   ExpectSame(rays[0], RayOfPair(PairAt(1, 0, 3), 0, kIndex));
 }
 
+// Pairs are worked on in parts of 16 384.
+TEST(PairRays, OfOnePulseAreOneWhereverItsPairsLie) {
+  for (const int longest : {0, 1, 2}) {
+    std::vector<ReturnPair> pairs;
+    for (int i = 0; i < 50000; ++i) {
+      const int of_pulse = i % 3;
+      ReturnPair pair = PairAt(1 + i / 3, 0, of_pulse == longest ? 7 : 4);
+      if (i >= 33000 && i < 49500) pair.upper.z() = 100;  // Above the water: a whole part makes no ray.
+      pairs.push_back(pair);
+    }
+    const std::vector<AirRay> rays = RaysOver(0, pairs);
+    ASSERT_EQ(rays.size(), (33000u + 500u + 2) / 3);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::size_t pulse = i < 11000 ? i : i + 5500;
+      const std::size_t expected = std::min(3 * pulse + static_cast<std::size_t>(longest), pairs.size() - 1);
+      ExpectSame(rays[i], RayOfPair(pairs[expected], 0, kIndex));
+    }
+  }
+}
+
 TEST(PairRays, MeetTheWaterAtItsPlaceAndTime) {
   SurfaceReturns returns;
   for (int i = 0; i < 5; ++i) {
