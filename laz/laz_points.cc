@@ -50,20 +50,52 @@ absl::Status CheckAllCounted(const ByteSource& file, const LazExtent& extent, st
                    "point count"));
 }
 
+// Where the chunks of a file lie.
+struct ChunkPlaces {
+  std::optional<ChunkTable> table;
+  std::uint64_t begin = 0;     // Of the first chunk, where there is no table.
+  std::uint64_t tail_end = 0;  // LazPoints::tail_end().
+};
+
+absl::StatusOr<ChunkPlaces> PlacesOf(const ByteSource& file, const LazExtent& extent) {
+  assert(extent.points_begin <= extent.points_end && extent.points_end <= file.size());
+  ChunkPlaces places = {.table = {}, .begin = extent.points_begin, .tail_end = file.size()};
+  const std::uint64_t room = extent.points_end - extent.points_begin;
+  const bool has_chunks = extent.record.compressor != Compressor::kPointwise;
+  if (has_chunks && room < kTableOffsetSize && extent.point_count > 0)
+    return Damaged("its points have ", room, " bytes (expected ", kTableOffsetSize, " and their chunks)");
+  if (!has_chunks || room < kTableOffsetSize) return places;
+  places.begin += kTableOffsetSize;
+  absl::StatusOr<ChunkTable> found = ReadChunkTable(file, extent.record, extent.points_begin, extent.point_count);
+  if (!found.ok() && !absl::IsNotFound(found.status())) return found.status();
+  if (!found.ok() && extent.record.chunk_size == kVariableChunks && extent.point_count > 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("it has no chunk table (needed where chunks have no constant number of points)", kGetAnotherCopy));
+  }
+  if (!found.ok()) return places;
+  if (found->offset_at_end) places.tail_end -= kTableOffsetSize;
+  if (found->end > extent.points_end) {
+    return absl::InvalidArgumentError(absl::StrCat("its chunk table ends at byte ", found->end,
+                                                   ", behind the begin of what follows the points, ", extent.points_end,
+                                                   kGetAnotherCopy));
+  }
+  places.table = *std::move(found);
+  return places;
+}
+
 }  // namespace
 
 class LazPoints::Impl {
  public:
-  Impl(const ByteSource& file, const LazExtent& extent, std::optional<ChunkTable> table, std::uint64_t begin,
-       std::uint64_t tail_end, std::size_t threads, WantedFields wanted)
+  Impl(const ByteSource& file, const LazExtent& extent, ChunkPlaces places, std::size_t threads, WantedFields wanted)
       : file_(file),
         extent_(extent),
         wanted_(wanted),
         record_length_(extent.record.record_length()),
         batch_points_(std::clamp<std::size_t>(kBatchBytes / record_length_, 1, kPointsOfBatch)),
-        table_(std::move(table)),
-        tail_end_(tail_end),
-        next_begin_(begin),
+        table_(std::move(places.table)),
+        tail_end_(places.tail_end),
+        next_begin_(places.begin),
         ring_(2 * threads) {
     for (std::size_t i = 0; i < threads; ++i) {
       try {
@@ -222,37 +254,24 @@ LazPoints::~LazPoints() = default;
 
 absl::StatusOr<std::unique_ptr<LazPoints>> LazPoints::Open(const ByteSource& file, const LazExtent& extent, int threads,
                                                            WantedFields wanted) {
-  assert(extent.points_begin <= extent.points_end && extent.points_end <= file.size());
-  std::optional<ChunkTable> table;
-  std::uint64_t begin = extent.points_begin, tail_end = file.size();
-  const std::uint64_t room = extent.points_end - extent.points_begin;
-  const bool has_chunks = extent.record.compressor != Compressor::kPointwise;
-  if (has_chunks && room < kTableOffsetSize && extent.point_count > 0)
-    return Damaged("its points have ", room, " bytes (expected ", kTableOffsetSize, " and their chunks)");
-  if (has_chunks && room >= kTableOffsetSize) {
-    begin += kTableOffsetSize;
-    absl::StatusOr<ChunkTable> found = ReadChunkTable(file, extent.record, extent.points_begin, extent.point_count);
-    if (!found.ok() && !absl::IsNotFound(found.status())) return found.status();
-    if (!found.ok() && extent.record.chunk_size == kVariableChunks && extent.point_count > 0) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "it has no chunk table (needed where chunks have no constant number of points)", kGetAnotherCopy));
-    }
-    if (found.ok()) {
-      if (found->offset_at_end) tail_end -= kTableOffsetSize;
-      if (found->end > extent.points_end) {
-        return absl::InvalidArgumentError(absl::StrCat("its chunk table ends at byte ", found->end,
-                                                       ", behind the begin of what follows the points, ",
-                                                       extent.points_end, kGetAnotherCopy));
-      }
-      table = *std::move(found);
-    }
-  }
-  if (!table.has_value() && extent.point_count == 0) RETURN_IF_ERROR(CheckAllCounted(file, extent, begin));
-  const std::size_t count = ThreadCount(threads, table, extent);
-  auto impl = std::make_unique<Impl>(file, extent, std::move(table), begin, tail_end, count, wanted);
+  ASSIGN_OR_RETURN(ChunkPlaces places, PlacesOf(file, extent));
+  if (!places.table.has_value() && extent.point_count == 0)
+    RETURN_IF_ERROR(CheckAllCounted(file, extent, places.begin));
+  const std::size_t count = ThreadCount(threads, places.table, extent);
+  auto impl = std::make_unique<Impl>(file, extent, std::move(places), count, wanted);
   if (count > 0 && !impl->has_threads())
     return absl::ResourceExhaustedError("the system has no more threads; end other programs");
   return std::unique_ptr<LazPoints>(new LazPoints(std::move(impl)));
+}
+
+absl::StatusOr<std::string> LazPoints::First(const ByteSource& file, const LazExtent& extent) {
+  ASSIGN_OR_RETURN(const ChunkPlaces places, PlacesOf(file, extent));
+  const std::uint64_t begin = places.table.has_value() ? places.table->chunks.front().offset : places.begin;
+  std::string record(extent.record.record_length(), '\0');
+  if (extent.points_end - begin < record.size())
+    return Damaged("its points have ", extent.points_end - begin, " bytes (expected at least ", record.size(), ")");
+  RETURN_IF_ERROR(file.ReadAt(begin, std::span(record)));
+  return record;
 }
 
 absl::Status LazPoints::Read(std::span<char> records) { return impl_->Read(records); }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -98,6 +99,9 @@ class LazPoints {
   static absl::StatusOr<std::unique_ptr<LazPoints>> Open(const ByteSource& file, const LazExtent& extent,
                                                          int threads = 0, WantedFields wanted = WantedFields::kAll);
   ~LazPoints();  // At any time; ends the threads.
+
+  // The first point, which is not compressed. Requires that there is one. Checks the chunk table alone.
+  static absl::StatusOr<std::string> First(const ByteSource& file, const LazExtent& extent);
 
   // The next points: as many as fit. Requires a multiple of the record length, and no more points than are left. The
   // first failure in the order of the file ends the reading. The messages name the chunk.

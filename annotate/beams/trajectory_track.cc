@@ -179,7 +179,9 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   }
   if (CoveredPart(*timeline) < least_covered)
     return absl::FailedPreconditionError(absl::StrCat(stated.name, ": few of its points have a trajectory"));
-  const TrackedFile file = ByClock(stated, clock);
+  TrackedFile changed;
+  if (clock.changes_times()) changed = ByClock(stated, clock);
+  const TrackedFile& file = clock.changes_times() ? changed : stated;
   FileTrack found;
   NoteRemarks(*timeline, found);
   if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, plan, *timeline, found));

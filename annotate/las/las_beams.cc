@@ -261,11 +261,14 @@ absl::Status LasBeams::TakeUnitOfTime(double seconds, const formats::LasReader& 
 absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
   absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
-  // A wrong box of the header may have put the middle where no map is.
+  // A wrong box of the header may have put the middle where no map is, or damage the first point.
   if (!place.ok() && reader.header().point_count > 0) {
-    ASSIGN_OR_RETURN(const std::string first, formats::FirstRecord(reader));
-    const formats::LasPointFields fields(reader.header());
-    absl::StatusOr<LasPlace> at_first = PlaceOf(reader, plan, formats::MapPosition{fields.X(first), fields.Y(first)});
+    ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, 0, 0));
+    formats::LasRun run;
+    RETURN_IF_ERROR(runs.Next(1, run).status());
+    const formats::LasPointFields at(reader.header());
+    absl::StatusOr<LasPlace> at_first =
+        PlaceOf(reader, plan, formats::MapPosition{at.X(run.records), at.Y(run.records)});
     if (at_first.ok()) place = std::move(at_first);
   }
   if (!place.ok()) return place.status();

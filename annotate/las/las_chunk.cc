@@ -194,6 +194,17 @@ void LasChunkWork::Decode(const Scanner& scanner, Chunk& chunk) const {
   for (const std::uint32_t i : chunk.chosen) points.dry.push_back(is_dry_[fields_.Class(Record(chunk, i))]);
 }
 
+namespace {
+
+// False if a time is NaN.
+template <typename Records, typename Time = std::identity>
+bool IsInOrder(const Records& records, const Time& time = {}) {
+  return std::ranges::adjacent_find(
+             records, [](double a, double b) { return !(a <= b); }, time) == records.end();
+}
+
+}  // namespace
+
 void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const {
   chunk.water.clear();
   const std::size_t count = chunk.records.size() / record_length_, begin = chunk.before + chunk.begin;
@@ -205,14 +216,19 @@ void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const 
     chunk.water.push_back({fields_.GpsTime(record), i});
   }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
-  std::size_t first = 0;  // The first return from the surface that is within reach.
+  // Where times are in order, earlier returns are of no later point, and none behind a later one is of this point.
+  const bool in_order = IsInOrder(chunk.points.times) && IsInOrder(chunk.water, &Chunk::WaterReturn::time);
+  std::size_t first = 0;  // The first return from the surface that may be of the pulse.
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     if (chunk.points.is_dry(i)) continue;
     const std::size_t point = chunk.chosen[i];
     const double time = chunk.points.times[i];
-    while (first < chunk.water.size() && chunk.water[first].record + kPulseReach < point) ++first;
+    while (first < chunk.water.size() &&
+           (chunk.water[first].record + kPulseReach < point || (in_order && chunk.water[first].time < time)))
+      ++first;
     std::size_t nearest = kPulseReach + 1;
     for (std::size_t at = first; at < chunk.water.size() && chunk.water[at].record <= point + kPulseReach; ++at) {
+      if (in_order && chunk.water[at].time > time) break;
       if (chunk.water[at].time != time) continue;
       const std::size_t other = chunk.water[at].record;
       const std::size_t distance = other > point ? other - point : point - other;

@@ -52,6 +52,7 @@ struct Part {
   std::vector<double> times;
   bool in_order = false;  // The times.
   std::vector<std::uint8_t> roles;
+  std::vector<double> numbered_times;
 
   std::uint64_t numbered = 0, surface_returns = 0, synthetic_surface = 0, level_returns = 0, off_level = 0;
   double off_level_height = 0;  // Sum, m.
@@ -115,10 +116,11 @@ class PrescanWork {
                     part.times.end();  // False if one is NaN.
     part.numbered = part.surface_returns = part.synthetic_surface = part.level_returns = part.off_level = 0;
     part.off_level_height = 0;
-    part.all = part.of_numbered = EmptyBox();
     part.first_time = std::numeric_limits<double>::infinity();
     part.last_time = -part.first_time;
     part.tally = {};
+    part.numbered_times.clear();
+    part.all = part.of_numbered = EmptyBox();
     std::optional<std::size_t> pulse;  // The last first return.
     part.surface = SurfaceReturns();
     part.ground.Clear();
@@ -133,13 +135,22 @@ class PrescanWork {
       if ((roles & kSurface) != 0) AddSurface(part, i);
       if ((roles & (kGround | kUnclassified)) != 0) AddTerrain(part, i);
       if ((roles & kAtLevel) != 0) CompareWithLevel(part, i);
-      if ((roles & kNumbered) != 0) AddNumbered(at, part, i);
+      if ((roles & kNumbered) != 0) {
+        Extend(at, at, part.of_numbered);
+        ++part.numbered;
+        if (!formats::IsNoTime(part.times[i])) part.numbered_times.push_back(part.times[i]);
+      }
       if (!pairs_ || formats::IsNoTime(part.times[i])) continue;
       AddPairs(part, i);
       if (roles == 0 || fields_.ReturnNumber(Record(part, i)) > 1) continue;
       if (pulse.has_value()) AddPulses(part, *pulse, i);
       pulse = i;
     }
+    for (const double time : part.numbered_times) {
+      part.first_time = std::min(part.first_time, time);
+      part.last_time = std::max(part.last_time, time);
+    }
+    part.tally.Add(part.numbered_times);
     part.pairs.Prune();
     return absl::OkStatus();
   }
@@ -180,15 +191,6 @@ class PrescanWork {
     if (std::abs(height - highest_) <= kLevelTolerance) return;
     ++part.off_level;
     part.off_level_height += height;
-  }
-
-  static void AddNumbered(const std::array<double, 3>& at, Part& part, std::size_t i) {
-    Extend(at, at, part.of_numbered);
-    ++part.numbered;
-    if (formats::IsNoTime(part.times[i])) return;
-    part.first_time = std::min(part.first_time, part.times[i]);
-    part.last_time = std::max(part.last_time, part.times[i]);
-    part.tally.Add(part.times[i]);
   }
 
   // Different channels of a scanner may have sent pulses at one time, and a beam that was split has equal times.

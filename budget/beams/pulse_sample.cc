@@ -9,6 +9,14 @@
 #include "sea/samples.h"
 
 namespace albtpu {
+namespace {
+
+auto PlaceOf(const ReturnPair& pair) {
+  return std::tuple(pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x());
+}
+
+}  // namespace
+
 std::uint64_t HashOfTime(double time) { return MixBits(std::bit_cast<std::uint64_t>(time) + 0x9e3779b97f4a7c15); }
 
 void PairSample::Add(const ReturnPair& pair) {
@@ -34,9 +42,7 @@ void PairSample::Clear() {
 
 std::vector<ReturnPair> PairSample::Take() {
   Thin(size_.pairs);
-  const auto order = [](const ReturnPair& pair) {
-    return std::tuple(pair.time, pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x());
-  };
+  const auto order = [](const ReturnPair& pair) { return std::tuple_cat(std::tuple(pair.time), PlaceOf(pair)); };
   const auto is_before = [&](const ReturnPair& a, const ReturnPair& b) { return order(a) < order(b); };
   if (!std::is_sorted(pairs_.begin(), pairs_.end(), is_before)) std::sort(pairs_.begin(), pairs_.end(), is_before);
   return std::exchange(pairs_, {});
@@ -52,35 +58,47 @@ void PairSample::Thin(std::size_t most) {
   const auto is_before_in_bin = [this](const Rank& a, const Rank& b) {
     if (a.hash != b.hash) return a.hash < b.hash;
     const ReturnPair &first = pairs_[a.pair], &second = pairs_[b.pair];
-    return std::tuple(first.lower.z(), first.upper.z()) < std::tuple(second.lower.z(), second.upper.z());
+    return PlaceOf(first) < PlaceOf(second);
   };
   const auto is_of_earlier_bin = [](const Rank& a, const Rank& b) { return a.bin < b.bin; };
   std::vector<Rank> ranks(pairs_.size());
-  std::vector<bool> is_kept(pairs_.size());
-  while (true) {
-    for (std::size_t i = 0; i < ranks.size(); ++i)
-      ranks[i] = {std::floor(pairs_[i].time / now_.bin), HashOfTime(pairs_[i].time), i};
+  for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i].hash = HashOfTime(pairs_[i].time), ranks[i].pair = i;
+  std::vector<std::size_t> ends;  // Of the bins, in `ranks`.
+  const auto sort_into_bins = [&] {
+    for (Rank& rank : ranks) rank.bin = std::floor(pairs_[rank.pair].time / now_.bin);
     // Most files are in order of time.
     if (!std::is_sorted(ranks.begin(), ranks.end(), is_of_earlier_bin))
       std::sort(ranks.begin(), ranks.end(), is_of_earlier_bin);
-    is_kept.assign(pairs_.size(), false);
-    std::size_t kept = 0;
-    for (auto first = ranks.begin(); first != ranks.end();) {
-      const auto last = std::find_if(first, ranks.end(), [&](const Rank& rank) { return rank.bin != first->bin; });
-      auto end = last;
-      if (last - first > static_cast<std::ptrdiff_t>(now_.pairs_per_bin)) {
-        end = first + static_cast<std::ptrdiff_t>(now_.pairs_per_bin);
-        std::nth_element(first, end, last, is_before_in_bin);
-      }
-      for (auto rank = first; rank != end; ++rank) is_kept[rank->pair] = true;
-      kept += static_cast<std::size_t>(end - first);
-      first = last;
-    }
-    if (kept <= most) break;
-    if (now_.pairs_per_bin > 1)
+    ends.clear();
+    for (std::size_t i = 1; i < ranks.size(); ++i)
+      if (ranks[i].bin != ranks[i - 1].bin) ends.push_back(i);
+    if (!ranks.empty()) ends.push_back(ranks.size());
+  };
+  const auto kept = [&] {
+    std::size_t count = 0, begin = 0;
+    for (const std::size_t end : ends) count += std::min(end - begin, now_.pairs_per_bin), begin = end;
+    return count;
+  };
+  sort_into_bins();
+  while (kept() > most) {
+    if (now_.pairs_per_bin > 1) {
       now_.pairs_per_bin = (now_.pairs_per_bin + 1) / 2;
-    else
+    } else {
       now_.bin *= 2;
+      sort_into_bins();
+    }
+  }
+  std::vector<bool> is_kept(pairs_.size());
+  auto first = ranks.begin();
+  for (const std::size_t end : ends) {
+    const auto last = ranks.begin() + static_cast<std::ptrdiff_t>(end);
+    auto dropped = last;
+    if (last - first > static_cast<std::ptrdiff_t>(now_.pairs_per_bin)) {
+      dropped = first + static_cast<std::ptrdiff_t>(now_.pairs_per_bin);
+      std::nth_element(first, dropped, last, is_before_in_bin);
+    }
+    for (auto rank = first; rank != dropped; ++rank) is_kept[rank->pair] = true;
+    first = last;
   }
   std::size_t end = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i)

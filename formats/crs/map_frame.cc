@@ -240,13 +240,13 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::CreateIn(ProjContext& 
   if (!frame->metres_per_height_unit_.has_value() && description.vertical != 0)
     frame->metres_per_height_unit_ = MetresOfVerticalCrs(context, description.vertical);
   if (!crs.is_projected) return frame;
-  const ProjObject operation(
-      proj_create_crs_to_crs_from_pj(context.get(), crs.geographic.get(), crs.horizontal.get(), nullptr, nullptr));
-  const ProjObject transformation(
-      operation == nullptr ? nullptr : proj_normalize_for_visualization(context.get(), operation.get()));
-  const char* pipeline = transformation == nullptr
-                             ? nullptr
-                             : proj_as_proj_string(context.get(), transformation.get(), PJ_PROJ_5, nullptr);
+  // The conversion that defines the system. A search for operations from its geographic system finds the same one, but
+  // takes longer.
+  const ProjObject conversion(proj_crs_get_coordoperation(context.get(), crs.horizontal.get()));
+  const ProjObject by_longitude(
+      conversion == nullptr ? nullptr : proj_normalize_for_visualization(context.get(), conversion.get()));
+  const char* pipeline =
+      by_longitude == nullptr ? nullptr : proj_as_proj_string(context.get(), by_longitude.get(), PJ_PROJ_5, nullptr);
   if (pipeline == nullptr)
     return Unusable(name, absl::StrCat("PROJ cannot project into ", crs.name, ": ", context.last_message()));
   frame->pipeline_ = pipeline;

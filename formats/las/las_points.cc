@@ -83,12 +83,8 @@ std::uint64_t LasPointRuns::tail_end() const { return laz_ != nullptr ? laz_->ta
 absl::StatusOr<std::string> FirstRecord(const LasReader& reader) {
   const LasHeader& header = reader.header();
   if (reader.kind() == LasKind::kLas) return reader.ReadAt(header.offset_to_points, header.record_length);
-  const absl::StatusOr<std::unique_ptr<laz::LazPoints>> points =
-      laz::LazPoints::Open(reader.bytes(), reader.extent(), 1);
-  if (!points.ok()) return reader.Named(points.status());
-  std::string record(header.record_length, '\0');
-  if (absl::Status status = (*points)->Read(std::span<char>(record)); !status.ok()) return reader.Named(status);
-  return record;
+  absl::StatusOr<std::string> record = laz::LazPoints::First(reader.bytes(), reader.extent());
+  return record.ok() ? std::move(record) : reader.Named(record.status());
 }
 
 }  // namespace albtpu::formats

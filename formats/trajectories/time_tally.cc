@@ -26,15 +26,31 @@ std::int64_t DayOf(double time) {
 
 void TimeTally::Add(double time) {
   ++points_;
-  const std::int64_t number = DayOf(time);
+  AddToDay(1, {time, time});
+}
+
+void TimeTally::Add(std::span<const double> times) {
+  if (times.empty()) return;
+  const auto [first, last] = std::ranges::minmax(times);
+  // Few files are of several days.
+  if (DayOf(first) != DayOf(last)) {
+    for (const double time : times) Add(time);
+    return;
+  }
+  points_ += times.size();
+  AddToDay(times.size(), {first, last});
+}
+
+void TimeTally::AddToDay(std::uint64_t points, const TimeSpan& span) {
+  const std::int64_t number = DayOf(span.first);
   if (days_.size() >= kMostDays && !days_.contains(number)) {
     has_too_many_days_ = true;
     return;
   }
   Day& day = days_[number];
   day.span =
-      day.points == 0 ? TimeSpan{time, time} : TimeSpan{std::min(day.span.first, time), std::max(day.span.last, time)};
-  ++day.points;
+      day.points == 0 ? span : TimeSpan{std::min(day.span.first, span.first), std::max(day.span.last, span.last)};
+  day.points += points;
 }
 
 void TimeTally::AddPulses(double before, double time) {
@@ -47,17 +63,7 @@ void TimeTally::AddPulses(double before, double time) {
 }
 
 void TimeTally::Merge(const TimeTally& other) {
-  for (const auto& [number, each] : other.days_) {
-    if (days_.size() >= kMostDays && !days_.contains(number)) {
-      has_too_many_days_ = true;
-      continue;
-    }
-    Day& day = days_[number];
-    day.span = day.points == 0
-                   ? each.span
-                   : TimeSpan{std::min(day.span.first, each.span.first), std::max(day.span.last, each.span.last)};
-    day.points += each.points;
-  }
+  for (const auto& [number, day] : other.days_) AddToDay(day.points, day.span);
   points_ += other.points_;
   has_too_many_days_ |= other.has_too_many_days_;
   pulses_ += other.pulses_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "formats/trajectories/trajectory_time.h"
@@ -14,6 +15,7 @@ namespace albtpu::formats {
 class TimeTally {
  public:
   void Add(double time);
+  void Add(std::span<const double> times);
   // The times of two first returns that follow each other in the file.
   void AddPulses(double before, double time);
   void Merge(const TimeTally& other);
@@ -40,6 +42,7 @@ class TimeTally {
     std::uint64_t points = 0;
     TimeSpan span;
   };
+  void AddToDay(std::uint64_t points, const TimeSpan& span);
   Group Largest() const;
 
   std::map<std::int64_t, Day> days_;

@@ -96,6 +96,17 @@ TEST(LazPoints, ReadsTheOneChunkOfTheFirstCompressor) {
   const absl::StatusOr<std::string> read = ReadAll(MemorySource(file.bytes), file.extent, 5, 10, &end);
   EXPECT_EQ(*read, file.records);
   EXPECT_EQ(end, file.table);
+  EXPECT_EQ(*LazPoints::First(MemorySource(file.bytes), file.extent), file.records.substr(0, kLength));
+}
+
+TEST(LazPoints, HaveNoFirstOneWhereTheirRoomIsTooSmall) {
+  File file(100, 100);
+  file.extent.record.compressor = Compressor::kPointwise;
+  file.extent.record.chunk_size = 0;
+  file.extent.points_begin += kTableOffsetSize;
+  file.extent.points_end = file.extent.points_begin + kLength - 1;
+  EXPECT_THAT(std::string(LazPoints::First(MemorySource(file.bytes), file.extent).status().message()),
+              HasSubstr("its points have 19 bytes (expected at least 20)"));
 }
 
 TEST(LazPoints, MayHaveNoPoints) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "laz/coding/little_endian.h"
+#include "laz/laz_points.h"
 #include "tests/laz/busy_points.h"
 #include "tests/laz/laz_bytes.h"
 
@@ -49,6 +50,10 @@ void ExpectComesBack(const LasParts& parts, const LazForm& form = {}) {
     EXPECT_TRUE(again->points == parts.points);
     EXPECT_TRUE(AsLas(*again) == AsLas(parts));
   }
+  const laz::LazExtent extent = *ExtentOf(laz);
+  if (extent.point_count == 0) return;
+  const absl::StatusOr<std::string> first = laz::LazPoints::First(laz::MemorySource(laz), extent);
+  EXPECT_TRUE(*first == parts.points.substr(0, first->size()));
 }
 
 class RoundTrip : public ::testing::TestWithParam<std::tuple<int, int>> {

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "annotate/las/las_annotation.h"
@@ -125,6 +126,44 @@ class LasChunkTest : public ::testing::Test {
     return bytes.substr(Load<std::uint32_t>(bytes, 96));
   }
 
+  // The surface return of the same pulse by comparing all records: the nearest one within kPulseReach that has the time
+  // and the return count of the point and another return number. Returns how many points have one beyond.
+  std::size_t ExpectSurfaceOfPulse(const LasSpec& spec) {
+    const Result whole = AnnotateInChunks(BuildLas(spec), 64);
+    const std::size_t length =
+        albtpu::testing::PointSize(6) + formats::AppendedFloats({.details = true}).size() * sizeof(float);
+    std::size_t found = 0, beyond = 0;
+    for (std::size_t i = 0; i < spec.points.size(); ++i) {
+      const LasPoint& point = spec.points[i];
+      if (point.classification != kBottom) continue;
+      const LasPoint* surface = nullptr;
+      std::size_t nearest = spec.points.size();
+      for (std::size_t j = 0; j < spec.points.size(); ++j) {
+        const LasPoint& other = spec.points[j];
+        if (other.classification != kSurface || other.gps_time != point.gps_time ||
+            other.return_count != point.return_count || other.return_number == point.return_number)
+          continue;
+        const std::size_t distance = i > j ? i - j : j - i;
+        if (distance >= nearest) continue;
+        nearest = distance;
+        surface = &other;
+      }
+      if (surface == nullptr) continue;
+      if (nearest > kPulseReach) {
+        ++beyond;
+        continue;
+      }
+      ++found;
+      const std::size_t depth = albtpu::testing::PointSize(6) + (formats::kUncertaintyCount + 3) * sizeof(float);
+      EXPECT_EQ(Load<float>(whole.records, i * length + depth),
+                static_cast<float>(surface->z * spec.scale - point.z * spec.scale))
+          << i;
+    }
+    EXPECT_EQ(whole.counts[SurfaceFrom::kPulse], found);
+    EXPECT_GT(found, 100u);
+    return beyond;
+  }
+
   const albtpu::testing::TemporaryFolder folder_;
   client::LocalSource source_{"", albtpu::testing::SyntheticTable()};
   LasAnnotation annotation_;
@@ -146,43 +185,37 @@ TEST_F(LasChunkTest, GivesTheSameBytesForChunksOfAnySize) {
   }
 }
 
-// The surface return of the same pulse by comparing all records: the nearest one within kPulseReach that has the time
-// and the return count of the point and another return number.
 TEST_F(LasChunkTest, FindsTheSurfaceReturnOfThePulse) {
   const LasSpec spec = MixedPulses(2000);
-  const Result whole = AnnotateInChunks(BuildLas(spec), 64);
-  const std::size_t length =
-      albtpu::testing::PointSize(6) + formats::AppendedFloats({.details = true}).size() * sizeof(float);
-  std::size_t found = 0, beyond = 0;
-  for (std::size_t i = 0; i < spec.points.size(); ++i) {
-    const LasPoint& point = spec.points[i];
-    if (point.classification != kBottom) continue;
-    const LasPoint* surface = nullptr;
-    std::size_t nearest = spec.points.size();
-    for (std::size_t j = 0; j < spec.points.size(); ++j) {
-      const LasPoint& other = spec.points[j];
-      if (other.classification != kSurface || other.gps_time != point.gps_time ||
-          other.return_count != point.return_count || other.return_number == point.return_number)
-        continue;
-      const std::size_t distance = i > j ? i - j : j - i;
-      if (distance >= nearest) continue;
-      nearest = distance;
-      surface = &other;
+  EXPECT_GT(ExpectSurfaceOfPulse(spec), 20u);
+}
+
+TEST_F(LasChunkTest, FindsTheSurfaceReturnOfThePulseInOrderOfTime) {
+  LasSpec spec = MixedPulses(2000);
+  std::ranges::stable_sort(spec.points, {}, &LasPoint::gps_time);
+  ExpectSurfaceOfPulse(spec);
+}
+
+TEST_F(LasChunkTest, FindsTheSurfaceReturnOfThePulseWhereATimeIsNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& times : {std::vector<double>{7, none, 3}, std::vector<double>{9, none, 3}}) {
+    for (const bool of_the_bottom : {false, true}) {
+      LasSpec spec = MixedPulses(2000);
+      spec.points.clear();
+      LasPoint point = {.gps_time = 3, .return_count = 2};
+      const auto add = [&](bool bottom, double time) {
+        point.classification = bottom ? kBottom : kSurface;
+        point.z = bottom ? -3000 : 100 + static_cast<int>(spec.points.size());
+        point.gps_time = time;
+        point.return_number = bottom ? 2 : 1;
+        spec.points.push_back(point);
+      };
+      for (const double time : times) add(of_the_bottom, time);
+      add(!of_the_bottom, 3);
+      const std::string file = BuildLas(spec);
+      EXPECT_EQ(AnnotateInChunks(file, spec.points.size()).counts[SurfaceFrom::kPulse], 1u);
     }
-    if (surface == nullptr) continue;
-    if (nearest > kPulseReach) {
-      ++beyond;
-      continue;
-    }
-    ++found;
-    const std::size_t depth = albtpu::testing::PointSize(6) + (formats::kUncertaintyCount + 3) * sizeof(float);
-    ASSERT_EQ(Load<float>(whole.records, i * length + depth),
-              static_cast<float>(surface->z * spec.scale - point.z * spec.scale))
-        << i;
   }
-  EXPECT_EQ(whole.counts[SurfaceFrom::kPulse], found);
-  EXPECT_GT(found, 100u);
-  EXPECT_GT(beyond, 20u);
 }
 
 // The program cuts a file into parts of 8 MiB, here of 1042 records, and works on them in parallel.

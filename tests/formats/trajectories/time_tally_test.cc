@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <span>
+#include <vector>
 
 namespace albtpu::formats {
 namespace {
@@ -46,6 +48,23 @@ TEST(TimeTally, IsTheSameFromParts) {
   ASSERT_TRUE(whole.Bulk().has_value());
   EXPECT_EQ(whole.Bulk()->last, kBegin + 4.99);
   EXPECT_EQ(whole.outside_of_bulk(), 1);
+}
+
+TEST(TimeTally, IsTheSameOfTimesTogether) {
+  for (const double step : {1.0, 1000.0, 5e6}) {  // In part of a day, in 58 days, and in more than may be told apart.
+    std::vector<double> times;
+    TimeTally one_by_one, together;
+    for (int i = 0; i < 5000; ++i) one_by_one.Add(times.emplace_back(kBegin + step * (i * 7 % 5000)));
+    together.Add(times);
+    together.Add(std::span<const double>());
+    const std::vector<TimeTally::Group> expected = one_by_one.Groups(), groups = together.Groups();
+    ASSERT_EQ(groups.size(), expected.size());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      EXPECT_EQ(groups[i].points, expected[i].points);
+      EXPECT_EQ(groups[i].span.first, expected[i].span.first);
+      EXPECT_EQ(groups[i].span.last, expected[i].span.last);
+    }
+  }
 }
 
 TEST(TimeTally, FindsTheStepOfRoundedTimes) {
