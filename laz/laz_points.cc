@@ -126,6 +126,16 @@ class LazPoints::Impl {
     return status_;
   }
 
+  absl::StatusOr<std::string> ReadChunk(std::uint64_t first, std::uint64_t count) const {
+    const std::uint64_t size = extent_.record.chunk_size, number = first / std::max<std::uint64_t>(size, 1);
+    if (!table_.has_value() || size == kVariableChunks || number >= table_->chunks.size()) return "";
+    const Chunk& chunk = table_->chunks[number];
+    if (number * size != first || chunk.points != count) return "";
+    std::string bytes(chunk.bytes, '\0');
+    RETURN_IF_ERROR(file_.ReadAt(chunk.offset, std::span(bytes)));
+    return bytes;
+  }
+
   std::uint64_t end() const {
     if (table_.has_value()) return table_->end;
     const std::lock_guard lock(mutex_);
@@ -275,6 +285,9 @@ absl::StatusOr<std::string> LazPoints::First(const ByteSource& file, const LazEx
 }
 
 absl::Status LazPoints::Read(std::span<char> records) { return impl_->Read(records); }
+absl::StatusOr<std::string> LazPoints::ReadChunk(std::uint64_t first, std::uint64_t count) const {
+  return impl_->ReadChunk(first, count);
+}
 std::uint64_t LazPoints::end() const { return impl_->end(); }
 std::uint64_t LazPoints::tail_end() const { return impl_->tail_end(); }
 

@@ -129,11 +129,18 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
                        .compressed = {}};
       },
       [&](Passing& passing) { return runs.Next(max_records, passing.chunk); },
-      [&](Passing& passing) {
-        absl::Status worked = work(passing.chunk);
-        if (worked.ok() && passing.encoder != nullptr)
-          passing.encoder->Encode(passing.chunk.annotated, passing.compressed);
-        return worked;
+      [&](Passing& passing) -> absl::Status {
+        RETURN_IF_ERROR(work(passing.chunk));
+        if (passing.encoder == nullptr) return absl::OkStatus();
+        // The layers of fields that stay as they are need not be encoded again.
+        std::string original;
+        std::vector<std::string_view> known;
+        if (reader.kind() == formats::LasKind::kLaz) {
+          ASSIGN_OR_RETURN(original, runs.ReadChunk(passing.chunk));
+          known = laz::CommonLayers(reader.extent().record, *head->record, original);
+        }
+        passing.encoder->Encode(passing.chunk.annotated, passing.compressed, known);
+        return absl::OkStatus();
       },
       [&](Passing& passing) -> absl::Status {
         const LasChunkWork::Chunk& chunk = passing.chunk;

@@ -74,6 +74,12 @@ absl::Status LasPointRuns::ReadLaz(std::uint64_t begin, std::uint64_t end, LasRu
   return status;
 }
 
+absl::StatusOr<std::string> LasPointRuns::ReadChunk(const LasRun& run) const {
+  if (laz_ == nullptr) return "";
+  absl::StatusOr<std::string> chunk = laz_->ReadChunk(run.first, run.own);
+  return chunk.ok() ? std::move(chunk) : reader_.Named(chunk.status());
+}
+
 std::uint64_t LasPointRuns::tail_begin() const {
   return laz_ != nullptr ? laz_->end() : reader_.header().end_of_points();
 }

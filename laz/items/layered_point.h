@@ -52,28 +52,34 @@ class LayeredPoint {
     for (const auto& layers : layers_) layers->Begin(first_point);
   }
 
-  // Codes points by the streams that are present.
-  void Code(const RecordRun<Coder>& points) {
-    returns_.Code(streams_[0].coder, points, contexts_);
-    std::size_t stream = 1;
-    for (const auto& layers : layers_) {
-      layers->Code(streams().subspan(stream, layers->streams()), points, contexts_);
-      stream += layers->streams();
-    }
+  // Codes points by the streams that are present, but for the first `known` ones: none, or those of the first items.
+  void Code(const RecordRun<Coder>& points, std::size_t known = 0) {
+    if (known == 0)
+      returns_.Code(streams_[0].coder, points, contexts_);
+    else
+      returns_.Follow(points, contexts_);
+    ForEachLayers(known, [&](Layers<Coder>& layers, auto streams) { layers.Code(streams, points, contexts_); });
   }
 
-  // Sets which streams are needed for the points of a chunk after the first. LASzip always has the first two.
-  void FindChanges(const RecordRun<Coder>& points) {
+  // Sets which streams behind the first `known` ones are needed for the points of a chunk after the first. LASzip
+  // always has the first two.
+  void FindChanges(const RecordRun<Coder>& points, std::size_t known) {
     for (auto& stream : streams_) stream.present = false;
     streams_[0].present = streams_[1].present = true;
-    std::size_t stream = 1;
-    for (const auto& layers : layers_) {
-      layers->FindChanges(streams().subspan(stream, layers->streams()), points);
-      stream += layers->streams();
-    }
+    ForEachLayers(known, [&](Layers<Coder>& layers, auto streams) { layers.FindChanges(streams, points); });
   }
 
  private:
+  // Calls function(layers, streams) for the layers behind the first one whose streams are not among the `known`.
+  template <typename Function>
+  void ForEachLayers(std::size_t known, const Function& function) {
+    std::size_t stream = 1;
+    for (const auto& layers : layers_) {
+      if (stream >= known) function(*layers, streams().subspan(stream, layers->streams()));
+      stream += layers->streams();
+    }
+  }
+
   using ExtraBytes = std::conditional_t<Coder::kEncodes, ExtraBytesEncoder, ExtraBytesLayers<Coder>>;
 
   template <template <typename> typename Layer, typename... Arguments>

@@ -11,7 +11,9 @@
 #include "laz/items/point_contexts.h"
 
 namespace albtpu::laz {
-void PointwiseEncoder::Encode(std::string_view records, std::string& chunk) {
+void PointwiseEncoder::Encode(std::string_view records, std::string& chunk,
+                              [[maybe_unused]] std::span<const std::string_view> known) {
+  assert(known.empty());
   assert(!records.empty() && records.size() % record_length_ == 0);
   chunk.assign(records.substr(0, record_length_));
   items_.Begin(records.data());
@@ -36,28 +38,55 @@ void StoreCount(std::size_t count, char* destination) {
 
 LayeredEncoder::LayeredEncoder(const LaszipRecord& record) : point_(record), record_length_(record.record_length()) {}
 
-void LayeredEncoder::Encode(std::string_view records, std::string& chunk) {
+void LayeredEncoder::Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) {
   assert(!records.empty() && records.size() % record_length_ == 0);
   const std::size_t points = records.size() / record_length_;
   const RecordRun<ArithmeticEncoder> further(records.data() + record_length_, record_length_, points - 1);
   point_.Begin(records.data());
-  point_.FindChanges(further);
+  point_.FindChanges(further, known.size());
   for (auto& stream : point_.streams()) stream.coder.Begin();
   for (std::size_t i = 0; i < further.count(); i += kBatchPoints)
-    point_.Code({further[i], record_length_, std::min(kBatchPoints, further.count() - i)});
+    point_.Code({further[i], record_length_, std::min(kBatchPoints, further.count() - i)}, known.size());
 
   chunk.assign(records.substr(0, record_length_));
   chunk.resize(record_length_ + (1 + point_.streams().size()) * sizeof(std::uint32_t));
   StoreCount(points, &chunk[record_length_]);
   std::size_t size_offset = record_length_ + sizeof(std::uint32_t);
-  for (auto& stream : point_.streams()) {
-    if (stream.present) {
-      const std::size_t begin = chunk.size();
+  for (std::size_t i = 0; i < point_.streams().size(); ++i) {
+    auto& stream = point_.streams()[i];
+    const std::size_t begin = chunk.size();
+    if (i < known.size())
+      chunk.append(known[i]);
+    else if (stream.present)
       stream.coder.Finish(chunk);
-      StoreCount(chunk.size() - begin, &chunk[size_offset]);
-    }
+    StoreCount(chunk.size() - begin, &chunk[size_offset]);
     size_offset += sizeof(std::uint32_t);
   }
+}
+
+std::vector<std::string_view> CommonLayers(const LaszipRecord& from, const LaszipRecord& to, std::string_view chunk) {
+  constexpr std::size_t kNumberSize = sizeof(std::uint32_t);
+  if (from.compressor != Compressor::kLayeredChunked || to.compressor != Compressor::kLayeredChunked) return {};
+  const auto without_bytes = [](const LaszipRecord& record) {
+    std::vector<Item> items = record.items;
+    std::erase_if(items, [](const Item& item) { return item.type == ItemType::kByte14; });
+    return items;
+  };
+  const std::vector<Item> items = without_bytes(from);
+  if (items != without_bytes(to)) return {};
+  const std::size_t common = LayeredPoint<ArithmeticDecoder>(LaszipRecord{.items = items}).streams().size();
+  const std::size_t all = common + (from.record_length() - LaszipRecord{.items = items}.record_length());
+  const std::size_t sizes = from.record_length() + kNumberSize;
+  std::size_t begin = sizes + all * kNumberSize;
+  if (chunk.size() < begin) return {};
+  std::vector<std::string_view> layers;
+  for (std::size_t i = 0; i < common; ++i) {
+    const auto size = Load<std::uint32_t>(chunk, sizes + i * kNumberSize);
+    if (size > chunk.size() - begin) return {};
+    layers.push_back(chunk.substr(begin, size));
+    begin += size;
+  }
+  return layers;
 }
 
 std::unique_ptr<ChunkDecoder> ChunkDecoder::For(const LaszipRecord& record, WantedFields wanted) {

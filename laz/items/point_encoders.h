@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "laz/coding/arithmetic_encoder.h"
 #include "laz/items/laszip_record.h"
@@ -23,16 +25,22 @@ class ChunkEncoder {
   static std::unique_ptr<ChunkEncoder> For(const LaszipRecord& record);
   virtual ~ChunkEncoder() = default;
 
-  // Compresses `records`, one point or more, into `chunk`, whose contents it replaces.
-  virtual void Encode(std::string_view records, std::string& chunk) = 0;
+  // Compresses `records`, one point or more, into `chunk`, whose contents it replaces. `known`: the bytes of its first
+  // layers, by CommonLayers(), which are not encoded again.
+  virtual void Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) = 0;
 };
+
+// The layers of all items but the extra bytes in `chunk`, which has points of formats 6 to 10 compressed by the record
+// `from`. A chunk of the same points compressed by the record `to` has the same bytes there, whatever extra bytes its
+// points have. Empty where it may not have them, or where the sizes of the layers contradict those of the chunk.
+std::vector<std::string_view> CommonLayers(const LaszipRecord& from, const LaszipRecord& to, std::string_view chunk);
 
 // The compressed bytes of a chunk of points of formats 0 to 5.
 class PointwiseEncoder : public ChunkEncoder {
  public:
   explicit PointwiseEncoder(const LaszipRecord& record) : record_length_(record.record_length()), items_(record) {}
 
-  void Encode(std::string_view records, std::string& chunk) override;
+  void Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) override;
 
  private:
   std::size_t record_length_;
@@ -45,7 +53,7 @@ class PointwiseEncoder : public ChunkEncoder {
 class LayeredEncoder : public ChunkEncoder {
  public:
   explicit LayeredEncoder(const LaszipRecord& record);
-  void Encode(std::string_view records, std::string& chunk) override;
+  void Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) override;
 
  private:
   LayeredPoint<ArithmeticEncoder> point_;

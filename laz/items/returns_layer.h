@@ -40,6 +40,17 @@ class ReturnsLayer {
     coder = std::move(local);
   }
 
+  // In place of Code() where the bytes of this layer are known already: fills the runs of the contexts alone.
+  void Follow(const RecordRun<Coder>& points, PointContexts& contexts) {
+    contexts.runs.Clear();
+    contexts.version3_runs.Clear();
+    for (std::size_t i = 0; i < points.count(); ++i) {
+      const std::uint32_t before = current_;
+      current_ = ScannerChannel(static_cast<std::uint8_t>(points[i][kFlagsOffset]));
+      AddToRuns(i, before, current_ != before ? current_ : 0, contexts);
+    }
+  }
+
  private:
   struct LastPoint {
     std::int32_t x = 0, y = 0;
@@ -102,10 +113,8 @@ class ReturnsLayer {
       announced = current_ = CodeChannel(coder, old, points.template Known<std::uint8_t>(i, kFlagsOffset));
     Channel& channel = channels_[current_];
     const bool begins = (used_ >> current_ & 1) == 0;
-    if (begins) [[unlikely]] {
+    if (begins) [[unlikely]]
       channel.Start(old.last);
-      used_ |= 1u << current_;
-    }
 
     LastPoint& last = channel.last;
     const bool time_changes = (changes & kTimeChanges) != 0;
@@ -129,12 +138,19 @@ class ReturnsLayer {
     points.Set(i, kYOffset, last.y);
     points.Set(i, kReturnsOffset, returns.byte());
 
-    contexts.runs.Add(i, current_, begins ? before : current_, current_);
-    version3_path_.Next(announced, i, contexts.version3_runs);
+    AddToRuns(i, before, announced, contexts);
     contexts.changes[i] = static_cast<std::uint8_t>(changes);
     contexts.place[i] = static_cast<std::uint8_t>(returns.place());
     contexts.level[i] = static_cast<std::uint8_t>(ReturnLevel(returns));
     contexts.z_context[i] = static_cast<std::uint8_t>(alone | std::min(size & ~1u, 18u));
+  }
+
+  // `before`: the channel of the point before. `announced`: the new channel, or else 0.
+  void AddToRuns(std::size_t i, std::uint32_t before, std::uint32_t announced, PointContexts& contexts) {
+    const bool begins = (used_ >> current_ & 1) == 0;
+    used_ |= 1u << current_;
+    contexts.runs.Add(i, current_, begins ? before : current_, current_);
+    version3_path_.Next(announced, i, contexts.version3_runs);
   }
 
   // The symbol for a point that is to be encoded.

@@ -24,7 +24,7 @@ LazParts CompressPoints(int point_format, std::size_t record_length, const std::
   for (std::size_t i = 0; begin < records.size(); ++i) {
     const std::size_t left = records.size() - begin;
     const std::size_t size = i < chunk_points.size() ? std::min(left, chunk_points[i] * record_length) : left;
-    encoder->Encode(std::string_view(records).substr(begin, size), parts.chunks.emplace_back());
+    encoder->Encode(std::string_view(records).substr(begin, size), parts.chunks.emplace_back(), {});
     parts.table.push_back({.bytes = parts.chunks.back().size(), .points = size / record_length});
     begin += size;
   }

@@ -99,6 +99,23 @@ TEST(LazPoints, ReadsTheOneChunkOfTheFirstCompressor) {
   EXPECT_EQ(*LazPoints::First(MemorySource(file.bytes), file.extent), file.records.substr(0, kLength));
 }
 
+TEST(LazPoints, GiveTheBytesOfChunksWhereTheyAre) {
+  File file(50, 120);
+  const MemorySource source(file.bytes);
+  const auto read = [&](std::uint64_t first, std::uint64_t count) {
+    return *(*LazPoints::Open(source, file.extent))->ReadChunk(first, count);
+  };
+  for (std::size_t i = 0; i < file.chunks.size(); ++i)
+    EXPECT_EQ(read(50 * i, file.chunks[i].points), file.bytes.substr(file.chunks[i].offset, file.chunks[i].bytes));
+  for (const auto& [first, count] : {std::pair{0, 49}, {1, 50}, {50, 70}, {100, 50}, {150, 50}, {100, 0}})
+    EXPECT_EQ(read(first, count), "") << first << " " << count;
+  file.extent.record.compressor = Compressor::kPointwise;
+  file.extent.record.chunk_size = 0;
+  file.extent.points_begin += kTableOffsetSize;
+  file.extent.points_end = file.table;
+  EXPECT_EQ(read(0, 120), "");
+}
+
 TEST(LazPoints, HaveNoFirstOneWhereTheirRoomIsTooSmall) {
   File file(100, 100);
   file.extent.record.compressor = Compressor::kPointwise;

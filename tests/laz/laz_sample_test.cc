@@ -124,7 +124,7 @@ TEST_P(LazSample, HasChunksAndATableThatAreWrittenAgainByteForByte) {
   std::string records, again;
   for (const laz::Chunk& chunk : table_.chunks) {
     ASSERT_TRUE(Decode(BytesOf(chunk), chunk.points, records).ok());
-    encoder->Encode(records, again);
+    encoder->Encode(records, again, {});
     EXPECT_TRUE(BytesOf(chunk) == again) << "the chunk at byte " << chunk.offset;
   }
 }

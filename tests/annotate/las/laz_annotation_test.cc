@@ -103,6 +103,8 @@ TEST_F(LazAnnotation, GivesTheSameBytesAsLasInEveryVersionAndFormat) {
       const std::string las_to_las = Annotate(las), las_to_laz = Annotate(las, formats::LasKind::kLaz);
       EXPECT_TRUE(Annotate(laz, formats::LasKind::kLas) == las_to_las) << version << " " << format;
       EXPECT_TRUE(Annotate(laz) == las_to_laz) << version << " " << format;
+      // The layers of a chunk of the same points are taken over.
+      EXPECT_TRUE(Annotate(BuildLaz(spec, laz::kCommonChunkSize)) == las_to_laz) << version << " " << format;
       EXPECT_TRUE(RecordsOf(folder_, las_to_laz) == RecordsOf(folder_, las_to_las)) << version << " " << format;
       EXPECT_EQ(static_cast<unsigned char>(las_to_laz[104]), 0x80 | format);
       if (version >= 3) {

@@ -48,7 +48,7 @@ std::size_t Encode(const laz::LaszipRecord& record, int threads, std::string_vie
     const auto encoder = laz::ChunkEncoder::For(record);
     std::string chunk;
     for (std::size_t at; (at = next.fetch_add(step)) < records.size(); bytes += chunk.size())
-      encoder->Encode(records.substr(at, step), chunk);
+      encoder->Encode(records.substr(at, step), chunk, {});
   };
   std::vector<std::jthread> others;
   for (int i = 1; i < threads; ++i) others.emplace_back(work);

@@ -136,10 +136,10 @@ DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std
   return chunk;
 }
 
-void MustSurviveCoding(ChunkCoding& coding, std::string_view records) {
+void MustSurviveCoding(ChunkCoding& coding, std::string_view records, std::span<const std::string_view> known) {
   const std::size_t record_length = coding.record.record_length(), points = records.size() / record_length;
   std::string bytes;
-  coding.encoder->Encode(records, bytes);
+  coding.encoder->Encode(records, bytes, known);
   const DecodedChunk again = DecodeChunk(*coding.decoder, bytes, record_length, points, points, points, true);
   ALBTPU_MUST(again.status.ok());
   ALBTPU_MUST(again.records == records);

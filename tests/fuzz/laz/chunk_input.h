@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -61,7 +62,8 @@ struct DecodedChunk {
 DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std::size_t record_length,
                          std::uint64_t points, std::size_t decoded, std::size_t step, bool exact);
 
-// Aborts unless `records` are the same after they have been encoded and decoded. Requires an encoder.
-void MustSurviveCoding(ChunkCoding& coding, std::string_view records);
+// Aborts unless `records` are the same after they have been encoded and decoded. Requires an encoder. `known`: as for
+// ChunkEncoder::Encode().
+void MustSurviveCoding(ChunkCoding& coding, std::string_view records, std::span<const std::string_view> known = {});
 
 }  // namespace albtpu::fuzz

@@ -50,7 +50,11 @@ void Compare(const ChunkInput& chunk, const DecodedChunk& whole) {
     ALBTPU_MUST(returns.status.ok() && returns.position == whole.position);
     ALBTPU_MUST(HaveSameReturns(returns.records, whole.records, chunk.record_length()));
   }
-  MustSurviveCoding(*chunk.coding->encoded, whole.records);
+  ChunkCoding& encoded = *chunk.coding->encoded;
+  MustSurviveCoding(encoded, whole.records);
+  if (chunk.decoded == chunk.points)
+    MustSurviveCoding(encoded, whole.records,
+                      laz::CommonLayers(chunk.coding->record, encoded.record, chunk.bytes.substr(0, whole.position)));
 }
 
 void LazChunkTarget(std::string_view input) {
@@ -169,7 +173,7 @@ std::string OtherRecords(Random& random, const ChunkInput& input, std::string he
   if (records.empty()) return "";
   ChangeRecords(random, input, kMostPoints, records);
   std::string bytes;
-  input.coding->encoded->encoder->Encode(records, bytes);
+  input.coding->encoded->encoder->Encode(records, bytes, {});
   return WithPoints(head, records.size() / length) + bytes;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -61,7 +62,7 @@ class WantedReturns : public ::testing::Test {
   const std::string records_ = BusyRecords({10, kExtraBytes}, kPoints);
   std::string chunk_ = [this] {
     std::string chunk;
-    LayeredEncoder(record_).Encode(records_, chunk);
+    LayeredEncoder(record_).Encode(records_, chunk, {});
     return chunk;
   }();
   LayeredDecoder all_{record_}, returns_{record_, WantedFields::kReturns};
@@ -126,7 +127,7 @@ TEST_P(LayeredRoundTrip, PointsAreDecodedAsTheyWere) {
   for (const std::string& records :
        {BusyRecords({format, extra_bytes}, points), CalmRecords({format, extra_bytes}, points),
         BusyRecords({format, extra_bytes}, points, 2)}) {
-    encoder.Encode(records, chunk);
+    encoder.Encode(records, chunk, {});
     for (const std::size_t step : std::span(steps).first(points < 2000 ? steps.size() : 1)) {
       const absl::Status status = DecodeInSteps(decoder, chunk, length, points, step, decoded);
       ASSERT_TRUE(status.ok()) << status;
@@ -144,16 +145,67 @@ TEST(Layered, TheVersionsOfItemsDifferOnlyWhereScannerChannelsDo) {
   for (const bool busy : {false, true}) {
     const std::string records = busy ? BusyRecords({7, 4}, 1000) : CalmRecords({7, 4}, 1000);
     std::string version3, version4;
-    LayeredEncoder(LayeredRecord(7, 4, 3)).Encode(records, version3);
-    LayeredEncoder(LayeredRecord(7, 4, 4)).Encode(records, version4);
+    LayeredEncoder(LayeredRecord(7, 4, 3)).Encode(records, version3, {});
+    LayeredEncoder(LayeredRecord(7, 4, 4)).Encode(records, version4, {});
     EXPECT_EQ(version3 == version4, !busy);
   }
+}
+
+// `records` with further bytes in each, which are those of other records.
+std::string WithMoreBytes(const std::string& records, std::size_t length, std::size_t more) {
+  const std::size_t points = records.size() / length;
+  const std::string others = BusyRecords({6, more}, points, 3);
+  std::string longer;
+  for (std::size_t i = 0; i < points; ++i) {
+    longer += records.substr(i * length, length);
+    longer += others.substr((i + 1) * (others.size() / points) - more, more);
+  }
+  return longer;
+}
+
+TEST(CommonLayers, AreThoseOfTheSamePointsWithMoreBytes) {
+  for (const int format : {6, 7, 8, 9, 10}) {
+    for (const std::size_t bytes : {0, 1, 9}) {
+      for (const std::size_t points : {1, 2, 700, 3000}) {
+        const LaszipRecord from = LayeredRecord(format, bytes), to = LayeredRecord(format, bytes + 13);
+        for (const std::string& records :
+             {BusyRecords({format, bytes}, points), CalmRecords({format, bytes}, points)}) {
+          const std::string longer = WithMoreBytes(records, from.record_length(), 13);
+          std::string original, expected, chunk;
+          LayeredEncoder(from).Encode(records, original, {});
+          LayeredEncoder(to).Encode(longer, expected, {});
+          const std::vector<std::string_view> known = CommonLayers(from, to, original);
+          EXPECT_EQ(known.size(),
+                    9u + (format == 7 || format == 10) + 2 * (format == 8) + (format >= 9) + (format == 10));
+          LayeredEncoder encoder(to);
+          encoder.Encode(longer, chunk, known);
+          EXPECT_TRUE(chunk == expected) << format << " " << bytes << " " << points;
+          encoder.Encode(longer, chunk, {});
+          EXPECT_TRUE(chunk == expected) << format << " " << bytes << " " << points;
+        }
+      }
+    }
+  }
+}
+
+TEST(CommonLayers, AreNoneWhereTheyMayDiffer) {
+  const LaszipRecord from = LayeredRecord(7, 4);
+  std::string chunk;
+  LayeredEncoder(from).Encode(BusyRecords({7, 4}, 1000), chunk, {});
+  EXPECT_EQ(CommonLayers(from, from, chunk).size(), 10u);
+  EXPECT_TRUE(CommonLayers(from, LayeredRecord(6, 4), chunk).empty());
+  EXPECT_TRUE(CommonLayers(from, LayeredRecord(7, 4, 4), chunk).empty());
+  EXPECT_TRUE(CommonLayers(LayeredRecord(7, 4, 4), from, chunk).empty());
+  EXPECT_TRUE(CommonLayers(from, RecordFor(3, 34, kCommonChunkSize), chunk).empty());
+  const std::size_t begin = from.record_length() + 15 * sizeof(std::uint32_t);
+  for (const std::size_t size : {std::size_t{0}, begin - 1, begin, begin + 100})
+    EXPECT_TRUE(CommonLayers(from, from, std::string_view(chunk).substr(0, size)).empty()) << size;
 }
 
 TEST(Layered, AChunkThatContradictsItselfIsRefused) {
   const LaszipRecord record = LayeredRecord(6, 1);
   std::string chunk, decoded;
-  LayeredEncoder(record).Encode(BusyRecords({6, 1}, 100), chunk);
+  LayeredEncoder(record).Encode(BusyRecords({6, 1}, 100), chunk, {});
   LayeredDecoder decoder(record);
   const auto message = [&](const std::string& bytes, std::size_t points) {
     return std::string(DecodeInSteps(decoder, bytes, 31, points, points, decoded).message());
