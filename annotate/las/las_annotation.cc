@@ -121,6 +121,9 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
     work.MakeCsv(&csv);
     RETURN_IF_ERROR(csv_file->Write(csv.head()));
   }
+  // The layers of fields that stay as they are need not be encoded again.
+  std::optional<laz::CommonLayers> common;
+  if (compressed && reader.kind() == formats::LasKind::kLaz) common.emplace(reader.extent().record, *head->record);
   std::uint64_t written_records = 0;
   const absl::Status status = formats::RunOrderedPipeline(
       [&] {
@@ -132,12 +135,11 @@ absl::Status AnnotatePoints(const formats::LasReader& reader, const std::optiona
       [&](Passing& passing) -> absl::Status {
         RETURN_IF_ERROR(work(passing.chunk));
         if (passing.encoder == nullptr) return absl::OkStatus();
-        // The layers of fields that stay as they are need not be encoded again.
         std::string original;
         std::vector<std::string_view> known;
-        if (reader.kind() == formats::LasKind::kLaz) {
+        if (common.has_value() && !common->empty()) {
           ASSIGN_OR_RETURN(original, runs.ReadChunk(passing.chunk));
-          known = laz::CommonLayers(reader.extent().record, *head->record, original);
+          known = common->Of(original);
         }
         passing.encoder->Encode(passing.chunk.annotated, passing.compressed, known);
         return absl::OkStatus();

@@ -261,7 +261,7 @@ absl::Status LasBeams::TakeUnitOfTime(double seconds, const formats::LasReader& 
 absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
   absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
-  // A wrong box of the header may have put the middle where no map is, or damage the first point.
+  // A wrong box of the header, or a damaged first point, may have put the middle where no map is.
   if (!place.ok() && reader.header().point_count > 0) {
     ASSIGN_OR_RETURN(formats::LasPointRuns runs, formats::LasPointRuns::Open(reader, 0, 0));
     formats::LasRun run;

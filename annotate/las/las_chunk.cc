@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "annotate/las/las_prescan.h"
@@ -197,10 +198,8 @@ void LasChunkWork::Decode(const Scanner& scanner, Chunk& chunk) const {
 namespace {
 
 // False if a time is NaN.
-template <typename Records, typename Time = std::identity>
-bool IsInOrder(const Records& records, const Time& time = {}) {
-  return std::ranges::adjacent_find(
-             records, [](double a, double b) { return !(a <= b); }, time) == records.end();
+bool IsInOrder(const auto& records, const auto& time) {
+  return std::ranges::adjacent_find(records, std::not_fn(std::less_equal()), time) == records.end();
 }
 
 }  // namespace
@@ -217,7 +216,8 @@ void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const 
   }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
   // Where times are in order, earlier returns are of no later point, and none behind a later one is of this point.
-  const bool in_order = IsInOrder(chunk.points.times) && IsInOrder(chunk.water, &Chunk::WaterReturn::time);
+  const bool in_order =
+      IsInOrder(chunk.points.times, std::identity()) && IsInOrder(chunk.water, &Chunk::WaterReturn::time);
   std::size_t first = 0;  // The first return from the surface that may be of the pulse.
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
     if (chunk.points.is_dry(i)) continue;

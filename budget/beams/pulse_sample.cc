@@ -12,7 +12,7 @@ namespace albtpu {
 namespace {
 
 auto PlaceOf(const ReturnPair& pair) {
-  return std::tuple(pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x());
+  return std::tuple(pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x(), pair.lower.y(), pair.upper.y());
 }
 
 }  // namespace

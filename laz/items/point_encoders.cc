@@ -64,25 +64,29 @@ void LayeredEncoder::Encode(std::string_view records, std::string& chunk, std::s
   }
 }
 
-std::vector<std::string_view> CommonLayers(const LaszipRecord& from, const LaszipRecord& to, std::string_view chunk) {
-  constexpr std::size_t kNumberSize = sizeof(std::uint32_t);
-  if (from.compressor != Compressor::kLayeredChunked || to.compressor != Compressor::kLayeredChunked) return {};
-  const auto without_bytes = [](const LaszipRecord& record) {
-    std::vector<Item> items = record.items;
-    std::erase_if(items, [](const Item& item) { return item.type == ItemType::kByte14; });
-    return items;
+CommonLayers::CommonLayers(const LaszipRecord& from, const LaszipRecord& to) {
+  if (from.compressor != Compressor::kLayeredChunked || to.compressor != Compressor::kLayeredChunked) return;
+  const auto without_bytes = [](LaszipRecord record) {
+    std::erase_if(record.items, [](const Item& item) { return item.type == ItemType::kByte14; });
+    return record;
   };
-  const std::vector<Item> items = without_bytes(from);
-  if (items != without_bytes(to)) return {};
-  const std::size_t common = LayeredPoint<ArithmeticDecoder>(LaszipRecord{.items = items}).streams().size();
-  const std::size_t all = common + (from.record_length() - LaszipRecord{.items = items}.record_length());
-  const std::size_t sizes = from.record_length() + kNumberSize;
-  std::size_t begin = sizes + all * kNumberSize;
-  if (chunk.size() < begin) return {};
+  const LaszipRecord common = without_bytes(from);
+  if (common.items != without_bytes(to).items) return;
+  const auto layers = [](const LaszipRecord& record) {
+    return LayeredPoint<ArithmeticDecoder>(record).streams().size();
+  };
+  count_ = layers(common);
+  sizes_begin_ = from.record_length() + sizeof(std::uint32_t);
+  begin_ = sizes_begin_ + layers(from) * sizeof(std::uint32_t);
+}
+
+std::vector<std::string_view> CommonLayers::Of(std::string_view chunk) const {
+  if (chunk.size() < begin_) return {};
   std::vector<std::string_view> layers;
-  for (std::size_t i = 0; i < common; ++i) {
-    const auto size = Load<std::uint32_t>(chunk, sizes + i * kNumberSize);
-    if (size > chunk.size() - begin) return {};
+  std::size_t begin = begin_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto size = Load<std::uint32_t>(chunk, sizes_begin_ + i * sizeof(std::uint32_t));
+    if (size > chunk.size() - begin || (i == 0 && size == 0)) return {};
     layers.push_back(chunk.substr(begin, size));
     begin += size;
   }

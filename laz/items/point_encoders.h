@@ -26,14 +26,26 @@ class ChunkEncoder {
   virtual ~ChunkEncoder() = default;
 
   // Compresses `records`, one point or more, into `chunk`, whose contents it replaces. `known`: the bytes of its first
-  // layers, by CommonLayers(), which are not encoded again.
+  // layers, by CommonLayers, which are not encoded again.
   virtual void Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) = 0;
 };
 
-// The layers of all items but the extra bytes in `chunk`, which has points of formats 6 to 10 compressed by the record
-// `from`. A chunk of the same points compressed by the record `to` has the same bytes there, whatever extra bytes its
-// points have. Empty where it may not have them, or where the sizes of the layers contradict those of the chunk.
-std::vector<std::string_view> CommonLayers(const LaszipRecord& from, const LaszipRecord& to, std::string_view chunk);
+// The layers of a chunk that another one with the same points has, too, whatever extra bytes its points have: those of
+// all other items.
+class CommonLayers {
+ public:
+  // Of chunks compressed by the record `from`, and by `to`. There are none for formats 0 to 5, and where items differ.
+  CommonLayers(const LaszipRecord& from, const LaszipRecord& to);
+  bool empty() const { return count_ == 0; }
+
+  // Their bytes in a chunk compressed by `from`. Empty where the sizes of the layers contradict that of the chunk, or
+  // where it has no first layer, without which LASzip reads none. Requires that not empty().
+  std::vector<std::string_view> Of(std::string_view chunk) const;
+
+ private:
+  std::size_t count_ = 0;
+  std::size_t sizes_begin_ = 0, begin_ = 0;  // Of the sizes of layers and of the layers, in a chunk.
+};
 
 // The compressed bytes of a chunk of points of formats 0 to 5.
 class PointwiseEncoder : public ChunkEncoder {

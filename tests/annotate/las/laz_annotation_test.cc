@@ -105,6 +105,9 @@ TEST_F(LazAnnotation, GivesTheSameBytesAsLasInEveryVersionAndFormat) {
       EXPECT_TRUE(Annotate(laz) == las_to_laz) << version << " " << format;
       // The layers of a chunk of the same points are taken over.
       EXPECT_TRUE(Annotate(BuildLaz(spec, laz::kCommonChunkSize)) == las_to_laz) << version << " " << format;
+      annotation_.replace = true;
+      EXPECT_TRUE(Annotate(las_to_laz) == las_to_laz) << version << " " << format;
+      annotation_.replace = false;
       EXPECT_TRUE(RecordsOf(folder_, las_to_laz) == RecordsOf(folder_, las_to_las)) << version << " " << format;
       EXPECT_EQ(static_cast<unsigned char>(las_to_laz[104]), 0x80 | format);
       if (version >= 3) {
@@ -124,6 +127,7 @@ TEST_F(LazAnnotation, SearchesThePulsesAcrossChunks) {
   const std::string las_to_las = Annotate(BuildLas(spec));
   for (const std::uint32_t size : {1000u, 50'000u, 1'000'000u})
     EXPECT_TRUE(Annotate(BuildLaz(spec, size), formats::LasKind::kLas) == las_to_las) << size;
+  EXPECT_TRUE(Annotate(BuildLaz(spec, 50'000)) == Annotate(BuildLas(spec), formats::LasKind::kLaz));
 }
 
 TEST_F(LazAnnotation, WritesTheLaszipRecordLast) {

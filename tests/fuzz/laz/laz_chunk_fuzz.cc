@@ -52,9 +52,9 @@ void Compare(const ChunkInput& chunk, const DecodedChunk& whole) {
   }
   ChunkCoding& encoded = *chunk.coding->encoded;
   MustSurviveCoding(encoded, whole.records);
-  if (chunk.decoded == chunk.points)
-    MustSurviveCoding(encoded, whole.records,
-                      laz::CommonLayers(chunk.coding->record, encoded.record, chunk.bytes.substr(0, whole.position)));
+  const laz::CommonLayers common(chunk.coding->record, encoded.record);
+  if (chunk.decoded == chunk.points && !common.empty())
+    MustSurviveCoding(encoded, whole.records, common.Of(chunk.bytes.substr(0, whole.position)));
 }
 
 void LazChunkTarget(std::string_view input) {
