@@ -107,8 +107,8 @@ class LazPoints {
   // first failure in the order of the file ends the reading. The messages name the chunk.
   absl::Status Read(std::span<char> records);
 
-  // The compressed chunk that has `count` points from number `first` on. Empty where the file has none of just these
-  // points, or does not say where it lies. Any number of threads may call it at a time.
+  // The compressed chunk that has `count` points from number `first` on, and no others. Empty if the file has no such
+  // chunk, or no chunk table. Any number of threads may call it at a time.
   absl::StatusOr<std::string> ReadChunk(std::uint64_t first, std::uint64_t count) const;
 
   // The end of the points and their chunk table. For a file without table it is known once all points are read.

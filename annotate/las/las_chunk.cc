@@ -215,7 +215,7 @@ void LasChunkWork::FindPulseSurface(const Scanner& scanner, Chunk& chunk) const 
     chunk.water.push_back({fields_.GpsTime(record), i});
   }
   chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
-  // Where times are in order, earlier returns are of no later point, and none behind a later one is of this point.
+  // If times are in order, a search may skip earlier returns for good, and end at a later one.
   const bool in_order =
       IsInOrder(chunk.points.times, std::identity()) && IsInOrder(chunk.water, &Chunk::WaterReturn::time);
   std::size_t first = 0;  // The first return from the surface that may be of the pulse.

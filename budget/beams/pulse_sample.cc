@@ -63,7 +63,7 @@ void PairSample::Thin(std::size_t most) {
   const auto is_of_earlier_bin = [](const Rank& a, const Rank& b) { return a.bin < b.bin; };
   std::vector<Rank> ranks(pairs_.size());
   for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i].hash = HashOfTime(pairs_[i].time), ranks[i].pair = i;
-  std::vector<std::size_t> ends;  // Of the bins, in `ranks`.
+  std::vector<std::size_t> ends;  // Where each bin ends in `ranks`.
   const auto sort_into_bins = [&] {
     for (Rank& rank : ranks) rank.bin = std::floor(pairs_[rank.pair].time / now_.bin);
     // Most files are in order of time.

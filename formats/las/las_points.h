@@ -189,8 +189,8 @@ class LasPointRuns {
   // The next run, of at most `most` own points, into `run`, whose memory is used again. False after the last one.
   absl::StatusOr<bool> Next(std::uint64_t most, LasRun& run);
 
-  // The compressed chunk of just the own points of a run; empty where the file has none. Any number of threads may call
-  // it at a time.
+  // The compressed chunk that has the own points of a run and no others. Empty if the file has no such chunk. Any
+  // number of threads may call it at a time.
   absl::StatusOr<std::string> ReadChunk(const LasRun& run) const;
 
   // Once all points are read: what follows them in the file (in LAZ, them and their chunk table).

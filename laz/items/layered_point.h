@@ -52,7 +52,7 @@ class LayeredPoint {
     for (const auto& layers : layers_) layers->Begin(first_point);
   }
 
-  // Codes points by the streams that are present, but for the first `known` ones: none, or those of the first items.
+  // Codes points by the streams that are present. The first `known` streams are left out: 0, or all of some items.
   void Code(const RecordRun<Coder>& points, std::size_t known = 0) {
     if (known == 0)
       returns_.Code(streams_[0].coder, points, contexts_);
@@ -70,7 +70,7 @@ class LayeredPoint {
   }
 
  private:
-  // Calls function(layers, streams) for the layers behind the first one whose streams are not among the `known`.
+  // Calls function(layers, streams) for all layers but the first and those of the `known` streams.
   template <typename Function>
   void ForEachLayers(std::size_t known, const Function& function) {
     std::size_t stream = 1;

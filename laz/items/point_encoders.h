@@ -30,21 +30,22 @@ class ChunkEncoder {
   virtual void Encode(std::string_view records, std::string& chunk, std::span<const std::string_view> known) = 0;
 };
 
-// The layers of a chunk that another one with the same points has, too, whatever extra bytes its points have: those of
-// all other items.
+// Two chunks may have the same points, but for their extra bytes. Then the layers of all other fields are the same, and
+// one chunk can take them over from the other.
 class CommonLayers {
  public:
-  // Of chunks compressed by the record `from`, and by `to`. There are none for formats 0 to 5, and where items differ.
+  // For chunks that are compressed by the record `from`, and by `to`. Formats 0 to 5 have no layers; items that differ
+  // have none in common.
   CommonLayers(const LaszipRecord& from, const LaszipRecord& to);
   bool empty() const { return count_ == 0; }
 
-  // Their bytes in a chunk compressed by `from`. Empty where the sizes of the layers contradict that of the chunk, or
-  // where it has no first layer, without which LASzip reads none. Requires that not empty().
+  // The bytes of these layers in a chunk that is compressed by `from`. Requires that there are some. The result is
+  // empty if the layers do not fit into the chunk, or if the first layer is missing: LASzip does not read such a chunk.
   std::vector<std::string_view> Of(std::string_view chunk) const;
 
  private:
   std::size_t count_ = 0;
-  std::size_t sizes_begin_ = 0, begin_ = 0;  // Of the sizes of layers and of the layers, in a chunk.
+  std::size_t sizes_begin_ = 0, begin_ = 0;  // Where a chunk has the sizes of its layers, and the layers.
 };
 
 // The compressed bytes of a chunk of points of formats 0 to 5.

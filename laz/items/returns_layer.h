@@ -40,7 +40,7 @@ class ReturnsLayer {
     coder = std::move(local);
   }
 
-  // In place of Code() where the bytes of this layer are known already: fills the runs of the contexts alone.
+  // Replaces Code() if the bytes of this layer are known. Fills the runs of the contexts, which extra bytes need.
   void Follow(const RecordRun<Coder>& points, PointContexts& contexts) {
     contexts.runs.Clear();
     contexts.version3_runs.Clear();
