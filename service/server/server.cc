@@ -102,6 +102,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const 
 
 void Server::Drain() {
   health_.StopServing();
+  service_.Drain();
   watch_.reset();
   gate_.reset();
   server_->Shutdown(std::chrono::system_clock::now() + kDrainTime);

@@ -148,22 +148,19 @@ class Signals(TablesTest):
         return answers
 
     def test_let_streams_finish(self):
+        """The connection closes with its last stream: the answers must have been read before."""
         server = self.serve()
-        request = pb.StreamColumnsRequest(query=QUERIES["QueryColumns"])
         signalled = threading.Event()
-
-        def requests():
-            for i in range(8):
-                yield request
-                if i == 0:
-                    signalled.wait(PATIENCE)
-
-        answers = self.open_stream(server, requests())
+        # Small answers, of which many are on their way when the stream ends, and large ones.
+        clients = [StreamingClient(server.address, pulses, signalled) for pulses in (4096,) * 12 + (PULSES,) * 2]
+        for client in clients:
+            self.assertTrue(client.answered.wait(PATIENCE))
         server.process.send_signal(signal.SIGTERM)
         server.wait_for("draining")
         signalled.set()
-        self.assertEqual(len(list(answers)), 7)
-        self.channel.close()  # An idle client takes five seconds to notice that its server stops.
+        for client in clients:
+            client.thread.join(PATIENCE)
+            self.assertEqual((client.answers, client.code), (8, grpc.StatusCode.OK))
         self.assertEqual(server.process.wait(PATIENCE), 0)
 
     def test_do_not_wait_for_a_stream_that_does_not_end(self):
@@ -231,6 +228,34 @@ class BusyClient:
                     self.answered.set()
             except grpc.RpcError as failure:
                 self.failure = failure
+
+
+class StreamingClient:
+    """Sends one batch on a connection of its own, and seven more after `signalled`."""
+
+    def __init__(self, address, pulses, signalled):
+        self.address, self.signalled = address, signalled
+        self.request = pb.StreamColumnsRequest(query=columns([5] * pulses))
+        self.answered, self.answers, self.code = threading.Event(), 0, None
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def requests(self):
+        yield self.request
+        self.signalled.wait(PATIENCE)
+        for _ in range(7):
+            yield self.request
+
+    def run(self):
+        with connect(self.address, own_connection=True) as channel:
+            stream = UncertaintyServiceStub(channel).StreamColumns(self.requests(), timeout=2 * PATIENCE)
+            try:
+                for _ in stream:
+                    self.answers += 1
+                    self.answered.set()
+            except grpc.RpcError:
+                pass  # Its code is kept.
+            self.code = stream.code()
 
 
 class Reflection(TablesTest):

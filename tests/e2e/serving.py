@@ -15,9 +15,11 @@ ALLOWANCE = int(os.environ.get("ALBTPU_ALLOWANCE", "1"))  # Factor for time and 
 PATIENCE = 60 * ALLOWANCE  # Seconds: on a loaded machine, milliseconds may become that long.
 
 
-def connect(address):
+def connect(address, own_connection=False):
+    """A channel. It shares its connection with others to the same server unless it is to have its own."""
     # A proxy from the environment cannot reach our loopback.
-    return grpc.insecure_channel(address, options=[("grpc.enable_http_proxy", 0)])
+    return grpc.insecure_channel(address, options=[("grpc.enable_http_proxy", 0),
+                                                   ("grpc.use_local_subchannel_pool", int(own_connection))])
 
 
 def message_of(line):

@@ -13,13 +13,14 @@ namespace albtpu::server {
 
 ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
                            const CallRecord& record, grpc::CallbackServerContext& context,
-                           std::chrono::seconds max_idle)
+                           std::chrono::seconds max_idle, const std::atomic<bool>& draining)
     : catalog_(std::move(catalog)),
       seas_(seas),
       workers_(workers),
       record_(record),
       context_(context),
       max_idle_(max_idle),
+      draining_(draining),
       idle_watch_(max_idle, [this] { EndIdle(); }) {
   StartRead(&next_);
 }
@@ -102,8 +103,12 @@ void ColumnStream::Fail(const grpc::Status& status) {
 }
 
 void ColumnStream::End(const grpc::Status& status) {
-  record_.End(status);
-  Finish(status);
+  const auto finish = [this, status](bool /*waited*/) {
+    record_.End(status);
+    Finish(status);
+  };
+  if (!draining_) return finish(true);
+  end_alarm_.Set(std::chrono::system_clock::now() + kTimeToReadAnswers, finish);
 }
 
 void ColumnStream::EndIdle() {

@@ -1,8 +1,10 @@
 // A call of `StreamColumns`, from its first request to its end.
 #pragma once
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -20,12 +22,14 @@ namespace albtpu::server {
 // Without any activity for `max_idle` the call ends: with DEADLINE_EXCEEDED if the next request does not arrive, as
 // if cancelled if the caller does not read its answer.
 //
+// When the server is draining, the status follows the last answer after kTimeToReadAnswers.
+//
 // Deletes itself when the call is done. `workers` must have admitted the call; its place is then released.
 class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  // Uses `catalog` for all answers without a sea. `seas` must outlive the call.
+  // Uses `catalog` for all answers without a sea. `seas` and `draining` must outlive the call.
   ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers, const CallRecord& record,
-               grpc::CallbackServerContext& context, std::chrono::seconds max_idle);
+               grpc::CallbackServerContext& context, std::chrono::seconds max_idle, const std::atomic<bool>& draining);
 
  private:
   void OnReadDone(bool ok) override;
@@ -49,6 +53,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   CallRecord record_;  // Used by one thread at a time: the one that handles a request or ends the call.
   grpc::CallbackServerContext& context_;
   const std::chrono::seconds max_idle_;
+  const std::atomic<bool>& draining_;
 
   std::mutex mutex_;       // Guards the members up to the blank line.
   bool waiting_ = false;   // `next_` holds a request.
@@ -58,7 +63,8 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
 
   grpc::ByteBuffer next_, current_, answer_;
   CallRecord::Clock::time_point current_begin_;  // When the server turned to `current_`.
-  IdleWatch idle_watch_;                         // Last, so that it is destroyed first and calls nothing afterwards.
+  grpc::Alarm end_alarm_;
+  IdleWatch idle_watch_;  // Last, so that it is destroyed first and calls nothing afterwards.
 };
 
 }  // namespace albtpu::server

@@ -236,7 +236,9 @@ grpc::ServerUnaryReactor* UncertaintyService::CompileSea(grpc::CallbackServerCon
 
 ByteStream* UncertaintyService::StreamColumns(grpc::CallbackServerContext* context) {
   CallRecord record(recorders_, Method::kStreamColumns, *context);
-  if (workers_.Admit()) return new ColumnStream(tables_.current(), seas_, workers_, record, *context, max_stream_idle_);
+  if (workers_.Admit()) {
+    return new ColumnStream(tables_.current(), seas_, workers_, record, *context, max_stream_idle_, draining_);
+  }
   const grpc::Status refusal = TooManyCalls();
   record.End(refusal);
   return new RefusedStream(refusal);

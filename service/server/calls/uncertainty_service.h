@@ -94,6 +94,9 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
         seas_(recorders.seas, recorders.log),
         waters_(recorders.waters, recorders.log) {}
 
+  // The server is about to stop: streams give their callers time to read the last answers before they end.
+  void Drain() { draining_ = true; }
+
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
   grpc::ServerUnaryReactor* QueryColumns(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
@@ -121,6 +124,7 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
   const LiveTables& tables_;
   const Recorders& recorders_;
   const std::chrono::seconds max_stream_idle_;
+  std::atomic<bool> draining_ = false;
   Workers workers_;
   UnreadAnswers unread_;
   SeaTables seas_;

@@ -151,6 +151,11 @@ inline constexpr std::size_t kMaxConnectionBytes = std::size_t{2} << 30;
 // How long calls in progress may continue after SIGTERM; within the grace period of 30 s that Kubernetes gives.
 inline constexpr std::chrono::seconds kDrainTime{10};
 
+// How long a stream that ends after SIGTERM keeps back its status. gRPC closes the connection with the last status and
+// does not read what the caller still sends, such as updates of its window. The operating system then resets the
+// connection, and answers that the caller has not read are lost (RFC 9112, 9.6, describes this for HTTP/1.1).
+inline constexpr std::chrono::seconds kTimeToReadAnswers{1};
+
 // Length of a caller's `x-request-id`, which is logged. A UUID has 36 characters, a W3C trace context 55.
 inline constexpr std::size_t kMaxRequestIdBytes = 64;
 
