@@ -1,5 +1,7 @@
 #include "annotate/seas/sea_answers.h"
 
+#include <tbb/task_arena.h>
+
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -45,7 +47,9 @@ absl::StatusOr<std::shared_ptr<client::UncertaintySource>> OpenSeas::Get(std::si
 
 void OpenSeas::Compile(Sea& sea) {
   if (!sea.source.ok() || *sea.source != nullptr) return;
-  absl::StatusOr<std::unique_ptr<client::UncertaintySource>> source = sources_->Open(seas_.sea(sea.record));
+  // Isolated, because this thread has the sea: a task of other pulses would wait for it forever.
+  absl::StatusOr<std::unique_ptr<client::UncertaintySource>> source =
+      tbb::this_task_arena::isolate([&] { return sources_->Open(seas_.sea(sea.record)); });
   if (source.ok())
     sea.source = std::shared_ptr<client::UncertaintySource>(*std::move(source));
   else

@@ -1,9 +1,14 @@
 #include "annotate/seas/sea_answers.h"
 
 #include <gmock/gmock.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <string>
@@ -36,6 +41,22 @@ class CountedSeas : public client::SeaSources {
   std::unique_ptr<client::SeaSources> local_ = client::LocalSeas();
   std::atomic<int>& opened_;
   absl::Status status_;
+};
+
+thread_local bool opens_sea = false;
+
+// Opens seas by tasks on all cores, as tables are put together.
+class SeasOfTasks : public client::SeaSources {
+ public:
+  absl::StatusOr<std::unique_ptr<client::UncertaintySource>> Open(const KnownSea& sea) override {
+    opens_sea = true;
+    tbb::parallel_for(0, 200, [](int) { std::this_thread::sleep_for(std::chrono::microseconds(100)); });
+    opens_sea = false;
+    return local_->Open(sea);
+  }
+
+ private:
+  std::unique_ptr<client::SeaSources> local_ = client::LocalSeas();
 };
 
 class SeaAnswersTest : public ::testing::Test {
@@ -204,6 +225,32 @@ TEST_F(SeaAnswersTest, OpenEachSeaOnceAndKeepTheLast) {
   for (int i = 0; i < 4; ++i) threads.emplace_back([&] { EXPECT_TRUE(seas.Get(5).ok()); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(opened, 6);
+}
+
+// It would wait for itself.
+TEST_F(SeaAnswersTest, AreNotAskedByAThreadThatOpensASea) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
+  const std::shared_ptr<const SeaTimeline> timeline = Hourly(2);
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    OpenSeas seas(*timeline, std::make_unique<SeasOfTasks>());
+    std::atomic<int> asked = 0;
+    int left = 100;
+    const auto next = [&](tbb::flow_control& flow) {
+      if (left-- == 0) flow.stop();
+      return left % 2;
+    };
+    const auto ask = [&](int record) {
+      if (opens_sea)
+        ++asked;
+      else
+        EXPECT_TRUE(seas.Get(static_cast<std::size_t>(record)).ok());
+    };
+    tbb::task_arena(4).execute([&] {
+      tbb::parallel_pipeline(16, tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, next) &
+                                     tbb::make_filter<int, void>(tbb::filter_mode::parallel, ask));
+    });
+    EXPECT_EQ(asked, 0);
+  }
 }
 
 TEST_F(SeaAnswersTest, FailWhenNoSeaCanBeOpened) {
