@@ -30,7 +30,9 @@ declare -A longest=([ascii_trajectory]=1500 [budget]=2400 [campaign]=2048 [clock
                     [sea_text]=700 [seal]=600 [sensor_file]=500 [smrmsg]=640 [span_index]=300 [specification]=500
                     [survey_description]=900 [swan_spectra]=400 [table]=131072 [table_values]=600 [water_level]=500
                     [water_values]=600 [ww3_points]=600)
-(($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
+# The longest inputs take the longest: those targets run first, so that no core waits for one at the end.
+(($# > 0)) || mapfile -t targets < <(
+  for target in "${!longest[@]}"; do echo "${longest[$target]} $target"; done | sort -k1,1nr -k2 | cut -d ' ' -f 2)
 for target in "${targets[@]}"; do
   if [[ -z ${longest[$target]-} ]]; then
     echo "$0: '$target' is not a target; choose from ${!longest[*]}" >&2

@@ -13,9 +13,10 @@ root=$build/root
 libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev librandom123-dev)
 
 # The code from a sea's spectrum to traced rays. The rest of the generator needs more libraries.
-sources=(sea/*.cc sea/*/*.cc generator/{math,surface,kernels}/*.cc
+sources=(sea/*.cc sea/{correlation,quadrature,response,spectra}/*.cc generator/{math,surface,kernels}/*.cc
          generator/monte_carlo/slope_moments.cc
-         tests/generator/{math,surface,kernels}/*_test.cc tests/sea/response/refraction_test.cc)
+         tests/generator/{math,surface,kernels}/*_test.cc tests/generator/kernels/normal_lanes.cc
+         tests/sea/response/refraction_test.cc)
 
 # Needs no root: apt-get keeps its lists of the other architecture in our own folder.
 unpack_libraries() {
