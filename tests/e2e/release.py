@@ -46,6 +46,9 @@ GATES = {
     "fuzz": (["tests/fuzz/run.sh", "--at-least", "1000000", "FUZZ"], (r"\w+: \d+ executions.*", r"\w+: FOUND.*")),
     "soak": (["tests/faults/soak.sh", "SOAK"], (r"\w+: \d+", r"resident memory .*", r"at rest: .*")),
 }
+# Gates that use the programs in build/release, which must be of this commit.
+USE_PROGRAMS = ("containers", "soak")
+BUILD = 'cmake --preset release && cmake --build --preset release -j "$(nproc)"'
 
 
 def git(*arguments):
@@ -99,9 +102,12 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     kept = folder / "gates.json"
     known = json.loads(kept.read_text()) if kept.exists() else {}
-    for name, (command, _) in chosen.items():
-        if options.gates and name not in options.gates or known.get(name, {}).get("code") == 0:
-            continue
+    to_run = [name for name in chosen
+              if (not options.gates or name in options.gates) and known.get(name, {}).get("code") != 0]
+    if any(name in USE_PROGRAMS for name in to_run) and run("build", ["bash", "-c", BUILD], folder)["code"] != 0:
+        sys.exit(f"the programs could not be built; see {folder / 'build.log'}")
+    for name in to_run:
+        command, _ = chosen[name]
         print(f"{name}: running; its output is in {folder / name}.log", flush=True)
         known[name] = run(name, command, folder)
         kept.write_text(json.dumps(known, indent=2) + "\n")
