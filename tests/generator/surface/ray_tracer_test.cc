@@ -125,11 +125,12 @@ TEST(TracedBeam, AddsTheUnresolvedWavesAtItsMeanSlope) {
   UnresolvedWaves unresolved;
   unresolved.offset << 1, 2, 3;
   unresolved.gain << 10, 0, 0, 20, 30, 40;
+  unresolved.curvature << 100, 0, 0, 0, 200, 0, 300, 400, 500;
   TracedBeam beam = Trace(Beam({.footprint = 0.5}, 10).Rays(0), Plane({0.1, 0.2}), kN);
   const TracedBeam with = WithUnresolvedWaves(beam, unresolved);
-  EXPECT_NEAR(with.tangent.x() - beam.tangent.x(), 1 + 10 * 0.1, kRounding);
-  EXPECT_NEAR(with.tangent.y() - beam.tangent.y(), 2 + 20 * 0.2, kRounding);
-  EXPECT_NEAR(with.secant - beam.secant, 3 + 30 * 0.1 + 40 * 0.2, kRounding);
+  EXPECT_NEAR(with.tangent.x() - beam.tangent.x(), 1 + 10 * 0.1 + 100 * 0.01, kRounding);
+  EXPECT_NEAR(with.tangent.y() - beam.tangent.y(), 2 + 20 * 0.2 + 200 * 0.04, kRounding);
+  EXPECT_NEAR(with.secant - beam.secant, 3 + 30 * 0.1 + 40 * 0.2 + 300 * 0.01 + 400 * 0.04 + 500 * 0.02, kRounding);
   EXPECT_EQ(with.height_secant, beam.height_secant);
 }
 

@@ -10,9 +10,11 @@ import time
 
 import programs
 from programs import FLAGS, laz_copy, make_flight
+from serving import ALLOWANCE
 
-MOST_MEMORY = 2 << 30  # Bytes of addresses, of which threads and libraries reserve most.
-LONGEST = 20  # s for a file of some hundred kilobytes, on a busy machine.
+# Bytes of addresses, of which threads and libraries reserve most. Sanitizers reserve terabytes.
+MOST_MEMORY = 2 << 30 if ALLOWANCE == 1 else resource.RLIM_INFINITY
+LONGEST = 20 * ALLOWANCE  # s for a file of some hundred kilobytes, on a busy machine.
 # Offsets in the header of LAS 1.4.
 HEADER_SIZE, OFFSET_TO_POINTS, VLR_COUNT, POINT_FORMAT, RECORD_LENGTH = 94, 96, 100, 104, 105
 EVLR_START, EVLR_COUNT, POINT_COUNT = 235, 243, 247
