@@ -249,7 +249,7 @@ std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
                                                   : Course(motion.velocity[0], motion.velocity[1]);
   motion.rates = {DegreesOfRadians(Or(record->rate_forward, 0)), DegreesOfRadians(Or(record->rate_right, 0)),
                   DegreesOfRadians(Or(record->rate_down, 0))};
-  if (const std::optional<formats::TrajectorySigma> sigma = SigmaAt(time); sigma.has_value()) {
+  if (const std::optional<formats::TrajectorySigma> sigma = SigmaAt(record->time); sigma.has_value()) {
     motion.position_sigma = {sigma->north, sigma->east, sigma->down};
     motion.attitude_sigma = {DegreesOfRadians(sigma->roll), DegreesOfRadians(sigma->pitch),
                              DegreesOfRadians(sigma->heading)};

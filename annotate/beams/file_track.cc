@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <numbers>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -37,7 +37,30 @@ std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<con
   return TrackStatistics{.middle = *track.At((longest.start + longest.end) / 2), .sigma = Median(std::move(sigmas))};
 }
 
+constexpr double kStep = 1000;  // m, over which the slope of the convergence is taken.
+
 }  // namespace
+
+std::optional<LocalFrame> FrameAround(const formats::MapPosition& middle, const formats::MapFrame& map,
+                                      double metres_per_z) {
+  const auto metric_at = [&](double x, double y) -> std::optional<formats::MapMetric> {
+    const std::optional<formats::GeographicPosition> position = map.GeographicAt({x, y});
+    if (!position.has_value()) return std::nullopt;
+    return map.MetricAt(*position);
+  };
+  const std::optional<formats::MapMetric> metric = metric_at(middle.x, middle.y);
+  if (!metric.has_value()) return std::nullopt;
+  LocalFrame frame = {middle.x,     middle.y,           metric->metres_per_x, metric->metres_per_y,
+                      metres_per_z, metric->convergence};
+  const auto slope_to = [&](double x, double y) {
+    const std::optional<formats::MapMetric> there = metric_at(x, y);
+    if (!there.has_value()) return 0.0;
+    return std::remainder(there->convergence - metric->convergence, 2 * std::numbers::pi) / kStep;
+  };
+  frame.convergence_slope = {slope_to(middle.x + kStep / frame.metres_per_x, middle.y),
+                             slope_to(middle.x, middle.y + kStep / frame.metres_per_y)};
+  return frame;
+}
 
 TrackedFile ByClock(const TrackedFile& stated, const formats::PointClock& clock) {
   TrackedFile file = stated;
@@ -85,7 +108,7 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& given, double inde
                                        database.ok() ? "" : absl::StrCat(" (", database.message(), ")"),
                                        ": directions are from grid north"));
   }
-  found.track = std::make_unique<FittedTrack>(std::move(track), file.frame, file.map.get());
+  found.track = std::make_unique<FittedTrack>(std::move(track), file.frame);
   found.motions = std::make_unique<CourseMotions>(*found.track);
   if (clock.changes_times()) {
     found.track = std::make_unique<ClockedTrack>(std::move(found.track), clock);
@@ -95,28 +118,6 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& given, double inde
   return found;
 }
 
-namespace {
-
-constexpr double kStep = 1000;  // m, over which the slope of the convergence is taken.
-
-}  // namespace
-
-FittedTrack::FittedTrack(RayTrack track, const LocalFrame& frame, const formats::MapFrame* map)
-    : track_(std::move(track)), frame_(frame) {
-  if (map == nullptr) return;
-  const auto convergence_at = [&](double east, double north) -> std::optional<double> {
-    const std::optional<formats::GeographicPosition> position =
-        map->GeographicAt({frame.origin_x + east / frame.metres_per_x, frame.origin_y + north / frame.metres_per_y});
-    if (!position.has_value()) return std::nullopt;
-    return map->MetricAt(*position).convergence;
-  };
-  const std::optional<double> middle = convergence_at(0, 0);
-  const std::optional<double> east = convergence_at(kStep, 0), north = convergence_at(0, kStep);
-  if (!middle.has_value() || !east.has_value() || !north.has_value()) return;
-  convergence_ = *middle;
-  convergence_slope_ = {(*east - *middle) / kStep, (*north - *middle) / kStep};
-}
-
 void FittedTrack::PositionsAt(std::span<const double> times, std::span<SensorPosition> positions,
                               std::span<TrackOutcome> outcomes) const {
   track_.PositionsAt(times, positions, outcomes);
@@ -124,7 +125,7 @@ void FittedTrack::PositionsAt(std::span<const double> times, std::span<SensorPos
     if (formats::IsNoTime(times[i])) outcomes[i] = TrackOutcome::kOutside;
     if (outcomes[i] != TrackOutcome::kKnown) continue;
     SensorPosition& position = positions[i];
-    position.convergence = convergence_ + convergence_slope_.dot(Eigen::Vector2d(position.x, position.y));
+    position.convergence = frame_.ConvergenceAt(position.x, position.y);
     position.x = frame_.origin_x + position.x / frame_.metres_per_x;
     position.y = frame_.origin_y + position.y / frame_.metres_per_y;
     position.metres_per_x = frame_.metres_per_x;

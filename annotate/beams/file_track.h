@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -29,12 +31,25 @@ struct LocalFrame {
   double origin_x = 0, origin_y = 0;  // In the horizontal unit of the points.
   double metres_per_x = 1, metres_per_y = 1;
   double metres_per_z = 1;  // Of the vertical unit.
+  // True azimuth = grid azimuth + convergence: rad at the origin, and rad per metre along x and y. It is about
+  // (longitude - central meridian) sin(latitude): 15 km from the origin, a straight line leaves 1e-5 rad of it out.
+  double convergence = 0;
+  Eigen::Vector2d convergence_slope = Eigen::Vector2d::Zero();
 
   double X(double x) const { return (x - origin_x) * metres_per_x; }
   double Y(double y) const { return (y - origin_y) * metres_per_y; }
   double Z(double z) const { return z * metres_per_z; }
   Eigen::Vector3d At(double x, double y, double z) const { return {X(x), Y(y), Z(z)}; }
+
+  // rad, at a point in metres from the origin.
+  double ConvergenceAt(double east, double north) const {
+    return convergence + convergence_slope.x() * east + convergence_slope.y() * north;
+  }
 };
+
+// The frame around `middle`, of a file with heights in units of `metres_per_z`. Absent where `map` is not defined.
+std::optional<LocalFrame> FrameAround(const formats::MapPosition& middle, const formats::MapFrame& map,
+                                      double metres_per_z);
 
 // The inputs of a track.
 struct TrackedFile {
@@ -67,8 +82,8 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index
 
 class FittedTrack final : public SensorTrack {
  public:
-  // `track` is in `frame`. Without `map`, grid north is taken for true north.
-  FittedTrack(RayTrack track, const LocalFrame& frame, const formats::MapFrame* map);
+  // `track` is in `frame`.
+  FittedTrack(RayTrack track, const LocalFrame& frame) : track_(std::move(track)), frame_(frame) {}
 
   void PositionsAt(std::span<const double> times, std::span<SensorPosition> positions,
                    std::span<TrackOutcome> outcomes) const override;
@@ -78,10 +93,6 @@ class FittedTrack final : public SensorTrack {
  private:
   RayTrack track_;
   LocalFrame frame_;
-  // The convergence is taken as linear in the local coordinates. It is about (longitude - central meridian) times
-  // sin(latitude), so that 15 km from the middle, a file leaves 1e-5 rad of it out.
-  double convergence_ = 0;
-  Eigen::Vector2d convergence_slope_ = Eigen::Vector2d::Zero();  // rad/m
 };
 
 }  // namespace albtpu::annotate

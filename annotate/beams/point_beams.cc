@@ -57,7 +57,7 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
   AircraftColumns& aircraft = beams.aircraft;
   std::vector<float>& altitudes = aircraft[BudgetInput::kAltitude];
   altitudes.resize(count);
-  beams.convergence.assign(count, 0);
+  beams.convergence.resize(count);
   for (std::size_t i = 0; i < kMotionInputs; ++i)
     aircraft[BudgetInput::kRoll + i].resize(motions_ != nullptr ? count : 0);
   if (plan_.has_track()) {
@@ -69,9 +69,10 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
     const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
     const std::optional<double> altitude =
         scan != nullptr ? scan->altitude : std::get<ConstantIncidence>(plan_.source).altitude;
-    altitudes.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       altitudes[i] = static_cast<float>(altitude.value_or(kNan) - scratch.above[i]);
+      beams.convergence[i] = static_cast<float>(frame_.ConvergenceAt(frame_.X(points.x[i]), frame_.Y(points.y[i])));
+    }
     if (scan != nullptr && scan->flight_direction.has_value())
       aircraft[BudgetInput::kHeading].assign(count, static_cast<float>(*scan->flight_direction));
   }

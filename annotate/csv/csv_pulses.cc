@@ -93,6 +93,11 @@ std::vector<AxisId> MissingIn(const InputOrigins& origins, bool any_sea) {
   return missing;
 }
 
+absl::Status FlagAndColumn(const std::string& name, PulseInput input) {
+  return formats::UsageError(absl::StrCat(FlagName(input), ": ", name, " also has the column '",
+                                          std::string(Name(input)), "'; leave out one of them"));
+}
+
 bool MayBeEmpty(PulseInput input) {
   if (input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom) return true;
   return Index(input) < kAxisCount && MayBeAbsent(kAxes[Index(input)]);
@@ -138,8 +143,7 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats
     const auto input = static_cast<PulseInput>(i);
     if (!fixed[input].has_value()) continue;
     if (origins[i] == InputOrigin::kColumn) {
-      return formats::UsageError(absl::StrCat(FlagName(input), ": ", name, " also has the column '",
-                                              std::string(Name(input)), "'; leave out one of them"));
+      return FlagAndColumn(name, input);
     }
     pulses.fixed_[i] = *fixed[input];
   }
@@ -268,6 +272,10 @@ absl::StatusOr<CsvAircraft> CsvAircraft::Bind(const std::string& name, const for
     if (column == Name(PulseInput::kWindFrom) && !fixed.any_sea) aircraft.wind_from_ = i;
     for (const BudgetInput input : kInputs) {
       if (column != NameOf(input)) continue;
+      if (input == BudgetInput::kAltitude && aircraft.altitude_.has_value())
+        return FlagAndColumn(name, PulseInput::kAltitude);
+      if (input == BudgetInput::kBeamAzimuth && aircraft.beam_azimuth_.has_value())
+        return FlagAndColumn(name, PulseInput::kBeamAzimuth);
       aircraft.columns_.push_back({i, input});
       has_altitude |= input == BudgetInput::kAltitude;
     }

@@ -82,11 +82,7 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   ASSIGN_OR_RETURN(const double metres_per_z, MetresPerHeightUnit(reader, plan, crs));
   place.map = crs.map;
   // Without a coordinate system, x and y are in the unit of heights.
-  place.frame = {.origin_x = middle.x,
-                 .origin_y = middle.y,
-                 .metres_per_x = metres_per_z,
-                 .metres_per_y = metres_per_z,
-                 .metres_per_z = metres_per_z};
+  place.frame = {middle.x, middle.y, metres_per_z, metres_per_z, metres_per_z};
   if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), middle)) {
     return absl::InvalidArgumentError(absl::StrCat(
         reader.name(), ": its points seem to be in degrees (x ", middle.x, ", y ", middle.y,
@@ -94,16 +90,14 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   }
   if (place.map == nullptr) return place;
   place.remark = crs.remark;
-  const std::optional<formats::GeographicPosition> position = place.map->GeographicAt(middle);
-  if (!position.has_value()) {
+  const std::optional<LocalFrame> frame = FrameAround(middle, *place.map, metres_per_z);
+  if (!frame.has_value()) {
     if (!plan.has_track()) return place;
     return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": its points lie where its coordinate system, ",
                                                    place.map->crs_name(), ", is not defined (x ", middle.x, ", y ",
                                                    middle.y, "); give the right one by --crs"));
   }
-  const formats::MapMetric metric = place.map->MetricAt(*position);
-  place.frame.metres_per_x = metric.metres_per_x;
-  place.frame.metres_per_y = metric.metres_per_y;
+  place.frame = *frame;
   return place;
 }
 

@@ -197,7 +197,9 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
                        {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
                        {"output", {{"bytes", SizeOf(job.output)}}}};
   if (!job.csv.empty()) here["output"]["csv"] = {{"name", job.csv.filename().string()}, {"bytes", SizeOf(job.csv)}};
-  const std::string difference = Difference(json, here, "");
+  // As SummaryText writes names that are no UTF-8.
+  const std::string text = here.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  const std::string difference = Difference(json, ordered_json::parse(text), "");
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
   const fs::file_time_type made = fs::last_write_time(job.output, error);
   const auto is_newer = [&](fs::file_time_type time) { return error || time > made; };

@@ -42,6 +42,7 @@ std::vector<std::string> Assumptions(const TotalPlan& plan) {
 
 std::string WaterText(const nlohmann::ordered_json& parameters) {
   const nlohmann::ordered_json& numbers = parameters["numbers"];
+  if (numbers.contains("water_column")) return "water column: left out, so that totals lack its share";
   const auto entered = numbers.find("water_entered"), became = numbers.find("water_attenuation");
   if (entered == numbers.end() || became == numbers.end()) return "";
   const auto text = [](const nlohmann::ordered_json& number, const char* part) {

@@ -46,8 +46,8 @@ nlohmann::ordered_json Parameters(const TotalPlan& plan);
 // What was assumed, a line each: "attitude 0.005, 0.005, 0.008 degree (assumed: ...)".
 std::vector<std::string> Assumptions(const TotalPlan& plan);
 
-// What was entered of the water, what it became and by which formula, as a line, of `parameters` of a plan; empty
-// without the water column.
+// What was entered of the water, what it became and by which formula, as a line, of `parameters` of a plan; or that
+// the water column is left out.
 std::string WaterText(const nlohmann::ordered_json& parameters);
 
 // What is known beside the settings.

@@ -188,7 +188,7 @@ std::string TotalText(const ordered_json& total) {
   for (const auto& [name, source] : total["sources"].items()) {
     const auto root = [&, &given = source](const char* axis) {
       return given[axis].is_number() ? absl::StrFormat("%.4f", std::sqrt(given[axis].get<double>()))
-                                      : std::string("no number");
+                                     : std::string("no number");
     };
     absl::StrAppend(&text, absl::StrFormat("%-16s %-8s %18s %18s\n", name, source["group"].get<std::string>(),
                                            root("horizontal"), root("vertical")));

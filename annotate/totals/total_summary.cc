@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -256,8 +257,9 @@ void DrySummary::Add(const TotalBatch& totals, std::size_t i) {
   if (!std::isfinite(totals.thu[i]) || !std::isfinite(totals.tvu[i])) return;
   thu_.Add(totals.thu[i]);
   tvu_.Add(totals.tvu[i]);
-  for (const TotalBatch::Covariance& group : totals.groups) {
-    horizontal_ += static_cast<double>(group[0][i]) + group[1][i];
+  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+    const TotalBatch::Covariance& group = totals.groups[g];
+    horizontal_[g] += static_cast<double>(group[0][i]) + group[1][i];
     vertical_ += group[2][i];
   }
 }
@@ -265,9 +267,11 @@ void DrySummary::Add(const TotalBatch& totals, std::size_t i) {
 void DrySummary::Merge(const DrySummary& other) {
   thu_.Merge(other.thu_);
   tvu_.Merge(other.tvu_);
-  horizontal_ += other.horizontal_;
+  for (std::size_t g = 0; g < kErrorGroups; ++g) horizontal_[g] += other.horizontal_[g];
   vertical_ += other.vertical_;
 }
+
+double DrySummary::horizontal() const { return std::accumulate(horizontal_.begin(), horizontal_.end(), 0.0); }
 
 std::string DrySummary::Text(Coverage coverage) const {
   if (count() == 0) return "";
@@ -276,7 +280,7 @@ std::string DrySummary::Text(Coverage coverage) const {
       "%d dry points (%s): total THU %.3f m in the median, %.3f m at most; total TVU %.3f m, %.3f m; RMSE %.3f m "
       "horizontal, %.3f m vertical",
       count(), CoverageText(coverage), thu_.quantile(0.5), thu_.greatest(), tvu_.quantile(0.5), tvu_.greatest(),
-      std::sqrt(horizontal_ / points), std::sqrt(vertical_ / points));
+      std::sqrt(horizontal() / points), std::sqrt(vertical_ / points));
 }
 
 ordered_json DrySummary::Json() const {
@@ -285,8 +289,11 @@ ordered_json DrySummary::Json() const {
   if (count() == 0) return json;
   json["total_thu"] = SpreadJson(thu_);
   json["total_tvu"] = SpreadJson(tvu_);
-  json["rmse_horizontal"] = std::sqrt(horizontal_ / points);
+  json["rmse_horizontal"] = std::sqrt(horizontal() / points);
   json["rmse_vertical"] = std::sqrt(vertical_ / points);
+  const double whole = horizontal();
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
+    json["groups_horizontal"][std::string(kErrorGroupNames[g])] = whole > 0 ? horizontal_[g] / whole : 0.0;
   return json;
 }
 

@@ -30,7 +30,7 @@ class LengthSpread {
   std::uint64_t count_ = 0;
   double sum_ = 0;
   float greatest_ = 0;
-  std::vector<std::uint32_t> bins_;  // Empty until the first length.
+  std::vector<std::uint64_t> bins_;  // Empty until the first length.
 };
 
 class TotalSummary {
@@ -96,12 +96,15 @@ class DrySummary {
   // "12 dry points: total THU, 2 sigma, 0.1 m in the median ...; empty without points.
   std::string Text(Coverage coverage) const;
   // `points`, `total_thu`, `total_tvu`; `rmse_horizontal` and `rmse_vertical` [m], the roots of the mean variances, as
-  // standards of topographic lidar count.
+  // standards of topographic lidar count; `groups_horizontal`, the shares of the groups of errors.
   nlohmann::ordered_json Json() const;
 
  private:
+  double horizontal() const;  // Of all groups.
+
   LengthSpread thu_, tvu_;
-  double horizontal_ = 0, vertical_ = 0;  // Sums of variances, m^2.
+  std::array<double, kErrorGroups> horizontal_{};  // Sums of variances, m^2.
+  double vertical_ = 0;
 };
 
 // `answers`, which are those of the sea alone (UncertaintySummary), with the total beside them. What the sea has by

@@ -146,7 +146,6 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
                    .temperature = settings.temperature,
                    .salinity = settings.salinity,
                    .processed_with = settings.processed_with};
-  if (!known.index().has_value()) known.temperature = known.salinity = std::nullopt;
   if (settings.processed_with.has_value())
     numbers.push_back({"processed_with", absl::StrCat(*settings.processed_with), "[water]", false});
   if (settings.without_column()) {

@@ -9,6 +9,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
@@ -17,6 +18,7 @@
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
+#include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
+constexpr double kMostStretch = 0.05;              // Of lengths on the map.
 
 // Whether a summary has what is read of it later, with the right types.
 bool IsOurs(const Json& summary) {
@@ -40,6 +43,24 @@ bool IsOurs(const Json& summary) {
   const Json& outcomes = summary["answers"]["outcomes"];
   return summary.value("program", Json()) == "albtpu-query" &&
          std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
+}
+
+// A length of the map that is not that on the ground would make cells, densities and slopes wrong.
+absl::Status CheckTrueToScale(const formats::LasReader& reader, const formats::MapFrame& map) {
+  if (reader.header().point_count == 0) return absl::OkStatus();
+  ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
+  const formats::LasPointFields fields(reader.header());
+  const std::optional<formats::GeographicPosition> first = map.GeographicAt({fields.X(record), fields.Y(record)});
+  if (!first.has_value()) return absl::OkStatus();
+  const formats::MapMetric metric = map.MetricAt(*first);
+  for (const double metres : {metric.metres_per_x / map.unit(), metric.metres_per_y / map.unit()}) {
+    if (std::abs(metres - 1) <= kMostStretch) continue;
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%s: its coordinate system, %s, is not true to scale: 1 m of it is %.3g m on the ground, and at most %g %% of "
+        "difference are allowed; annotate points in a system such as UTM",
+        reader.name(), map.crs_name(), metres, 100 * kMostStretch));
+  }
+  return absl::OkStatus();
 }
 
 std::set<int> NumbersOf(const Json& channel, const char* key) {
@@ -98,6 +119,12 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   may_lack_surface_ = beams.is_string() && annotate::IsByAngle(beams.get<std::string>()) &&
                       read["answers"]["outcomes"].contains("NO_SURFACE");
   use_withheld_ = read["parameters"].value("use_withheld", Json()) == true;
+  // What the user said of the times, or what the trajectory showed.
+  Json clock = read["parameters"].value("time_format", Json());
+  if (!clock.is_string()) clock = MemberOf(MemberOf(read["input"], "trajectory"), "time_format");
+  if (clock == formats::NameOf(formats::TimeFormat::kMilliseconds)) seconds_per_time_unit_ = 1e-3;
+  has_clock_of_header_ = !clock.is_string() || clock == formats::NameOf(formats::TimeFormat::kAuto) ||
+                         clock == formats::NameOf(formats::TimeFormat::kAdjusted);
   const Json classes = read["parameters"].value("classes", Json());
   if (!classes.is_null() && !classes.is_array())
     return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
@@ -131,6 +158,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
                                          "); a grid of square cells needs projected ones, such as UTM"));
     }
     if (map != nullptr) {
+      RETURN_IF_ERROR(CheckTrueToScale(reader_, *map));
       crs_name_ = map->crs_name();
       crs_wkt_ = map->wkt();
       if (map->vertical().has_value()) vertical_name_ = map->vertical()->name, vertical_wkt_ = map->vertical()->wkt;
@@ -155,7 +183,8 @@ absl::Status AnnotatedLasFile::FindCrs() {
 }
 
 bool AnnotatedLasFile::has_dates() const {
-  return formats::HasGpsTime(reader_.header().point_format) && reader_.header().adjusted_gps_time;
+  return formats::HasGpsTime(reader_.header().point_format) && reader_.header().adjusted_gps_time &&
+         has_clock_of_header_;
 }
 
 std::string AnnotatedLasFile::table_digest() const {
@@ -165,6 +194,8 @@ std::string AnnotatedLasFile::table_digest() const {
 }
 
 Json LeftOutJson(const LeftOutPoints& points) { return {{"withheld", points.withheld}, {"noise", points.noise}}; }
+
+Json MemberOf(const Json& json, const char* key) { return json.is_object() ? json.value(key, Json()) : Json(); }
 
 std::string LeftOutText(const LeftOutPoints& points) {
   std::vector<std::string> parts;

@@ -46,12 +46,15 @@ nlohmann::ordered_json LeftOutJson(const LeftOutPoints& points);
 // "12 withheld points and 3 points of noise (classes 7 and 18) take no part".
 std::string LeftOutText(const LeftOutPoints& points);
 
+// The member of an object of a summary; null where there is none.
+nlohmann::ordered_json MemberOf(const nlohmann::ordered_json& json, const char* key);
+
 // A point of the bathymetric classes. Lengths in m but for x and y, which are those of the file; THU and TVU at the
 // coverage of the file; variances at 1 sigma, on the axes of the file. A contribution that was left out is 0, and so is
 // an unknown bias.
 struct AnnotatedPoint {
   double x = 0, y = 0, z = 0;
-  double time = 0;  // GPS time, s (LasPointFields::GpsTime); 0 if its points have none.
+  double time = 0;  // s, by the clock of the file (LasPointFields::GpsTime); 0 if its points have none.
   int line = 0;     // Point source ID.
   Gap gap = Gap::kNone;
   bool has_number = false;  // Otherwise only the members above are known.
@@ -94,7 +97,7 @@ class AnnotatedLasFile {
   // Of the heights in metres; where the file does not state their datum, the name that the surveyor gave, or empty.
   const std::string& vertical_name() const { return vertical_name_; }
   const std::string& vertical_wkt() const { return vertical_wkt_; }
-  bool has_dates() const;  // Whether times are GPS seconds - 1e9, as the header says.
+  bool has_dates() const;                                      // Whether times are GPS seconds - 1e9.
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
@@ -132,7 +135,8 @@ class AnnotatedLasFile {
   std::vector<std::size_t> offsets_;              // In a record, by kFloats of the implementation.
   std::optional<std::size_t> share_of_;           // In a record; absent: annotated without dry points.
   std::string crs_name_ = "not stated", crs_wkt_, vertical_name_, vertical_wkt_;
-  double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
+  double metres_per_unit_ = 1, metres_per_height_unit_ = 1, seconds_per_time_unit_ = 1;
+  bool has_clock_of_header_ = true;               // Otherwise another one was named or found.
   std::shared_ptr<formats::SampledFiles> files_;  // Null: there is no other one.
 };
 

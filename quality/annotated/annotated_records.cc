@@ -135,7 +135,7 @@ class AnnotatedLasFile::PointMaker {
     point.x = fields_.X(record);
     point.y = fields_.Y(record);
     point.z = fields_.Z(record) * file_.metres_per_height_unit_;
-    if (fields_.has_gps_time()) point.time = fields_.GpsTime(record);
+    if (fields_.has_gps_time()) point.time = fields_.GpsTime(record) * file_.seconds_per_time_unit_;
     point.line = fields_.PointSourceId(record);
     for (std::size_t k = 0; k < kFloats.size(); ++k)
       if (file_.offsets_[k] != kAbsent) point.*kFloats[k].member = laz::Load<float>(record, file_.offsets_[k]);
@@ -210,7 +210,9 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         left_out.Add(chunk.made.left_out);
         sample->Add(chunk.sample);
         const std::uint64_t done = chunk.run.first + chunk.run.own;
-        shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
+        const double share =
+            static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(header.point_count, 1));
+        shown.Reach(static_cast<std::uint64_t>(share * static_cast<double>(reader_.file_size())), done);
         return absl::OkStatus();
       }));
   RETURN_IF_ERROR(reader_.CheckUnchanged());

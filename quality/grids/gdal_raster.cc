@@ -311,7 +311,8 @@ absl::Status WriteBag(const Raster& raster, const std::string& metadata, const f
   RETURN_IF_ERROR(CheckGdal());
   fs::path text = path;
   text += ".xml";
-  std::ofstream(text) << metadata;
+  if (!(std::ofstream(text) << metadata << std::flush))
+    return absl::ResourceExhaustedError(absl::StrCat(text.string(), ": cannot be written; free some of its disk"));
   Options options;
   options("TEMPLATE", text.string())("BAG_VERSION", kBagVersion);
   const absl::Status status = Copy(raster, kNoBagValue, "BAG", options, path);

@@ -20,9 +20,6 @@ constexpr const char* kHow =
     "column all, where a number of its uncertainty is assumed; values that are no standard deviations count for "
     "nothing";
 
-// The member of an object, or null.
-Json MemberOf(const Json& json, const char* key) { return json.is_object() ? json.value(key, Json()) : Json(); }
-
 double NumberOr(const Json& json, double absent) { return json.is_number() ? json.get<double>() : absent; }
 
 struct Contributions {

@@ -119,8 +119,10 @@ class Reporter {
       const std::uint64_t met = judge_.Met(point);
       all_.Add(point, met, coverage);
       of_file.tally.Add(point, met, coverage);
-      of_file.first_time = std::min(of_file.first_time, point.time);
-      of_file.last_time = std::max(of_file.last_time, point.time);
+      if (!formats::IsNoTime(point.time)) {
+        of_file.first_time = std::min(of_file.first_time, point.time);
+        of_file.last_time = std::max(of_file.last_time, point.time);
+      }
       lines_[point.line].Add(point, met, coverage);
       paths_[point.line].Add(point);
       grid_.Add(point, orders_.Best(met));

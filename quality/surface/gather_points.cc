@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "budget/total/error_ellipse.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/surface/point_tiles.h"
 #include "quality/surface/survey_surface.h"
@@ -15,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
+constexpr double kLastSurveyed = 9e10;  // s, some 2850 years; later times are no dates.
+constexpr double kAdjustment = 1e9;     // s, from the times of files with dates to GPS time; exact.
 
 PartFile NameOf(const AnnotatedLasFile& file) {
   const auto& header = file.reader().header();
@@ -39,20 +41,23 @@ absl::Status CheckWater(const AnnotatedLasFile& first, const AnnotatedLasFile& f
 }  // namespace
 
 HorizontalGroups GroupsOf(const AnnotatedLasFile& file) {
-  const Json& all = file.summary()["answers"]["total"]["all"];
-  const auto fraction = [&](const char* shares, const char* name) {
-    const Json number = all.value(shares, Json::object()).value(name, Json());
+  const Json& answers = file.summary()["answers"];
+  const Json all = MemberOf(MemberOf(answers, "total"), "all");
+  // Where no bathymetric point has a total, of the dry ones.
+  const Json groups = MemberOf(all.is_object() ? all : MemberOf(answers, "dry"), "groups_horizontal");
+  const auto fraction = [](const Json& shares, const char* name) {
+    const Json number = MemberOf(shares, name);
     return number.is_number() ? number.get<double>() : 0.0;
   };
-  const double sea = fraction("shares_horizontal", "sea"), rest = 1 - sea;
+  const double rest = 1 - fraction(MemberOf(all, "shares_horizontal"), "sea");
+  if (!groups.is_object()) return {.pulse = 0, .line = 0, .survey = 1};  // Not stated: nothing averages out.
   if (!(rest > 0)) return {};
   // To a hundredth, so that files of one survey have the same ones.
-  const auto part = [&](double whole) { return std::round(100 * std::clamp(whole / rest, 0.0, 1.0)) / 100; };
-  HorizontalGroups groups;
-  groups.line = part(fraction("groups_horizontal", "line"));
-  groups.survey = std::min(part(fraction("groups_horizontal", "survey")), 1 - groups.line);
-  groups.pulse = 1 - groups.line - groups.survey;
-  return groups;
+  const auto part = [&](const char* name) {
+    return std::round(100 * std::clamp(fraction(groups, name) / rest, 0.0, 1.0)) / 100;
+  };
+  const double line = part("line"), survey = std::min(part("survey"), 1 - line);
+  return {.pulse = 1 - line - survey, .line = line, .survey = survey};
 }
 
 SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std::uint16_t source) {
@@ -124,7 +129,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     const bool has_dates = file.has_dates();
     const auto add = [&](const SurfacePoint& point) {
       writer.Add(point);
-      if (!has_dates) return;
+      if (!has_dates || formats::IsNoTime(point.time) || std::abs(point.time) > kLastSurveyed) return;
       const double time = point.time + kAdjustment;
       if (!facts.times.has_value()) facts.times = {time, time};
       facts.times->first = std::min(facts.times->first, time);

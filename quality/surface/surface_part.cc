@@ -112,7 +112,7 @@ bool IsWhole(const PartFacts& facts) {
 }  // namespace
 
 absl::Status SealPart(const SurfacePart& part) {
-  const std::string facts = ToJson(part.facts).dump();
+  const std::string facts = ToJson(part.facts).dump(-1, ' ', false, Json::error_handler_t::replace);
   Tail tail = {.points_end = part.points_end};
   Sha256 digest;
   {

@@ -87,7 +87,8 @@ absl::Status WriteNodes(const PointTiles& points, const GridFrame& frame, const 
       }) & tbb::make_filter<TileResult*, void>(tbb::filter_mode::serial_in_order, [&](TileResult* made) {
         const std::unique_ptr<TileResult> result(made);
         status.Update(result->status);
-        if (!status.ok()) return;
+        failed = !status.ok();
+        if (failed) return;
         file.Put(result->tile, result->nodes);
         for (const SurfaceNode& node : result->nodes) tally.Add(node);
       }));

@@ -29,7 +29,7 @@ class Numbers {
   Number Next() {
     Number number{};
     const std::size_t size = std::min(sizeof number, rest_.size());
-    std::memcpy(&number, rest_.data(), size);
+    if (size > 0) std::memcpy(&number, rest_.data(), size);
     rest_.remove_prefix(size);
     return number;
   }

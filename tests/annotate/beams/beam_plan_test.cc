@@ -79,6 +79,16 @@ TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
   }
 }
 
+// Points count the seconds from 0 again at the end of the week, trajectories go on.
+TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFilesAfterTheEndOfTheWeek) {
+  const Flight flight{.start = formats::kSecondsPerWeek - 20};
+  const auto errors = LoadTrajectoryErrors(
+      std::vector<std::string>{folder_.Write("smrmsg.out", SmrmsgBytes(flight.start, 61)).string()});
+  const std::optional<SensorMotion> motion = Motions(flight, *errors).At(10);
+  ASSERT_TRUE(motion.has_value());
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(motion->position_sigma[i], 0.01 * (i + 2) * 4, 1e-6);
+}
+
 // A straight track in coordinates that are turned by 30 degrees and scaled.
 class StraightTrack final : public SensorTrack {
  public:

@@ -46,8 +46,7 @@ TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from "), HasSubstr("directions are from grid north")));
   const auto map = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
   file.map = *map;
-  file.frame.origin_x = 400000;
-  file.frame.origin_y = 3e6;
+  file.frame = *FrameAround({400000, 3e6}, **map, 1);
   found = FromReturns(file);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from ")));
   const auto [positions, outcomes] = Ask(*found->track, {1010});

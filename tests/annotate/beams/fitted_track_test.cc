@@ -24,13 +24,7 @@ std::shared_ptr<const formats::MapFrame> Map(const std::string& crs) {
 
 // The frame around a position, as that of a file is made.
 LocalFrame FrameAt(const formats::MapFrame& map, double latitude, double longitude) {
-  const formats::GeographicPosition middle = {latitude * kDegree, longitude * kDegree};
-  const formats::MapPosition origin = map.Project(middle);
-  const formats::MapMetric metric = map.MetricAt(middle);
-  return {.origin_x = origin.x,
-          .origin_y = origin.y,
-          .metres_per_x = metric.metres_per_x,
-          .metres_per_y = metric.metres_per_y};
+  return *FrameAround(map.Project({latitude * kDegree, longitude * kDegree}), map, 1);
 }
 
 // A track of 15 s that begins at (east, north) [m] of the local frame.
@@ -42,8 +36,8 @@ RayTrack TrackAt(double east, double north) {
 }
 
 // Every position is that of the track of the rays, in the unit of the file.
-void ExpectPositionsInUnitsOf(const LocalFrame& frame, const formats::MapFrame* map) {
-  const FittedTrack track(TrackAt(300, -200), frame, map);
+void ExpectPositionsInUnitsOf(const LocalFrame& frame) {
+  const FittedTrack track(TrackAt(300, -200), frame);
   const std::vector<double> times = {1001, 1005, 1014};
   const TrackAnswer local = Ask(track.track(), times), answer = Ask(track, times);
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -65,14 +59,14 @@ TEST(FittedTrack, HasThePositionsOfTheFileInMetresFeetAndDegrees) {
   for (const char* crs : {"EPSG:32617", "EPSG:2236", "EPSG:4269"}) {
     SCOPED_TRACE(crs);
     const auto map = Map(crs);
-    ExpectPositionsInUnitsOf(FrameAt(*map, 26, -80.4), map.get());
+    ExpectPositionsInUnitsOf(FrameAt(*map, 26, -80.4));
   }
 }
 
 TEST(FittedTrack, TakesGridNorthForTrueNorthWithoutAMap) {
   const LocalFrame frame = {.origin_x = 500000, .origin_y = 3e6};
-  ExpectPositionsInUnitsOf(frame, nullptr);
-  const FittedTrack track(TrackAt(0, 0), frame, nullptr);
+  ExpectPositionsInUnitsOf(frame);
+  const FittedTrack track(TrackAt(0, 0), frame);
   EXPECT_EQ(Ask(track, {1005}).positions[0].convergence, 0);
 }
 
@@ -84,7 +78,7 @@ TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
     const auto map = Map(crs);
     const LocalFrame frame = FrameAt(*map, 26, -80.4);
     for (const double distance : {0.0, 10600.0}) {  // Of the track from the origin, in each direction.
-      const FittedTrack track(TrackAt(distance, distance), frame, map.get());
+      const FittedTrack track(TrackAt(distance, distance), frame);
       const SensorPosition position = Ask(track, {1005}).positions[0];
       const std::optional<formats::GeographicPosition> at = map->GeographicAt({position.x, position.y});
       ASSERT_TRUE(at.has_value());
@@ -97,9 +91,9 @@ TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
       EXPECT_NEAR(position.convergence, map->MetricAt(*at).convergence, 1.05 * mixed + (distance > 0 ? rest : 1e-7))
           << crs;
       if (distance > 0) {
-        EXPECT_GT(std::abs(position.convergence -
-                           Ask(FittedTrack(TrackAt(0, 0), frame, map.get()), {1005}).positions[0].convergence),
-                  5e-4);  // 10.6 km tan(26 degrees) / R = 8e-4: much more than the tolerance.
+        EXPECT_GT(
+            std::abs(position.convergence - Ask(FittedTrack(TrackAt(0, 0), frame), {1005}).positions[0].convergence),
+            5e-4);  // 10.6 km tan(26 degrees) / R = 8e-4: much more than the tolerance.
       }
     }
   }
@@ -107,13 +101,13 @@ TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
 
 TEST(FittedTrack, HasNoConvergenceInGeographicCoordinates) {
   const auto map = Map("EPSG:4269");
-  const FittedTrack track(TrackAt(0, 0), FrameAt(*map, 26, -80.4), map.get());
+  const FittedTrack track(TrackAt(0, 0), FrameAt(*map, 26, -80.4));
   EXPECT_EQ(Ask(track, {1005}).positions[0].convergence, 0);
 }
 
 TEST(FittedTrack, IsNotExtrapolated) {
   const auto map = Map("EPSG:32617");
-  const FittedTrack track(TrackAt(0, 0), FrameAt(*map, 26, -80.4), map.get());
+  const FittedTrack track(TrackAt(0, 0), FrameAt(*map, 26, -80.4));
   EXPECT_EQ(Ask(track, {990, 1005, 1020}).outcomes,
             (std::vector<TrackOutcome>{TrackOutcome::kOutside, TrackOutcome::kKnown, TrackOutcome::kOutside}));
 }

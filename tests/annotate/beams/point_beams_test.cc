@@ -68,6 +68,22 @@ TEST(PointBeams, PointsCrosswindWhenTheWindBlowsAlongTheFlight) {
   EXPECT_EQ(FoldAzimuth(*PulseOf(plan, -1, -15).azimuth), 90);
 }
 
+// The covariance of a total is on the axes of the file, whether the beams come from a track or not.
+TEST(PointBeams, KnowTheConvergenceOfTheirGridWithoutATrack) {
+  BeamPlan plan = AcrossTrack({.flight_direction = 0, .altitude = 400});
+  plan.any_aircraft = true;
+  const LocalFrame frame = {.origin_x = 10, .metres_per_x = 2, .convergence = 0.02, .convergence_slope = {1e-4, 1e-5}};
+  SurveyPoints points = PointsOf({-1, -1}, {15, 15});
+  points.x = {10, 110};
+  points.y = {0, 1000};
+  BeamScratch scratch;
+  PointBeams beams;
+  BeamGeometry(plan, frame, {.surface = nullptr, .levels = nullptr, .level = 0}, nullptr)
+      .Compute(points, scratch, beams);
+  EXPECT_FLOAT_EQ(beams.convergence[0], 0.02F);
+  EXPECT_FLOAT_EQ(beams.convergence[1], 0.02F + 200 * 1e-4F + 1000 * 1e-5F);
+}
+
 TEST(PointBeams, OfAnAcrossTrackScannerHaveTheScanAngleForIncidence) {
   BeamPlan plan = AcrossTrack({.flight_direction = 30, .altitude = 400});
   plan.wind_speed = 6;

@@ -190,6 +190,14 @@ TEST(DrySummary, CountsByRootMeanSquares) {
   EXPECT_EQ(summary.count(), 2u);
   EXPECT_NEAR(summary.Json()["rmse_vertical"].get<double>(), totals.tvu[0] / 2, 1e-6);
   EXPECT_NEAR(summary.Json()["rmse_horizontal"].get<double>(), totals.thu[0] / 2, 1e-6);
+  double all = 0;
+  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+    const double share = summary.Json()["groups_horizontal"][std::string(kErrorGroupNames[g])];
+    const double variance = static_cast<double>(totals.groups[g][0][0]) + totals.groups[g][1][0];
+    EXPECT_NEAR(share * std::pow(totals.thu[0] / 2, 2), variance, 1e-6 * variance);
+    all += share;
+  }
+  EXPECT_NEAR(all, 1, 1e-9);
   EXPECT_EQ(DrySummary().Text(Coverage::kTwoSigma), "");
 }
 

@@ -86,6 +86,21 @@ class Budget(Served):
         with self.assertRaisesRegex(AttributeError, "'thu_air': name it in 'quantities'"):
             budget.thu_air
 
+    def test_says_what_it_lacks(self):
+        motion = pulses(1)["aircraft"]
+        water = albtpu.Water(secchi=5, detector="half", field_of_view=8, pulse_length=1.5, bias="correct")
+        for located, aircraft, of_water, lacks in (
+                ("local", {}, None, ("wave_height", "water column")), ("level", motion, None, ("water column",)),
+                ("pulse", {}, water, ()), ("level", {}, water, ("wave_height",)),
+                ("pulse", {"water_sigma_vertical": 0.1}, None, ()),
+                ("pulse", {}, albtpu.Water(secchi=5, without_column=True), ("water column",))):
+            with self.subTest(located=located, aircraft=list(aircraft), water=of_water):
+                left_out = self.service.query_budget(
+                    **pulses(1, depth=3, located=located, aircraft=aircraft, water=of_water)).left_out
+                self.assertEqual(len(left_out), len(lacks))
+                for sentence, part in zip(left_out, lacks):
+                    self.assertIn(part, sentence)
+
     def test_is_answered_on_a_sea(self):
         sea = albtpu.Sea.jonswap(hs=0.42, tp=2.7, waves_from=225)
         budget = self.service.query_budget(**pulses(wind_speed=None, sea=sea))

@@ -127,6 +127,13 @@ class ManyFilesTest(programs.Test):
         self.assertGreaterEqual(result.stderr.count("is already complete"), 2)
         self.assertEqual(self.outputs(out), self.outputs(expected))
 
+    def test_resume_reads_names_that_are_no_utf8(self):
+        survey, out = self.make_survey(2)
+        os.rename(survey / "line0.las", os.fsencode(survey) + b"/k\xfcste.las")
+        for complete in (0, 2):
+            result = query("las", survey, "--output-dir", out, "--resume", "--table", self.table, *FLAGS, check=0)
+            self.assertEqual(result.stderr.count("is already complete"), complete)
+
     def test_resume_keeps_only_outputs_of_the_same_run(self):
         survey, out = self.make_survey(2)
         flags = ("las", survey, "--output-dir", out, "--resume", "--scanner", "across-track", "--water-level", 0,

@@ -91,6 +91,23 @@ class Files(Report):
 
 
 class Units(Files):
+    def test_of_a_map_that_is_not_true_to_scale_are_refused(self):
+        flight, survey, folder = (self.folder / name for name in ("map.las", "map.toml", "map"))
+        folder.mkdir()
+        las = LasFile(self.flight / "flight_1.las")
+        (wkt,) = (payload for user, record, _, payload in las.vlrs if (user, record) == (b"LASF_Projection", 2112))
+        text = re.sub(r',AUTHORITY\["EPSG","\d+"\]', "", wkt.rstrip(b"\0").decode())
+        text = text.replace('"scale_factor",0.9996', '"scale_factor",0.9').ljust(len(wkt)).encode()
+        flight.write_bytes(las.bytes.replace(wkt, text))
+        survey.write_text(re.sub(r"\[trajectory\](\n[^[].*)*", "", reported_survey.SURVEY.format(
+            flight=self.flight, datum=0.05, coverage="p95")))
+        query("las", flight, folder / "flight.las", "--survey", survey, "--table", self.one_table, "--incidence", 20,
+              "--beam-azimuth", 90, "--altitude", 400, check=0)
+        for command in ("report", "surface", "crosscheck"):
+            output = ("--output", self.folder / "made") if command != "crosscheck" else ()
+            self.assert_fails(query(command, folder, *output), 1, "flight.las: its coordinate system",
+                              "is not true to scale: 1 m of it is 1.11 m on the ground", "UTM")
+
     def test_change_nothing(self):
         for horizontal, vertical, stated in (("m", "us-ft", True), ("m", "ft", False), ("ft", "ft", True),
                                              ("us-ft", "us-ft", True), ("us-ft", "m", True), ("ft", "m", False)):
@@ -182,6 +199,35 @@ class Points(Files):
         report, _ = self.report(folder)
         self.assertEqual(report["all"], self.json["all"])
         self.assertNotIn("left_out", report)
+
+
+class Times(Files):
+    def test_in_milliseconds_are_read_as_such(self):
+        """By the key of the survey, or because only they lie at the trajectory."""
+        for place in (("parameters",), ("input", "trajectory")):
+            folder = self.copy()
+
+            def edit(records, las):
+                times = 1000 * las.field(22, "<f8")
+                records[:, 22:30] = times.view(np.uint8).reshape(-1, 8)
+
+            for path in folder.glob("*.las"):
+                change(path, edit)
+                summary = json.loads(path.with_suffix(".las.json").read_text())
+                inner = summary
+                for key in place:
+                    inner = inner.setdefault(key, {})
+                inner["time_format"] = "milliseconds"
+                path.with_suffix(".las.json").write_text(json.dumps(summary))
+            report, _ = self.report(folder)
+            for key in ("pairs", "lines", "factor", "intervals_by"):
+                self.assertEqual(report["crosscheck"][key], self.json["crosscheck"][key], key)
+            for name in ("made", "right"):
+                query("surface", folder if name == "made" else self.annotated, "--output", self.folder / f"{name}_nodes",
+                      "--cell", 2, "--overwrite", check=0)
+            with netCDF4.Dataset(self.folder / "made_nodes/surface.nc") as made, \
+                    netCDF4.Dataset(self.folder / "right_nodes/surface.nc") as right:
+                np.testing.assert_array_equal(made["passes"][:], right["passes"][:])
 
 
 class Headers(Files):

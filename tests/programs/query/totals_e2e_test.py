@@ -244,6 +244,15 @@ source = 'its data sheet'
         np.testing.assert_allclose(float(first["tvu_air"]), float(second["tvu_air"]), rtol=1e-4)
         self.assertNotEqual(second["covariance_NE"], "")
 
+    def test_csv_has_a_flag_or_a_column(self):
+        by_wind = SENSOR + DECIDED + SIGMA + "[sea]\nwind_speed = 6.5\n[surface]\nlocated = 'level'\n"
+        for flag, number, column, text in (("--altitude", 500, "altitude", by_wind),
+                                           ("--beam-azimuth", 180, "beam_azimuth", by_wind)):
+            columns = {"incidence": 20, "footprint": 0.5, "depth": 10, "altitude": 400, column: number}
+            rows = ",".join(columns) + "\n" + ",".join(map(str, columns.values())) + "\n"
+            result, _ = self.csv(rows, flag, number, text=text)
+            self.assert_fails(result, 2, f"{flag}: ", f"pulses.csv also has the column '{column}'; leave out one")
+
     def test_csv_needs_an_altitude(self):
         text = SENSOR + DECIDED + SIGMA + "[sea]\nwind_speed = 6.5\n[surface]\nlocated = 'level'\n"
         result, _ = self.csv("incidence,footprint,depth\n20,0.5,10\n", text=text)

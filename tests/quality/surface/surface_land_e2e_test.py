@@ -19,6 +19,7 @@ from programs import query  # noqa: E402
 from simulated_survey import LAND, SimulatedSurvey  # noqa: E402
 
 CELL = 2
+BOTTOM, NOISE = 40, 7  # Classes.
 FACTOR = 1.959964
 
 
@@ -108,6 +109,33 @@ class Land(programs.Test):
         for name in ("elevation", "uncertainty", "sigma_sea", "water_depth"):
             np.testing.assert_array_equal(with_land[name][:].filled(-1)[np.ix_(rows, columns)][far],
                                           without[name][:].filled(-1)[far], name)
+
+    def test_takes_tiles_that_have_no_number_of_the_bottom(self):
+        tiles, annotated_tiles = self.folder / "tiles", self.folder / "annotated_tiles"
+        tiles.mkdir()
+        annotated_tiles.mkdir()
+        bottomless, other = sorted((folder / "flight").glob("*.las"))
+        shutil.copy(other, tiles / other.name)
+        las = LasFile(bottomless)
+        records = las.records.copy()
+        records[las.classes == BOTTOM, 16] = NOISE
+        (tiles / bottomless.name).write_bytes(las.bytes[:las.offset_to_points] + records.tobytes() +
+                                              las.bytes[las.end_of_points:])
+        query("las", tiles, "--output-dir", annotated_tiles, "--survey", folder / "annotated.toml", "--table",
+              programs.PATHS["shipped_table"], check=0)
+        for name, sources in (("both", [annotated_tiles]), ("one", [annotated / other.name])):
+            query("surface", *sources, "--output", self.folder / name, "--cell", CELL, check=0)
+        with netCDF4.Dataset(self.folder / "both/surface.nc") as both, \
+                netCDF4.Dataset(self.folder / "one/surface.nc") as one:
+            np.testing.assert_array_equal(both["uncertainty"][:].filled(-1), one["uncertainty"][:].filled(-1))
+        self.surface("--land", name="whole")
+        query("surface", annotated_tiles, "--output", self.folder / "land", "--cell", CELL, "--land", check=0)
+        with netCDF4.Dataset(self.folder / "land/surface.nc") as land:
+            self.assertEqual(json.loads((self.folder / "land/surface.json").read_text())["land"]["points_with_number"],
+                             json.loads((self.folder / "whole/surface.json").read_text())["land"]["points_with_number"])
+            self.assertTrue((land["sigma_line"][:][land["land_share"][:] > 0] > 0).all())
+        query("surface", annotated_tiles / bottomless.name, "--output", self.folder / "alone", "--cell", CELL, "--land",
+              check=0)
 
     def test_parts_have_land_or_not(self):
         made = [self.folder / name for name in ("a.part", "b.part", "c.part")]

@@ -47,6 +47,18 @@ class BudgetQuery:
     options: dict[str, Any]  # The fields of albtpu.v1.BudgetOptions.
     water: Water | None  # In place of its columns.
 
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What the totals lack: one sentence each."""
+        sentences = []
+        if self.options["located"] != LOCATIONS.index("pulse") + 1 and "wave_height" not in self.query.columns:
+            sentences.append("wave_height is not given: the waves that the location of the surface does not see are "
+                             "left out")
+        columns = any(name.startswith("water_") for name in self.query.columns)
+        if not columns and (self.water is None or self.water.without_column):
+            sentences.append("the contribution of the water column is left out")
+        return tuple(sentences)
+
     def batch(self, begin: int, end: int) -> tuple[dict[str, bytes], dict[str, bytes], int]:
         """The columns of the table and of the aircraft from `begin` to `end`, and the length of the longest."""
         columns = self.query.batch(begin, end)
@@ -112,6 +124,8 @@ class Budget:
     outcome_axes:    as in Uncertainties; 0 also if a number of the aircraft made the pulse INVALID.
     values:          the quantities by name.
     water:           what the service computed of the `Water` of the query; None without one.
+    left_out:        what the totals lack because it was not given, a sentence each: the waves that "local" and "level"
+                     do not see (aircraft=dict(wave_height=...)), and the water column.
     """
 
     table: TableReference
@@ -121,6 +135,7 @@ class Budget:
     outcome_axes: Numbers
     values: Mapping[str, NDArray[Any]] = field(repr=False)
     water: WaterSummary | None = None
+    left_out: tuple[str, ...] = ()
 
     def __getattr__(self, name: str) -> Any:
         if name != "values" and name in self.values:

@@ -193,7 +193,7 @@ class BudgetCalls(_Calls):
         shape = self._query.shape
         return Budget(table, sea, self._query.coverage, self._outcomes.reshape(shape), self._axes.reshape(shape),
                       {name: column.reshape(column.shape[:-1] + shape) for name, column in self._values.items()},
-                      self._water)
+                      self._water, self._asked.left_out)
 
     def _store(self, answer: Any, end: int, length: int) -> None:
         if self._asked.water is not None and not answer.HasField("water"):

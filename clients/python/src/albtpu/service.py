@@ -158,9 +158,10 @@ class Service(UncertaintySource):
                       velocity_down in m/s; roll_rate, pitch_rate, yaw_rate in degrees per s; the standard deviations
                       position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
                       heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
-                      of the elevation that the location of the surface does not see; and the contribution of the water
-                      column in place of `water`: water_sigma_along, water_sigma_vertical and water_noise in m,
-                      water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
+                      of the elevation that the location of the surface does not see: with "local" and "level" a
+                      quarter of the significant wave height (omitted: 0, and `left_out` says so); and the contribution
+                      of the water column in place of `water`: water_sigma_along, water_sigma_vertical and water_noise
+                      in m, water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
         errors:       standard deviations by source, three numbers or one: position=(north, east, down) in m, scan in
                       degrees; docs/budget.md lists all sources with their units. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
