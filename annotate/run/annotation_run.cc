@@ -4,7 +4,6 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -40,11 +39,8 @@ class Run {
         jobs_(jobs),
         progress_(run.records, jobs.size(), TotalSize(jobs)),
         verdict_(run.cause, run.record) {
-    const auto add = [&](const fs::path& file) {
-      if (const auto identity = formats::IdentityOf(file)) read_.insert(*identity);
-    };
-    for (const Job& job : jobs) add(job.input);
-    std::ranges::for_each(run.files, add);
+    for (const Job& job : jobs) read_.Add(job.input);
+    read_.Add(run.files);
   }
 
   absl::Status operator()() {
@@ -124,10 +120,7 @@ class Run {
   absl::Status CheckWritesNoInput(const Job& job) const {
     const auto check = [&](const fs::path& output) -> absl::Status {
       RETURN_IF_ERROR(formats::CheckNotTheSameFile(job.input, output));
-      const std::optional<formats::FileIdentity> identity = formats::IdentityOf(output);
-      if (!identity.has_value() || !read_.contains(*identity)) return absl::OkStatus();
-      return absl::FailedPreconditionError(
-          absl::StrCat(output.string(), ": is read by this run and would be replaced; write to another file"));
+      return read_.CheckNotReplacedBy(output);
     };
     RETURN_IF_ERROR(check(job.output));
     RETURN_IF_ERROR(check(SummaryPath(job.output)));
@@ -143,7 +136,7 @@ class Run {
   const AnnotationRun& run_;
   OutputSettings settings_;
   const std::vector<Job>& jobs_;
-  std::set<formats::FileIdentity> read_;  // Inputs, and all other files that the run reads.
+  formats::FilesRead read_;  // Inputs, and all other files that the run reads.
   FileProgress progress_;
   RunVerdict verdict_;
   std::size_t done_ = 0, failed_ = 0;

@@ -98,6 +98,28 @@ absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::
   return absl::OkStatus();
 }
 
+void FilesRead::Add(const std::filesystem::path& file) {
+  if (const std::optional<FileIdentity> identity = IdentityOf(file)) identities_.insert(*identity);
+}
+
+void FilesRead::Add(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files) Add(file);
+}
+
+absl::Status FilesRead::CheckNotReplacedBy(const std::filesystem::path& output) const {
+  const std::optional<FileIdentity> identity = IdentityOf(output);
+  if (!identity.has_value() || !identities_.contains(*identity)) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrCat(output.string(), ": is read by this run and would be replaced; write to another file"));
+}
+
+absl::Status FilesRead::CheckNotReplacedIn(const std::filesystem::path& folder,
+                                           std::span<const std::string_view> names) const {
+  for (const std::string_view name : names)
+    if (const absl::Status status = CheckNotReplacedBy(folder / name); !status.ok()) return status;
+  return absl::OkStatus();
+}
+
 bool IsUtf16(std::string_view text) {
   constexpr std::size_t kCharacters = 3;
   if (text.size() < 2 * (kCharacters + 1)) return false;

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -83,6 +85,22 @@ absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem
 // FailedPrecondition when `output` and `input` are the same file, under whatever names: the input would be replaced
 // while it is read.
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output);
+
+// The files that a run reads; those that are not there are none. With --overwrite, an output of the name of one of them
+// would replace it.
+class FilesRead {
+ public:
+  void Add(const std::filesystem::path& file);
+  void Add(const std::vector<std::filesystem::path>& files);
+
+  // FailedPrecondition when `output` is one of them, under whatever name.
+  absl::Status CheckNotReplacedBy(const std::filesystem::path& output) const;
+  // The same of files of these names in a folder.
+  absl::Status CheckNotReplacedIn(const std::filesystem::path& folder, std::span<const std::string_view> names) const;
+
+ private:
+  std::set<FileIdentity> identities_;
+};
 
 // Whether a text is UTF-16, as spreadsheets write it, by its beginning: the mark of its byte order before characters
 // of which one byte is 0, or such characters alone.

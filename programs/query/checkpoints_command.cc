@@ -47,12 +47,18 @@ absl::Status RunCheckPoints(const CheckPointsOptions& options) {
   if (annotated.empty())
     return formats::UsageError(
         "checkpoints: annotated files or check points are missing; give both, check points last");
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
   std::optional<OutputFile> output;
   if (!options.points.empty()) {
-    RETURN_IF_ERROR(formats::CheckNotTheSameFile(points, options.points));
+    ASSIGN_OR_RETURN(const std::vector<fs::path> annotated_files, quality::FilesOfAnnotated(annotated));
+    formats::FilesRead read;
+    read.Add(annotated_files);
+    read.Add(points);
+    read.Add(FilesOf(options.flags, settings));
+    RETURN_IF_ERROR(read.CheckNotReplacedBy(options.points));
     ASSIGN_OR_RETURN(output, OutputFile::Create(options.points, options.existing));
   }
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(annotated));
   ASSIGN_OR_RETURN(const quality::PointCheck check,
                    quality::CheckPointsOf(files, points, options.sigma,

@@ -13,6 +13,7 @@
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
+#include "formats/files/file_access.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
@@ -277,6 +278,10 @@ absl::Status RunPlan(const PlanOptions& options) {
   if (!options.output.empty() && !options.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
   std::optional<quality::NewFolder> folder;
   if (!options.output.empty()) {
+    formats::FilesRead read;
+    read.Add(FilesOf(options.flags, settings));
+    read.Add(options.source.file);
+    RETURN_IF_ERROR(read.CheckNotReplacedIn(options.output, quality::kPlanFiles));
     folder.emplace(options.output);
     RETURN_IF_ERROR(PrepareFolder(options.output, options.existing));
   }

@@ -15,6 +15,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "annotate/run/file_progress.h"
+#include "formats/files/file_access.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/survey_flags.h"
@@ -36,7 +37,8 @@ struct CrossCheckOptions {
 };
 
 absl::Status RunCrossCheck(const CrossCheckOptions& options) {
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
+  ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
   ASSIGN_OR_RETURN(const quality::CrossCheck check,
                    quality::CrossCheckOf(files, options.patch, seas.has_value() ? &*seas : nullptr));
@@ -108,9 +110,19 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
   return options;
 }
 
+// Where a file of the report would replace one that is read for it.
+absl::Status CheckReplacesNone(const ReportCommandOptions& flags) {
+  ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> annotated, quality::FilesOfAnnotated({flags.annotated}));
+  formats::FilesRead read;
+  read.Add(annotated);
+  for (const std::string& file : {flags.survey, flags.specification}) read.Add(file);
+  return read.CheckNotReplacedIn(flags.output, quality::kReportFiles);
+}
+
 absl::Status RunReport(const ReportCommandOptions& flags) {
   if (!flags.s44_order.empty() && !(flags.specification.empty() && flags.wanted_class.empty()))
     return formats::UsageError("report: --s44-order names a class of S-44; give it alone, or --spec and --class");
+  RETURN_IF_ERROR(CheckReplacesNone(flags));
   ASSIGN_OR_RETURN(const quality::ReportOptions options, Options(flags));
   if (!flags.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(flags.annotated));

@@ -69,7 +69,8 @@ std::vector<std::size_t> RecordsOf(const annotate::SeaTimeline& seas) {
   return records;
 }
 
-absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions& options, double index) {
+absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions& options,
+                      const config::SurveySettings& settings) {
   const std::vector<std::size_t> records = RecordsOf(seas);
   if (records.size() != 1) {
     return formats::UsageError(
@@ -79,8 +80,10 @@ absl::Status WriteSea(const annotate::SeaTimeline& seas, const SeaCommandOptions
                      "--sea-time, such as ",
                      SeaTimeText(*seas.record(records.back()).time)));
   }
-  if (seas.settings().file.has_value())
-    RETURN_IF_ERROR(formats::CheckNotTheSameFile(*seas.settings().file, options.output));
+  formats::FilesRead read;
+  read.Add(FilesOf(options.flags, settings));
+  RETURN_IF_ERROR(read.CheckNotReplacedBy(options.output));
+  const double index = annotate::IndexOrUsual(settings.water);
   ASSIGN_OR_RETURN(const UncertaintyTable table, CompileSea(SeaCompiler(), seas.sea(records.front()), index));
   return WriteTable(table, options.output, options.existing);
 }
@@ -90,9 +93,8 @@ absl::Status RunSea(const SeaCommandOptions& options) {
   if (!settings.sea.has_waves())
     return formats::UsageError("sea: no waves are given; give a FILE, --survey, or --hs and --tp");
   ASSIGN_OR_RETURN(const annotate::SeaTimeline seas, annotate::SeaTimeline::Open(settings.sea));
-  const double index = annotate::IndexOrUsual(settings.water);
-  if (!options.output.empty()) RETURN_IF_ERROR(WriteSea(seas, options, index));
-  const annotate::SlopeSurvey slopes_of(index);
+  if (!options.output.empty()) RETURN_IF_ERROR(WriteSea(seas, options, settings));
+  const annotate::SlopeSurvey slopes_of(annotate::IndexOrUsual(settings.water));
   ordered_json json = annotate::SeasHeadJson(seas);
   json["records"] = ordered_json::array();
   if (!options.json) std::cout << kHeading;

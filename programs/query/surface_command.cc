@@ -35,6 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kMerge[] = "merge";
+constexpr char kSurfaceJson[] = "surface.json";
 constexpr std::string_view kNetcdf = quality::kSurfaceFormatNames.front();
 
 struct SurfaceCommandOptions {
@@ -80,8 +81,9 @@ std::vector<quality::SurfaceFormat> FormatsOf(const SurfaceCommandOptions& optio
 
 // The points of the files that are given, at `path`.
 absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options,
+                                            const config::SurveySettings& settings,
                                             const std::vector<quality::AnnotatedLasFile>& files, const fs::path& path) {
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
   return quality::GatherPoints(
       files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr, .land = options.land},
       path);
@@ -89,6 +91,19 @@ absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options
 
 std::vector<fs::path> PathsOf(const SurfaceCommandOptions& options) {
   return {options.inputs.begin(), options.inputs.end()};
+}
+
+// The files that the command reads: parts, or annotated files with their sea.
+absl::StatusOr<formats::FilesRead> FilesReadBy(const SurfaceCommandOptions& options,
+                                               const config::SurveySettings& settings) {
+  formats::FilesRead read;
+  std::vector<fs::path> files = PathsOf(options);
+  if (!options.merges()) {
+    ASSIGN_OR_RETURN(files, quality::FilesOfAnnotated(files));
+    read.Add(FilesOf(options.flags, settings));
+  }
+  read.Add(files);
+  return read;
 }
 
 // But for empty ones.
@@ -107,16 +122,15 @@ absl::StatusOr<std::vector<quality::SurfacePart>> PartsOf(const SurfaceCommandOp
   return parts;
 }
 
-absl::Status RunPartial(const SurfaceCommandOptions& options) {
+absl::Status RunPartial(const SurfaceCommandOptions& options, const config::SurveySettings& settings) {
   const fs::path path = options.partial, folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (options.existing == Existing::kKeep && fs::exists(path))
     return absl::AlreadyExistsError(
         absl::StrCat(path.string(), ": is there already; give another name, or replace it by --overwrite"));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotatedOrNone(PathsOf(options)));
-  for (const quality::AnnotatedLasFile& file : files) RETURN_IF_ERROR(formats::CheckNotTheSameFile(file.path(), path));
   const HiddenFolder hidden(folder);
   if (hidden.path().empty()) return NotWritable(folder);
-  ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, files, hidden.path() / path.filename()));
+  ASSIGN_OR_RETURN(const quality::SurfacePart part, Gather(options, settings, files, hidden.path() / path.filename()));
   RETURN_IF_ERROR(quality::SealPart(part));
   RETURN_IF_ERROR(hidden.Publish({path.filename().string()}));
   std::cout << path.string() << "\n  " << part.facts.with_number + part.facts.dry.value_or(0) << " points of "
@@ -124,9 +138,26 @@ absl::Status RunPartial(const SurfaceCommandOptions& options) {
   return FlushStandardOutput();
 }
 
+// The files of a surface, of which an earlier one may have others, replace none that is read.
+absl::Status CheckFilesAreKept(const formats::FilesRead& read, const fs::path& folder) {
+  RETURN_IF_ERROR(read.CheckNotReplacedBy(folder / kSurfaceJson));
+  for (const quality::SurfaceFormat format : quality::kSurfaceFormats)
+    RETURN_IF_ERROR(read.CheckNotReplacedBy(folder / quality::FileOf(format)));
+  return absl::OkStatus();
+}
+
 absl::Status RunSurface(const SurfaceCommandOptions& options) {
   RETURN_IF_ERROR(CheckUsage(options));
-  if (!options.partial.empty()) return RunPartial(options);
+  config::SurveySettings settings;
+  if (!options.merges()) {
+    ASSIGN_OR_RETURN(settings, SettingsOf(options.flags));
+  }
+  ASSIGN_OR_RETURN(const formats::FilesRead read, FilesReadBy(options, settings));
+  if (!options.partial.empty()) {
+    RETURN_IF_ERROR(read.CheckNotReplacedBy(options.partial));
+    return RunPartial(options, settings);
+  }
+  RETURN_IF_ERROR(CheckFilesAreKept(read, options.output));
   const std::vector<quality::SurfaceFormat> formats = FormatsOf(options);
   std::vector<quality::AnnotatedLasFile> files;
   std::vector<quality::SurfacePart> parts;
@@ -142,7 +173,7 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
   if (hidden.path().empty()) return NotWritable(options.output);
   const fs::path points = hidden.path() / ".points";
   if (!options.merges()) {
-    ASSIGN_OR_RETURN(quality::SurfacePart part, Gather(options, files, points));
+    ASSIGN_OR_RETURN(quality::SurfacePart part, Gather(options, settings, files, points));
     parts.push_back(std::move(part));
   }
   ASSIGN_OR_RETURN(const quality::MadeSurface surface, quality::MakeSurface(std::move(parts), hidden.path()));
@@ -150,11 +181,11 @@ absl::Status RunSurface(const SurfaceCommandOptions& options) {
   fs::remove(points, not_there);
   RETURN_IF_ERROR(quality::WriteRasters(surface, formats, options.organisation));
   const std::string text = surface.json->dump(2) + "\n";
-  std::ofstream json(hidden.path() / "surface.json");
+  std::ofstream json(hidden.path() / kSurfaceJson);
   json << text;
   json.close();
   if (!json) return NotWritable(options.output);
-  std::vector<std::string> names = {"surface.json"};
+  std::vector<std::string> names = {kSurfaceJson};
   for (const quality::SurfaceFormat format : formats) names.push_back(quality::FileOf(format));
   for (const quality::SurfaceFormat other : quality::kSurfaceFormats)  // Of an earlier surface.
     if (std::ranges::count(formats, other) == 0)

@@ -174,13 +174,19 @@ void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs) {
   inputs[annotate::PulseInput::kWindFrom] = Rounded(sea.wind_from);
 }
 
-absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags) {
-  ASSIGN_OR_RETURN(const SurveySettings settings, SettingsOf(flags));
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveySettings& settings) {
   std::optional<annotate::SeaTimeline> seas;
   if (settings.sea.has_waves()) {
     ASSIGN_OR_RETURN(seas, annotate::SeaTimeline::Open(settings.sea));
   }
   return seas;
+}
+
+std::vector<std::filesystem::path> FilesOf(const SurveyFlags& flags, const SurveySettings& settings) {
+  std::vector<std::filesystem::path> files;
+  for (const std::optional<std::string>& file : {flags.survey, settings.sea.file, settings.sensor.name})
+    if (file.has_value()) files.emplace_back(*file);  // A sensor that is no file has no such name.
+  return files;
 }
 
 }  // namespace albtpu::programs

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
@@ -56,6 +58,9 @@ void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
 // Of commands that read annotated files: the waves that they were annotated with, given again. Absent where none are
 // given. Of a wind all is in the summaries: these flags are not needed.
 inline constexpr std::array<std::string_view, 3> kStatedOfWinds = {"--fetch", "--wind-speed", "--wind-from"};
-absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags);
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const config::SurveySettings& settings);
+
+// The files of the survey, of a sea and of a sensor that flags and settings name, for a check of the outputs.
+std::vector<std::filesystem::path> FilesOf(const SurveyFlags& flags, const config::SurveySettings& settings);
 
 }  // namespace albtpu::programs

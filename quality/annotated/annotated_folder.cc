@@ -41,7 +41,22 @@ absl::Status AddFiles(const fs::path& folder_or_file, std::vector<fs::path>& pat
   return absl::OkStatus();
 }
 
+// Those of all of them, by name.
+absl::StatusOr<std::vector<fs::path>> PathsOf(const std::vector<fs::path>& folders_or_files) {
+  std::vector<fs::path> paths;
+  for (const fs::path& each : folders_or_files) RETURN_IF_ERROR(AddFiles(each, paths));
+  std::ranges::sort(paths, {}, [](const fs::path& path) { return std::pair(path.filename(), path); });
+  return paths;
+}
+
 }  // namespace
+
+absl::StatusOr<std::vector<fs::path>> FilesOfAnnotated(const std::vector<fs::path>& folders_or_files) {
+  ASSIGN_OR_RETURN(const std::vector<fs::path> paths, PathsOf(folders_or_files));
+  std::vector<fs::path> files = paths;
+  for (const fs::path& path : paths) files.push_back(annotate::SummaryPath(path));
+  return files;
+}
 
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
   return OpenAnnotated(std::vector{folder_or_file});
@@ -56,9 +71,7 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<fs
 }
 
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vector<fs::path>& folders_or_files) {
-  std::vector<fs::path> paths;
-  for (const fs::path& each : folders_or_files) RETURN_IF_ERROR(AddFiles(each, paths));
-  std::ranges::sort(paths, {}, [](const fs::path& path) { return std::pair(path.filename(), path); });
+  ASSIGN_OR_RETURN(const std::vector<fs::path> paths, PathsOf(folders_or_files));
   const auto twice = std::ranges::adjacent_find(paths);
   if (twice != paths.end())
     return absl::InvalidArgumentError(absl::StrCat(twice->string(), ": is given twice; give each file once"));

@@ -21,4 +21,8 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::vector<st
 absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(
     const std::vector<std::filesystem::path>& folders_or_files);
 
+// All files that these read there, for a check of the outputs: LAS and LAZ files and their summaries.
+absl::StatusOr<std::vector<std::filesystem::path>> FilesOfAnnotated(
+    const std::vector<std::filesystem::path>& folders_or_files);
+
 }  // namespace albtpu::quality

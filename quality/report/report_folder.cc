@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kJson = "report.json";
-constexpr const char* kGrid = "grid.nc";
-constexpr const char* kPage = "report.html";
-constexpr const char* kPlanJson = "plan.json";
-constexpr const char* kPlanPage = "plan.html";
+constexpr const char* kJson = kReportFiles[0].data();
+constexpr const char* kGrid = kReportFiles[1].data();
+constexpr const char* kPage = kReportFiles[2].data();
+constexpr const char* kPlanJson = kPlanFiles[0].data();
+constexpr const char* kPlanPage = kPlanFiles[1].data();
 
 // Writes the JSON, the last of `names`, draws the page, and gives all files their names, the page last.
 absl::Status Finish(const HiddenFolder& hidden, const Json& json, std::vector<std::string> names, bool with_page,

@@ -1,9 +1,11 @@
 // The folder of a report or a plan: its files, which appear together, its page, and the verdict for the terminal.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -12,6 +14,10 @@
 #include "tables/file/output_folder.h"
 
 namespace albtpu::quality {
+
+// The names of the files in the folder.
+inline constexpr std::array<std::string_view, 3> kReportFiles = {"report.json", "grid.nc", "report.html"};
+inline constexpr std::array<std::string_view, 2> kPlanFiles = {"plan.json", "plan.html"};
 
 // Whether `folder` has the complete report of these files with these options, which are not newer than it.
 bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,

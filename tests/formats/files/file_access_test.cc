@@ -108,6 +108,20 @@ TEST(OutputFile, IsNotTheInputUnderAnotherName) {
   EXPECT_TRUE(CheckNotTheSameFile(input, folder / "other").ok());
 }
 
+TEST(FilesRead, AreNotReplacedUnderAnyName) {
+  const TemporaryFolder folder;
+  const std::filesystem::path input = folder.Write("in", "x");
+  folder.Write("other", "x");
+  std::filesystem::create_symlink(input, folder / "soft");
+  FilesRead read;
+  read.Add({input, folder / "absent"});
+  const auto of = [&](const char* name) { return read.CheckNotReplacedBy(folder / name); };
+  EXPECT_THAT(std::string(of("in").message()), HasSubstr("in: is read by this run"));
+  EXPECT_FALSE(of("soft").ok());
+  EXPECT_TRUE(of("absent").ok());
+  EXPECT_TRUE(of("other").ok());
+}
+
 TEST(FilesAt, AreTheVisibleOnesOfAFolderByName) {
   const TemporaryFolder folder;
   for (const char* const name : {"b", ".c", "a"}) folder.Write(name, "x");

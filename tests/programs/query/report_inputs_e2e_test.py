@@ -35,6 +35,32 @@ class Runs(Report):
         query("report", self.annotated, "--output", report, "--no-page", "--overwrite", check=0)
         self.assertEqual([path.name for path in sorted(report.iterdir())], ["grid.nc", "report.json"])
 
+    def test_never_replace_what_they_read(self):
+        annotated, table = self.folder / "annotated", self.folder / "table"
+        shutil.copytree(self.annotated, annotated)
+        table.mkdir()
+        file = min(annotated.glob("*.las"))
+        summary, points = file.with_name(file.name + ".json"), self.write("points.csv", "x,y,elevation\n1,2,3\n")
+        part, survey = table / "surface.nc", self.folder / "report.json"
+        query("surface", file, "--partial", part, check=0)
+        survey.write_text("[project]\nname = 'Mine'\n")
+        sea, plan = self.folder / "sea.toml", self.folder / "plan.json"
+        for path in (sea, plan):
+            path.write_text("[sensor]\nname = 'riegl-vq-880-g'\n")
+        before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        for path, *arguments in (
+                (file, "checkpoints", annotated, points, "--points", file),
+                (summary, "checkpoints", annotated, points, "--points", summary),
+                (points, "checkpoints", annotated, points, "--points", points),
+                (file, "surface", file, "--partial", file),
+                (summary, "surface", file, "--partial", summary),
+                (part, "surface", "merge", part, "--output", table),
+                (survey, "report", annotated, "--survey", survey, "--output", self.folder, "--no-page"),
+                (sea, "sea", "--survey", sea, "--hs", 1, "--tp", 5, "--waves-from", 200, "--output", sea),
+                (plan, "plan", "--survey", plan, "--output", self.folder, "--no-page")):
+            self.assert_fails(query(*arguments, "--overwrite"), 1, f"{path}: is read by this run and would be replaced")
+        self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}, before)
+
     def test_are_the_same_from_the_same_files(self):
         for name in ("a", "b"):
             query("report", self.annotated, "--output", self.folder / name, "--no-page", check=0)
