@@ -112,6 +112,13 @@ absl::Status CheckTerrain(const annotate::LasAnnotation& annotation, const annot
       "--trajectory-from-returns");
 }
 
+// The same for all names of a place where a file may be.
+std::filesystem::path Placed(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path placed = std::filesystem::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : placed;
+}
+
 }  // namespace
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
@@ -265,7 +272,8 @@ absl::StatusOr<std::vector<annotate::Job>> JobsOf(const LasOptions& options) {
         files.output_folder.empty() ? job.output.filename() : job.output.lexically_relative(files.output_folder);
     job.csv = folder ? (std::filesystem::path(options.csv) / name).replace_extension(kCsv)
                      : std::filesystem::path(options.csv);
-    if (job.csv.lexically_normal() == job.output.lexically_normal() || !names.insert(job.csv).second) {
+    if (const std::filesystem::path csv = Placed(job.csv);
+        csv == Placed(job.output) || csv == Placed(annotate::SummaryPath(job.output)) || !names.insert(csv).second) {
       return formats::UsageError(absl::StrCat("las: two outputs would be called ", job.csv.string(),
                                               "; give --csv another name, or annotate the inputs one at a time"));
     }

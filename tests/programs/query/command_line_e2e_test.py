@@ -142,6 +142,8 @@ class CommandLineTest(programs.Test):
                 self.assert_fails(las(source, target, more=more), 2)
         self.assert_fails(las(source), 2, "IN.las OUT.las")
         self.assert_fails(las(source, target, source), 2)
+        for csv in (target, f"{target}.json", f"{target.parent}/./{target.name}.json"):
+            self.assert_fails(las(source, target, more=("--csv", csv)), 2, f"two outputs would be called {csv}")
         self.assertEqual(las(source, target, more=("--azimuth", "-30.5")).returncode, 0)
         need["--water-level"] = "-0.5"
         self.assertEqual(las(source, target, more=("--overwrite",)).returncode, 0)
