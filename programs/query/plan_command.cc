@@ -16,7 +16,7 @@
 #include "formats/files/file_access.h"
 #include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
-#include "programs/query/options.h"
+#include "programs/query/plan_options.h"
 #include "programs/query/survey_flags.h"
 #include "quality/planning/survey_plan.h"
 #include "quality/report/report_folder.h"
@@ -24,21 +24,6 @@
 
 namespace albtpu::programs {
 namespace {
-
-struct PlanOptions {
-  SurveyFlags flags;
-  SourceOptions source;
-  std::optional<double> divergence;  // mrad
-  double altitude = 400, incidence = 20;
-  std::vector<double> altitudes = {200, 300, 400, 500, 600, 700, 800};
-  std::vector<double> incidences = {0, 5, 10, 15, 20, 25};
-  std::vector<double> kds = {0.06, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4};
-  std::vector<double> winds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  std::vector<double> heights = {0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3};  // Of waves, m.
-  std::string order = "1a", output;
-  bool json = false, no_page = false, kds_given = false, seas_given = false;
-  Existing existing = Existing::kKeep;
-};
 
 absl::StatusOr<annotate::TotalPlan> PlanOf(const config::SurveySettings& settings) {
   const bool level = settings.surface.level.has_value();
@@ -68,6 +53,7 @@ class Planner {
       : options_(options), settings_(settings), sea_(settings.sea) {}
 
   absl::StatusOr<quality::SurveyPlan> Make() {
+    RETURN_IF_ERROR(CheckPlannedSeas(options_, sea_));
     if (sea_.file.has_value()) RETURN_IF_ERROR(OpenSeries());
     const bool waves = sea_.has_waves();
     const std::size_t seas = sea_.file.has_value() ? std::max<std::size_t>(times_.size(), 1)
@@ -97,8 +83,7 @@ class Planner {
     }
     if (std::ranges::none_of(plan_.planned, [](const quality::Reaches& reaches) { return reaches.back().is_known(); }))
       return formats::UsageError(
-          "plan: no table knows the planned beam over any of these seas; give another --incidence, "
-          "--altitude or "
+          "plan: no table knows the planned beam over any of these seas; give another --incidence, --altitude or "
           "--divergence");
     return std::move(plan_);
   }
@@ -108,9 +93,6 @@ class Planner {
 
   // Opens the file of the sea: whole hours where it goes by time, otherwise its only state.
   absl::Status OpenSeries() {
-    if (options_.seas_given)
-      return formats::UsageError(
-          "plan: --winds and --wave-heights have no effect with a file of the sea; leave them out");
     RETURN_IF_ERROR(Open(sea_));
     const annotate::SeaTimeline& seas = *answerer_->timeline();
     if (!seas.by_time()) {
@@ -139,16 +121,9 @@ class Planner {
   }
 
   absl::Status Prepare(annotate::FileProgress::File& shown) {
-    const config::SeaSettings& flags = options_.flags.settings.sea;
-    if (!sea_.has_waves() && (flags.wind_speed || flags.wind_from))
-      return formats::UsageError("plan: one wind has no effect without waves (all winds are planned); give --winds");
-    if (!sea_.waves.empty() &&
-        std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
-      return formats::UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
     if (options_.kds_given && !wants_column())
       return formats::UsageError(
-          "plan: --kds has no effect without the contribution of the water column; describe the water in "
-          "--survey");
+          "plan: --kds has no effect without the contribution of the water column; describe the water in --survey");
     ASSIGN_OR_RETURN(planned_, PlanOf(settings_));
     if (options_.divergence.has_value()) {
       divergence_ = *options_.divergence;
@@ -298,36 +273,7 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* command = program.add_subcommand(
       "plan", "The depth down to which each order of S-44 can be met: for wind or waves, altitude, incidence, water");
-  AddSeaFlags(*command, options->flags, {});
-  AddTotalFlags(*command, options->flags);
-  const auto number = [&](const char* flag, auto& value, const char* help, double least, double most,
-                          const char* unit) {
-    return command->add_option(flag, value, help)->check(NumberIn(least, most, unit));
-  };
-  const auto list = [&](const char* flag, std::vector<double>& values, const char* help, double least, double most,
-                        const char* unit) { AddList(*command, flag, values, help, NumberIn(least, most, unit)); };
-  number("--altitude", options->altitude, "Planned height above the water [m]", 10, 5000, "m")->capture_default_str();
-  number("--incidence", options->incidence, "Planned angle of the beams from the vertical [degree]", 0, 60, "degree")
-      ->capture_default_str();
-  number("--divergence", options->divergence, "Full angle of the beam [mrad] (default: that of the sensor)", 0.01, 100,
-         "mrad");
-  list("--altitudes", options->altitudes, "Others to compare [m]", 10, 5000, "m");
-  list("--incidences", options->incidences, "Others to compare [degree]", 0, 60, "degree");
-  list("--kds", options->kds, "Diffuse attenuations at 532 nm to compare [1/m]", 0.001, 10, "1/m");
-  list("--winds", options->winds, "Wind speeds, where no waves are given [m/s]", 0, 100, "m/s");
-  list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01, 30, "m");
-  command->add_option("--order", options->order, "Required order of S-44")
-      ->check(OneOf({kS44OrderNames.begin(), kS44OrderNames.end()}))
-      ->capture_default_str();
-  command->add_option("--output", options->output, "Folder for plan.html and plan.json")->check(NotEmpty("folder"));
-  command->add_flag("--no-page", options->no_page, "Only plan.json, which needs no Python");
-  command->add_flag("--json", options->json, "Print JSON");
-  command->add_flag_callback(
-      "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier plan");
-  AddSourceOptions(*command, options->source);
-  Group(*command, "What is planned", {"--order", "--altitude", "--incidence", "--divergence"});
-  Group(*command, "What is compared", {"--winds", "--wave-heights", "--altitudes", "--incidences", "--kds"});
-  Group(*command, group::kOutput, {"--output", "--no-page", "--json", "--overwrite"});
+  AddPlanOptions(*command, *options);
   EndHelp(
       *command,
       "With a file of the sea that goes by time, the share of its whole hours in which each order is met, by depth;\n"
@@ -337,7 +283,8 @@ void AddPlanCommand(CLI::App& program, Run& run) {
       "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
   command->callback([options, command, &run] {
     options->kds_given = command->count("--kds") > 0;
-    options->seas_given = command->count("--winds") + command->count("--wave-heights") > 0;
+    options->winds_given = command->count("--winds") > 0;
+    options->heights_given = command->count("--wave-heights") > 0;
     run = [options] { return RunPlan(*options); };
   });
 }

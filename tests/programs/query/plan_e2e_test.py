@@ -11,6 +11,7 @@ from programs import query
 
 SENSOR = ("--sensor", "riegl-vq-880-g", "--datum-sigma", 0.08)
 DRY = (*SENSOR, "--water-column", "none")
+WAVES = ("--hs", 1, "--tp", 5, "--waves-from", 200)
 ORDERS = ("exclusive", "special", "1a", "1b", "2")
 WATER = """
 [sensor]
@@ -144,6 +145,8 @@ class Plan(programs.Test):
                                   ((*DRY, "--altitude", 0), "from 10 to 5000 m"),
                                   ((*DRY, "--kds", 0.1), "--kds has no effect"),
                                   ((*DRY, "--incidence", 60), "no table knows the planned beam"),
+                                  ((*DRY, "--wave-heights", 0.5), "--wave-heights has no effect without waves", "--hs"),
+                                  ((*DRY, *WAVES, "--winds", 5), "--winds has no effect over waves", "--wave-heights"),
                                   ((*DRY, "--output", ""), "--output")):
             self.assert_fails(query("plan", "--table", self.table, *arguments), 2, *parts)
         output = self.folder / "full"
