@@ -145,6 +145,7 @@ class Planner {
     std::vector<double> incidences = Rising(options_.incidences);
     if (!waves) {
       RETURN_IF_ERROR(Open(sea_));
+      RETURN_IF_ERROR(CheckFetch());
       RETURN_IF_ERROR(KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas));
       RETURN_IF_ERROR(KeepWithin(AxisId::kIncidence, "--incidences", incidences));
     }
@@ -178,6 +179,15 @@ class Planner {
     ASSIGN_OR_RETURN(Answerer opened, Answerer::Open(sea, options_.source, annotate::IndexOrUsual(settings_.water)));
     answerer_ = std::make_unique<Answerer>(std::move(opened));
     return absl::OkStatus();
+  }
+
+  // A longer fetch than that of the table is as good as unlimited.
+  absl::Status CheckFetch() const {
+    const double fetch = sea_.fetch.value_or(std::numeric_limits<double>::infinity());
+    const client::AxisRange& range = answerer_->source().table().axes[Index(AxisId::kFetch)];
+    if (fetch >= range.first) return absl::OkStatus();
+    return formats::UsageError(absl::StrCat("plan: the fetch of ", fetch, " m is below that of the table, which has ",
+                                            range.first, " to ", range.last, " m; give a longer --fetch, or waves"));
   }
 
   // Keeps the values that the table covers; others would look like conditions under which no depth can be reached.

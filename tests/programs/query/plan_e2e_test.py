@@ -145,6 +145,7 @@ class Plan(programs.Test):
                                   ((*DRY, "--altitude", 0), "from 10 to 5000 m"),
                                   ((*DRY, "--kds", 0.1), "--kds has no effect"),
                                   ((*DRY, "--incidence", 60), "no table knows the planned beam"),
+                                  ((*DRY, "--fetch", 0.5), "the fetch of 0.5 m is below that of the table", "--fetch"),
                                   ((*DRY, "--wave-heights", 0.5), "--wave-heights has no effect without waves", "--hs"),
                                   ((*DRY, *WAVES, "--winds", 5), "--winds has no effect over waves", "--wave-heights"),
                                   ((*DRY, "--output", ""), "--output")):
