@@ -171,7 +171,8 @@ inline constexpr std::array<Key<SurfaceSettings>, 7> kSurfaceKeys = {{
     {{"classes", "--water-classes", kClasses, "",
       "The classes of returns from the water surface; they come before its level where there are any"},
      &SurfaceSettings::classes},
-    {{"located", "--surface-located", Word{kWaysToLocate}, "local with classes of such returns, level without",
+    {{"located", "--surface-located", Word{kWaysToLocate},
+      "local with classes of such returns, level without; of a plan level with a water level, local without",
       "How the points' processing found the water surface: by the return of each pulse, a local model of returns or a "
       "level"},
      &SurfaceSettings::located},

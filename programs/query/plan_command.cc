@@ -142,6 +142,10 @@ class Planner {
     plan_.altitude = options_.altitude;
     plan_.incidence = options_.incidence;
     plan_.numbers = planned_.numbers;
+    plan_.located = std::string(kSurfaceLocationNames[static_cast<std::size_t>(planned_.options.located)]);
+    plan_.located_by = settings_.surface.located.has_value() ? "the user"
+                       : settings_.surface.level.has_value() ? "assumed: by the water level"
+                                                             : "assumed: no water level is given";
     std::vector<double> incidences = Rising(options_.incidences);
     if (!waves) {
       RETURN_IF_ERROR(Open(sea_));

@@ -106,6 +106,7 @@ std::string OfSeas(const SurveyPlan& plan) {
 
 std::string PlanText(const SurveyPlan& plan) {
   std::string text = plan.hours.has_value() ? OfHours(plan) : OfSeas(plan);
+  absl::StrAppend(&text, "  surface located: ", plan.located, " (", plan.located_by, ")\n");
   for (const annotate::StatedNumber& number : plan.numbers)
     if (number.assumed) absl::StrAppend(&text, "  ", number.name, " ", number.value, " (", number.source, ")\n");
   return text;

@@ -166,6 +166,7 @@ Json PlanJson(const SurveyPlan& plan) {
   }
   for (const PlannedAxis& axis : plan.axes)
     json["axes"].push_back(plan.hours.has_value() ? AxisOfHoursJson(axis) : AxisJson(axis));
+  json["located"] = plan.located;
   for (const annotate::StatedNumber& number : plan.numbers) {
     json["numbers"].push_back(
         {{"name", number.name}, {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}});

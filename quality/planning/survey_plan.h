@@ -82,6 +82,7 @@ struct SurveyPlan {
   std::vector<Reaches> planned;       // By sea, under the planned conditions.
   std::vector<PlannedAxis> axes;
   double altitude = 0, incidence = 0;           // The planned conditions: m, degree.
+  std::string located, located_by;              // How the water surface is located, as in a summary; who says so.
   std::vector<annotate::StatedNumber> numbers;  // Of the total, with their sources.
 };
 
@@ -91,7 +92,8 @@ std::optional<double> HighestSea(const SurveyPlan& plan, S44Order order, double 
 
 // {"order", "sea", "seas", "conditions", "planned": [by sea {"depth": {"1a": m, ...}, "limited_by": {"1a": ...}}],
 //  "greatest_sea": [{"depth", "1a", ...}],
-//  "axes": [{"name", "unit", "values", "depth": {"1a": [by value [by sea]], ...}, "limited_by": the same}], "numbers"}.
+//  "axes": [{"name", "unit", "values", "depth": {"1a": [by value [by sea]], ...}, "limited_by": the same}], "located",
+//  "numbers"}.
 // "limited_by" is of kReachLimitNames; a depth is null where no table covers the beam or the sea. Of hours, "planned",
 // "greatest_sea" and "seas" are empty, there is "hours": {"first", "last", "count", "without_sea", "tides",
 // "by_depth": [{"depth", "share": {"1a": fraction, ...}, "no_answer": {...}}]}, and axes have "share": {"1a": [by value

@@ -87,6 +87,18 @@ class Plan(programs.Test):
         self.assertIn("greatest wind speed for order special:", text)
         self.assertIn("boresight", text)
 
+    def test_says_how_the_surface_is_located(self):
+        survey = self.toml('[surface]\nlevel = "-0.5 m"\n')
+        for flags, location, source in (((), "local", "assumed: no water level is given"),
+                                        (("--survey", survey), "level", "assumed: by the water level"),
+                                        (("--surface-located", "pulse"), "pulse", "the user")):
+            flags = (*DRY, *flags, "--winds", 5)
+            self.assertEqual(self.plan(*flags)["located"], location)
+            self.assertIn(f"  surface located: {location} ({source})\n",
+                          query("plan", "--table", self.table, *flags, check=0).stdout)
+        self.assertRegex(" ".join(query("plan", "--help", check=0).stdout.split()),
+                         "of a plan level with a water level, local without")
+
     def test_varies_the_water_and_the_waves(self):
         survey = self.toml(WATER)
         plan = self.plan("--survey", survey, "--order", "special", "--kds", "0.06,0.2", "--winds", "3,8")
