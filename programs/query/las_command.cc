@@ -22,17 +22,20 @@
 namespace albtpu::programs {
 namespace {
 
-// The message for a file that has no point of the given classes.
+// The message for a file that has no point of the given classes, or only withheld ones.
 std::string ClassHint(const annotate::Job& job, const annotate::AnnotatedLas& annotated) {
+  const std::string classes = absl::StrJoin(annotated.chosen_classes, " or ");
+  if (annotated.withheld > 0)
+    return absl::StrCat(job.input.string(), ": all points of class ", classes, " are withheld (", annotated.withheld,
+                        "; the file has ", annotated.classes.Text(),
+                        "); give them numbers by --use-withheld, or name other bathymetric classes with --classes");
   const int min_class = *annotated.chosen_classes.begin();
   const bool never = annotated.point_format < formats::kFirstModernFormat && formats::kLegacyClassMask < min_class;
-  return absl::StrCat(job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
+  return absl::StrCat(job.input.string(), ": no point of class ", classes, " (",
                       never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ",
                                            formats::kLegacyClassMask, "; ")
                             : "",
-                      "the file has ", annotated.classes.Text(),
-                      annotated.withheld > 0 ? absl::StrCat("; ", annotated.withheld, " of them are withheld") : "",
-                      "); name its bathymetric classes with --classes");
+                      "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
 }
 
 // What the surveyor calls it, for reports. It decides no number, so that it is none of the parameters of a run.
