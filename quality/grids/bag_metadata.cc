@@ -12,7 +12,9 @@ namespace {
 
 constexpr char kIsoLists[] = "http://www.isotc211.org/2005/resources/Codelist/gmxCodelists.xml#";
 constexpr char kBagLists[] = "http://www.opennavsurf.org/schema/bag/bagCodelists.xml#";
-constexpr char kUnknownVertical[] = "VERT_CS[\"unknown\",VERT_DATUM[\"unknown\",2000]]";
+// Elevations upwards in metres, of a datum that is not stated.
+constexpr char kUnknownVertical[] =
+    "VERT_CS[\"unknown\",VERT_DATUM[\"unknown\",2000],UNIT[\"metre\",1],AXIS[\"Up\",UP]]";
 
 std::string Escaped(absl::string_view text) {
   return absl::StrReplaceAll(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});

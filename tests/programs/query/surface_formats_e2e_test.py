@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +21,7 @@ from simulated_survey import SimulatedSurvey
 
 CELL = 2
 EPSG = "32617"
+UPWARDS = re.compile(r'CS\[vertical,1\],\s*AXIS\["[^"]*",up,\s*LENGTHUNIT\["metre",1')
 MISSING = [name for name in ("gdalinfo", "gdallocationinfo") if not shutil.which(name)]
 NAMESPACES = {"gmi": "http://www.isotc211.org/2005/gmi", "gmd": "http://www.isotc211.org/2005/gmd",
               "gco": "http://www.isotc211.org/2005/gco", "gml": "http://www.opengis.net/gml/3.2",
@@ -172,6 +174,11 @@ class Bag(Raster):
         self.assertEqual(self.said("gmd:contact//gmd:organisationName"), "Office & Sons")
         self.assertEqual(self.said("gmd:dateStamp"), "2023-11-14")
 
+    def test_has_elevations_upwards_in_metres_of_a_datum_that_is_not_stated(self):
+        codes = self.metadata.findall("gmd:referenceSystemInfo//gmd:code", NAMESPACES)
+        self.assertEqual("".join(codes[1].itertext()).strip(),
+                         'VERT_CS["unknown",VERT_DATUM["unknown",2000],UNIT["metre",1],AXIS["Up",UP]]')
+
     def test_states_the_places_of_its_first_and_last_nodes(self):
         corners = [[float(each) for each in corner.split(",")] for corner in self.said(".//gml:coordinates").split()]
         np.testing.assert_allclose(corners, [[self.x[0], self.y[-1]], [self.x[-1], self.y[0]]], atol=1e-3)
@@ -185,7 +192,9 @@ class Bag(Raster):
 
     @unittest.skipIf(MISSING, f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
     def test_is_opened_by_gdal(self):
-        self.assert_placed(json.loads(output_of("gdalinfo", "-json", made / "surface.bag")))
+        info = json.loads(output_of("gdalinfo", "-json", made / "surface.bag"))
+        self.assert_placed(info)
+        self.assertRegex(info["coordinateSystem"]["wkt"], UPWARDS)
 
     def test_has_the_nodes_where_points_lie(self):
         self.assert_has_nodes_at_points(made / "surface.bag", ["elevation", "uncertainty"])
@@ -210,6 +219,7 @@ class VerticalDatum(programs.Test):
             wkt = json.loads(output_of("gdalinfo", "-json", new / name))["coordinateSystem"]["wkt"]
             self.assertIn(f'ID["EPSG",{EPSG}]', wkt)
             self.assertIn('VERTCRS["NAVD88 height"', wkt)
+            self.assertRegex(wkt, UPWARDS)
 
 
 class Formats(programs.Test):
