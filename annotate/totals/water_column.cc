@@ -244,7 +244,9 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
     if (!answers.interpolated(i)) continue;
     add_to(along[i], water.bias_along[i]);
     add_to(vertical[i], water.bias_vertical[i]);
-    if (water.is_beyond(i)) answers.outcomes[i] = kNoWater;
+    if (!water.is_beyond(i)) continue;
+    answers.outcomes[i] = kNoWater;
+    along[i] = vertical[i] = NAN;  // Those of the sea alone are not the point's.
   }
 }
 

@@ -46,7 +46,7 @@ inline double IndexOrUsual(const config::WaterSettings& water) { return IndexOf(
 
 // Restates the biases of the sea, as a table answers them, for the reported point (budget/total/reported_point.h);
 // finds the water's share of pulses that have an answer of the sea, and adds its biases. Call it once for each answer.
-// A pulse that the share does not know gets the outcome kNoWater.
+// A pulse that the share does not know gets the outcome kNoWater and no biases.
 void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water);
 
 }  // namespace albtpu::annotate

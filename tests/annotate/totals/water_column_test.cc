@@ -114,6 +114,8 @@ TEST_F(WaterColumnPlan, AddsBiasesToThoseOfTheSeaAndMarksPulsesBeyond) {
   // Too deep, too slanted, too wide for the field of view.
   EXPECT_EQ(answers.outcomes, (std::vector<std::uint8_t>{1, kNoWater, kNoWater, kNoWater}));
   EXPECT_EQ(OutcomeName(answers, 1), "NO_WATER");
+  EXPECT_TRUE(std::isnan(answers[Quantity::kBiasVertical][1]));
+  EXPECT_TRUE(std::isnan(answers[Quantity::kBiasAlongBeam][1]));
 }
 
 TEST_F(WaterColumnPlan, AddsTheBiasOfAnotherIndex) {

@@ -138,8 +138,15 @@ class WaterTest(programs.Test):
         murky = WATER.replace("0.15", "0.9")
         answer = self.total(murky, depth=15)
         self.assertEqual(answer["outcome"], "NO_WATER")
+        self.assertEqual((answer["bias_along_beam"], answer["bias_vertical"]), (None, None))
         self.assertIsNone(answer["thu"])
         self.assertLess(answer["water"]["greatest_depth"], 15)
+        pulses = self.write("deep.csv", "incidence,beam_azimuth,depth,altitude,footprint\n" +
+                            2 * "15,90,1,400,0.5\n" + "15,90,15,400,0.5\n")
+        survey = self.toml(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + murky)
+        query("csv", pulses, self.folder / "deep.out.csv", "--survey", survey, "--table", self.table, check=0)
+        last = (self.folder / "deep.out.csv").read_text().splitlines()[-1]
+        self.assertTrue(last.endswith(",,,,,NO_WATER"), last)
         wide = self.total(WATER.replace("field_of_view = 6", "field_of_view = 1"), depth=5)
         self.assertEqual(wide["outcome"], "NO_WATER")  # Of 2.5 footprints are 0.8 seen.
 
