@@ -223,8 +223,8 @@ class Times(Files):
             for key in ("pairs", "lines", "factor", "intervals_by"):
                 self.assertEqual(report["crosscheck"][key], self.json["crosscheck"][key], key)
             for name in ("made", "right"):
-                query("surface", folder if name == "made" else self.annotated, "--output", self.folder / f"{name}_nodes",
-                      "--cell", 2, "--overwrite", check=0)
+                query("surface", folder if name == "made" else self.annotated, "--output",
+                      self.folder / f"{name}_nodes", "--cell", 2, "--overwrite", check=0)
             with netCDF4.Dataset(self.folder / "made_nodes/surface.nc") as made, \
                     netCDF4.Dataset(self.folder / "right_nodes/surface.nc") as right:
                 np.testing.assert_array_equal(made["passes"][:], right["passes"][:])
