@@ -58,7 +58,6 @@ absl::Status CheckChannels(const formats::LasReader& reader, const LasAnnotation
   return absl::OkStatus();
 }
 
-constexpr double kMillisecond = 1e-3;  // s, exact.
 // s. Rounding to such steps moves the sensor by up to half a step. At 60 m/s and 400 m, half of the longest is 6 m, or
 // 0.9 degrees of incidence; half of the noted one is 0.3 m, less than a footprint.
 constexpr double kLongestTimeStep = 0.2, kNotedTimeStep = 0.01;
@@ -255,6 +254,7 @@ absl::Status LasBeams::TakeUnitOfTime(double seconds, const formats::LasReader& 
                                       const LasAnnotation& annotation) {
   if (seconds == seconds_) return absl::OkStatus();
   seconds_ = seconds;
+  (*json_)["seconds_per_time_unit"] = seconds;
   return prescan_.surface.has_value() ? Scan(reader, annotation) : absl::OkStatus();
 }
 
@@ -313,7 +313,8 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   RETURN_IF_ERROR(CheckTimes(reader, annotation));
   RETURN_IF_ERROR(CheckChannels(reader, annotation));
   std::unique_ptr<LasBeams> beams(new LasBeams());
-  if (plan.time_format == formats::TimeFormat::kMilliseconds) beams->seconds_ = kMillisecond;
+  if (plan.time_format == formats::TimeFormat::kMilliseconds)
+    RETURN_IF_ERROR(beams->TakeUnitOfTime(1e-3, reader, annotation));
   RETURN_IF_ERROR(beams->FindPlace(reader, annotation));
   if (plan.time_format == formats::TimeFormat::kAuto && UsesTimes(annotation))
     RETURN_IF_ERROR(formats::CheckOneClock(reader.name(), beams->prescan_.tally));

@@ -1,6 +1,5 @@
 #include "annotate/run/annotation_run.h"
 
-#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>

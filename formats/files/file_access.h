@@ -86,7 +86,7 @@ absl::StatusOr<std::vector<std::filesystem::path>> FilesAt(const std::filesystem
 // while it is read.
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output);
 
-// The files that a run reads; those that are not there are none. With --overwrite, an output of the name of one of them
+// The files that a run reads; absent ones are ignored. With --overwrite, an output of the name of one of them
 // would replace it.
 class FilesRead {
  public:

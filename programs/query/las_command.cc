@@ -149,7 +149,8 @@ class LasFiles {
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
     if (none && !many_) return absl::FailedPreconditionError(ClassHint(job, annotated) + "; nothing was written");
     if (none) annotate::Note(ClassHint(job, annotated) + "; all its points get no-data");
-    if (!none && points > 0 && bathymetric == 0) annotate::Note(ClassHint(job, annotated) + "; all are taken as dry");
+    if (!none && points > 0 && bathymetric == 0)
+      annotate::Note(ClassHint(job, annotated) + "; all others are taken as dry");
     if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source))
       NoteResolution(annotated.point_format);
     points_ += points;

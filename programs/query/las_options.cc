@@ -112,7 +112,7 @@ absl::Status CheckTerrain(const annotate::LasAnnotation& annotation, const annot
       "--trajectory-from-returns");
 }
 
-// The same for all names of a place where a file may be.
+// The canonical path, of a file that need not exist.
 std::filesystem::path Placed(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::path placed = std::filesystem::weakly_canonical(path, error);

@@ -51,10 +51,16 @@ absl::Status CheckTrueToScale(const formats::LasReader& reader, const formats::M
   ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
   const formats::LasPointFields fields(reader.header());
   const std::optional<formats::GeographicPosition> first = map.GeographicAt({fields.X(record), fields.Y(record)});
-  if (!first.has_value()) return absl::OkStatus();
-  const formats::MapMetric metric = map.MetricAt(*first);
-  for (const double metres : {metric.metres_per_x / map.unit(), metric.metres_per_y / map.unit()}) {
-    if (std::abs(metres - 1) <= kMostStretch) continue;
+  // One damaged point says nothing, and neither does a wrong box.
+  const formats::LasHeader& header = reader.header();
+  const std::optional<formats::GeographicPosition> middle =
+      map.GeographicAt({(header.least[0] + header.greatest[0]) / 2, (header.least[1] + header.greatest[1]) / 2});
+  if (!first.has_value() || !middle.has_value()) return absl::OkStatus();
+  const formats::MapMetric metric = map.MetricAt(*first), other = map.MetricAt(*middle);
+  for (double formats::MapMetric::*const axis :
+       {&formats::MapMetric::metres_per_x, &formats::MapMetric::metres_per_y}) {
+    const double metres = metric.*axis / map.unit();
+    if (std::abs(metres - 1) <= kMostStretch || std::abs(other.*axis / map.unit() - 1) <= kMostStretch) continue;
     return absl::InvalidArgumentError(absl::StrFormat(
         "%s: its coordinate system, %s, is not true to scale: 1 m of it is %.3g m on the ground, and at most %g %% of "
         "difference are allowed; annotate points in a system such as UTM",
@@ -119,10 +125,11 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   may_lack_surface_ = beams.is_string() && annotate::IsByAngle(beams.get<std::string>()) &&
                       read["answers"]["outcomes"].contains("NO_SURFACE");
   use_withheld_ = read["parameters"].value("use_withheld", Json()) == true;
-  // What the user said of the times, or what the trajectory showed.
+  // What the user said of the times, or what trajectory, water levels or sea showed.
+  const Json geometry = read["input"].value("geometry", Json());
+  if (const Json unit = MemberOf(geometry, "seconds_per_time_unit"); unit.is_number()) seconds_per_time_unit_ = unit;
   Json clock = read["parameters"].value("time_format", Json());
-  if (!clock.is_string()) clock = MemberOf(MemberOf(read["input"], "trajectory"), "time_format");
-  if (clock == formats::NameOf(formats::TimeFormat::kMilliseconds)) seconds_per_time_unit_ = 1e-3;
+  if (!clock.is_string()) clock = MemberOf(MemberOf(geometry, "trajectory"), "time_format");
   has_clock_of_header_ = !clock.is_string() || clock == formats::NameOf(formats::TimeFormat::kAuto) ||
                          clock == formats::NameOf(formats::TimeFormat::kAdjusted);
   const Json classes = read["parameters"].value("classes", Json());
@@ -184,7 +191,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
 
 bool AnnotatedLasFile::has_dates() const {
   return formats::HasGpsTime(reader_.header().point_format) && reader_.header().adjusted_gps_time &&
-         has_clock_of_header_;
+         has_clock_of_header_ && seconds_per_time_unit_ == 1;
 }
 
 std::string AnnotatedLasFile::table_digest() const {

@@ -183,6 +183,8 @@ class ClocksTest(programs.Test):
             las = self.with_times("other.las", lambda _, t: self.gps(t) % WEEK * 1e3, header)
             for chosen in ((), ("--time-format", "milliseconds")):
                 columns = self.annotated(las, None, *flags, *chosen)
+                summary = json.loads((self.folder / "out.las.json").read_text())
+                self.assertEqual(summary["input"]["geometry"]["seconds_per_time_unit"], 1e-3)
                 for name in ("water_depth", "incidence"):
                     np.testing.assert_allclose(columns[name], right[name], rtol=2e-4, atol=2e-4, err_msg=name)
 
