@@ -97,7 +97,7 @@ class AnnotatedLasFile {
   // Of the heights in metres; where the file does not state their datum, the name that the surveyor gave, or empty.
   const std::string& vertical_name() const { return vertical_name_; }
   const std::string& vertical_wkt() const { return vertical_wkt_; }
-  bool has_dates() const;                                      // Whether times are GPS seconds - 1e9, as the header says.
+  bool has_dates() const;  // Whether times are GPS seconds - 1e9, as the header says.
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
