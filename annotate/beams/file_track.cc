@@ -50,8 +50,12 @@ std::optional<LocalFrame> FrameAround(const formats::MapPosition& middle, const 
   };
   const std::optional<formats::MapMetric> metric = metric_at(middle.x, middle.y);
   if (!metric.has_value()) return std::nullopt;
-  LocalFrame frame = {middle.x,     middle.y,           metric->metres_per_x, metric->metres_per_y,
-                      metres_per_z, metric->convergence};
+  LocalFrame frame = {.origin_x = middle.x,
+                      .origin_y = middle.y,
+                      .metres_per_x = metric->metres_per_x,
+                      .metres_per_y = metric->metres_per_y,
+                      .metres_per_z = metres_per_z,
+                      .convergence = metric->convergence};
   const auto slope_to = [&](double x, double y) {
     const std::optional<formats::MapMetric> there = metric_at(x, y);
     if (!there.has_value()) return 0.0;

@@ -82,7 +82,11 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   ASSIGN_OR_RETURN(const double metres_per_z, MetresPerHeightUnit(reader, plan, crs));
   place.map = crs.map;
   // Without a coordinate system, x and y are in the unit of heights.
-  place.frame = {middle.x, middle.y, metres_per_z, metres_per_z, metres_per_z};
+  place.frame = {.origin_x = middle.x,
+                 .origin_y = middle.y,
+                 .metres_per_x = metres_per_z,
+                 .metres_per_y = metres_per_z,
+                 .metres_per_z = metres_per_z};
   if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), middle)) {
     return absl::InvalidArgumentError(absl::StrCat(
         reader.name(), ": its points seem to be in degrees (x ", middle.x, ", y ", middle.y,

@@ -32,6 +32,8 @@ namespace albtpu::quality {
 // survey does not have.
 enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory, kNoChannel };
 
+inline constexpr double kLastDate = 9e10;  // s, some 2850 years; later times are no dates.
+
 // Points that take no part, and are counted apart.
 struct LeftOutPoints {
   std::uint64_t withheld = 0;  // Of the bathymetric classes, by their flag.

@@ -26,7 +26,6 @@ using Json = nlohmann::ordered_json;
 constexpr double kTvuStep = 0.002, kThuStep = 0.01;  // m, of the histograms.
 
 constexpr double kReportAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
-constexpr double kLastDate = 9e10;         // s, some 2850 years; later times are no dates.
 
 const std::vector<int>& BandEnds() {
   static const std::vector<int> ends = {1, 2, 5, 10, 15, 20, 30, 50};

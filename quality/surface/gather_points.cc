@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kLastSurveyed = 9e10;  // s, some 2850 years; later times are no dates.
-constexpr double kAdjustment = 1e9;     // s, from the times of files with dates to GPS time; exact.
+constexpr double kAdjustment = 1e9;  // s, from the times of files with dates to GPS time; exact.
 
 PartFile NameOf(const AnnotatedLasFile& file) {
   const auto& header = file.reader().header();
@@ -43,7 +42,7 @@ absl::Status CheckWater(const AnnotatedLasFile& first, const AnnotatedLasFile& f
 HorizontalGroups GroupsOf(const AnnotatedLasFile& file) {
   const Json& answers = file.summary()["answers"];
   const Json all = MemberOf(MemberOf(answers, "total"), "all");
-  // Where no bathymetric point has a total, of the dry ones.
+  // Without a total of bathymetric points, the groups are those of dry ones.
   const Json groups = MemberOf(all.is_object() ? all : MemberOf(answers, "dry"), "groups_horizontal");
   const auto fraction = [](const Json& shares, const char* name) {
     const Json number = MemberOf(shares, name);
@@ -129,7 +128,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     const bool has_dates = file.has_dates();
     const auto add = [&](const SurfacePoint& point) {
       writer.Add(point);
-      if (!has_dates || formats::IsNoTime(point.time) || std::abs(point.time) > kLastSurveyed) return;
+      if (!has_dates || formats::IsNoTime(point.time) || std::abs(point.time) > kLastDate) return;
       const double time = point.time + kAdjustment;
       if (!facts.times.has_value()) facts.times = {time, time};
       facts.times->first = std::min(facts.times->first, time);
