@@ -12,7 +12,7 @@ if (($(</proc/sys/vm/mmap_rnd_bits) > 28)) && [[ -z ${ALBTPU_FIXED_ADDRESSES-} ]
   ALBTPU_FIXED_ADDRESSES=yes exec setarch --addr-no-randomize "$0" "$@"
 fi
 
-presets=(asan tsan)
+presets=(tsan asan)  # the longer first
 if (($# > 0)); then
   presets=("$1")
   shift
