@@ -65,7 +65,7 @@ std::string CutToTerminal(std::string line) {
 
 std::string RateText(std::uint64_t records, double seconds, const std::string& record_name) {
   const double rate = static_cast<double>(records) / std::max(seconds, 1e-9);
-  return rate < 1e5 ? absl::StrFormat("%.3g %s/s", rate, record_name)
+  return rate < 1e5 ? absl::StrFormat("%.*f %s/s", rate < 10 ? 1 : 0, rate, record_name)
                     : absl::StrFormat("%.2f million %s/s", rate / 1e6, record_name);
 }
 

@@ -33,5 +33,11 @@ TEST(MessageWithDetails, IsTheMessageWhenThereAreNoDetails) {
   EXPECT_EQ(MessageWithDetails(absl::NotFoundError("no file")), "no file");
 }
 
+TEST(RateText, HasNoExponent) {
+  EXPECT_EQ(RateText(6'240'000, 2, "points"), "3.12 million points/s");
+  EXPECT_EQ(RateText(36'600, 2, "points"), "18300 points/s");
+  EXPECT_EQ(RateText(7, 2, "pulses"), "3.5 pulses/s");
+}
+
 }  // namespace
 }  // namespace albtpu::annotate
