@@ -33,15 +33,22 @@ void Check(std::string_view key, std::string_view unit, std::span<const double> 
                                 std::string(bound->others), "?"));
 }
 
+void CheckSources(std::string_view section, const StatedErrors& sigma, std::vector<std::string>& doubts) {
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    const ErrorSource& source = kErrorSources[i];
+    if (sigma.stated[i])
+      Check(absl::StrCat(std::string(section), " ", std::string(source.name)), source.unit, source.In(sigma.values),
+            doubts);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Doubts(const SurveySettings& settings) {
   std::vector<std::string> doubts;
-  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
-    const ErrorSource& source = kErrorSources[i];
-    if (settings.sigma.stated[i])
-      Check(absl::StrCat("[sigma] ", std::string(source.name)), source.unit, source.In(settings.sigma.values), doubts);
-  }
+  CheckSources("[sigma]", settings.sigma, doubts);
+  for (const ChannelSettings& channel : settings.sensor.channels)
+    CheckSources(absl::StrCat("[sensor.channel.sigma] (", channel.label(), ")"), channel.sigma, doubts);
   const auto check = [&](std::string_view key, const std::optional<double>& value) {
     if (value.has_value()) Check(key, "m", std::span(&*value, 1), doubts);
   };

@@ -54,6 +54,15 @@ absl::Status CheckBreaking(const JonswapWaves& waves, double depth) {
       std::isinf(depth) ? "" : absl::StrFormat(" in water of %g m", depth)));
 }
 
+// From tail_from on, the spectrum is that of the wind: it would take the place of the waves themselves.
+absl::Status CheckTail(const JonswapWaves& waves, double tail_from) {
+  if (tail_from > 1 / waves.peak_period) return absl::OkStatus();
+  return formats::UsageError(
+      absl::StrFormat("--tail-from (tail_from in a survey file): %g Hz is not above the peak of the waves of %g s, "
+                      "%.3g Hz, which would be left out; give more, or leave it out",
+                      tail_from, waves.peak_period, 1 / waves.peak_period));
+}
+
 }  // namespace
 
 SeaDescription SeaSettings::description() const {
@@ -135,6 +144,8 @@ absl::Status CheckSea(const SeaSettings& sea) {
   for (const JonswapWaves& waves : sea.waves) {
     const double depth = sea.water_depth.value_or(std::numeric_limits<double>::infinity());
     if (absl::Status status = CheckBreaking(waves, depth); !status.ok()) return status;
+    if (!sea.tail_from.has_value()) continue;
+    if (absl::Status status = CheckTail(waves, *sea.tail_from); !status.ok()) return status;
   }
   if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value())
     return formats::UsageError(absl::StrCat("--sea-time: '", *sea.time, "' is no time; give UTC as 2020-06-08T03:50Z"));

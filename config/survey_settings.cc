@@ -46,7 +46,8 @@ SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
     SeaSettings& sea = file.sea;
     sea.waves.clear();
     sea.file = sea.place = sea.time = {};
-    sea.longest_gap = sea.anemometer_height = sea.fetch = {};
+    sea.longest_gap = sea.anemometer_height = sea.fetch = sea.tail_from = {};
+    sea.tail = {};
   }
   if (flags.trajectory.is_given()) file.trajectory = {};
   if (flags.sensor.name.has_value()) file.sensor.channels.clear();

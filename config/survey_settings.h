@@ -327,8 +327,8 @@ struct FlagKey {
 FlagKey FindFlag(std::string_view flag);
 
 // What flags and the survey file give together. A flag overrides the key of the same meaning. Waves that are given by
-// flags, in whatever form, override the sea of the file with all that goes with its waves, and a trajectory of flags
-// that of the file.
+// flags, in whatever form, override the sea of the file with all that goes with its waves (but not the depth of the
+// water), and a trajectory of flags that of the file.
 SurveySettings Merge(const SurveySettings& flags, SurveySettings file);
 
 // The survey file: what is known of a survey beside its points, as TOML. docs/survey.md has its keys.

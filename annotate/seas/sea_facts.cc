@@ -97,12 +97,11 @@ std::string WindText(const SeaFacts& facts) {
                                      : facts.wind_speed_of == "file"  ? "of the file"
                                      : facts.wind_speed_of == "waves" ? "derived from the waves"
                                                                       : "not known: taken as calm");
-  if (facts.wind_direction_of != "none") {
-    const double from = std::fmod(DegreesOfRadians(facts.sea.x_azimuth) + 180, 360);
-    absl::StrAppendFormat(&text, " from %.0f degrees%s", from,
-                          facts.wind_direction_of == "waves" ? " (along the waves)" : "");
-  }
-  return text;
+  if (facts.wind_direction_of == "none") return text;
+  if (facts.wind_direction_of == "unknown") return text + ", direction not known";
+  const double from = std::fmod(DegreesOfRadians(facts.sea.x_azimuth) + 180, 360);
+  return absl::StrFormat("%s from %.0f degrees%s", text, from,
+                         facts.wind_direction_of == "waves" ? " (along the waves)" : "");
 }
 
 }  // namespace
@@ -124,10 +123,11 @@ SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
                         : state.wind_speed_10m.has_value()        ? "file"
                         : facts.sea.assumed.wind_speed_from_waves ? "waves"
                                                                   : "unknown";
-  facts.wind_direction_of = !(facts.sea.wind_speed_10m > 0)  ? "none"
-                            : settings.wind_from.has_value() ? "user"
-                            : state.wind_from.has_value()    ? "file"
-                                                             : "waves";
+  facts.wind_direction_of = !(facts.sea.wind_speed_10m > 0)               ? "none"
+                            : settings.wind_from.has_value()              ? "user"
+                            : state.wind_from.has_value()                 ? "file"
+                            : facts.sea.assumed.wind_direction_from_waves ? "waves"
+                                                                          : "unknown";
   const bool joined = !IsComplete(state) && !IsOfWindAlone(state) && facts.sea.wind_speed_10m > 0;
   facts.tail = joined ? settings.tail.value_or("relax") : "none";
   facts.share_measured = ShareMeasured(facts.sea);

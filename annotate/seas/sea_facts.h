@@ -21,7 +21,7 @@ struct SeaFacts {
   double axis = 0;                     // degree from north, 0 to 180: along it most of the energy travels, either way
   DescribedSea sea;
   std::string_view wind_speed_of;      // "user", "file", "waves" (derived), "unknown" (taken as calm)
-  std::string_view wind_direction_of;  // "user", "file", "waves"; "none" in a calm
+  std::string_view wind_direction_of;  // "user", "file", "waves", "unknown"; "none" in a calm
   std::string tail;                    // the rule; "none" also where nothing is joined
   double share_measured = 0;           // of the slope variance under a vertical beam of 0.6 m
   std::optional<SeaError> error;       // of the same; none where the sea is complete

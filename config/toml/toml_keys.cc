@@ -20,14 +20,16 @@ namespace fs = std::filesystem;
 // which recurses into each level, would overflow the stack.
 constexpr std::size_t kMostBytes = 32768;
 
+absl::Status TooLong(std::uintmax_t bytes, const TomlKind& kind) {
+  return absl::InvalidArgumentError(absl::StrCat("has ", bytes, " bytes (", std::string(kind.name), " has at most ",
+                                                 kMostBytes, "); give the TOML that describes ",
+                                                 std::string(kind.subject)));
+}
+
 }  // namespace
 
 absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kind) {
-  if (text.size() > kMostBytes) {
-    return absl::InvalidArgumentError(absl::StrCat("has ", text.size(), " bytes (", std::string(kind.name),
-                                                   " has at most ", kMostBytes, "); give the TOML that describes ",
-                                                   std::string(kind.subject)));
-  }
+  if (text.size() > kMostBytes) return TooLong(text.size(), kind);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -43,6 +45,8 @@ absl::StatusOr<std::string> ReadTomlText(const fs::path& path, const TomlKind& k
     return InFile(path, absl::NotFoundError(absl::StrCat("does not exist; check ", std::string(kind.given_by))));
   if (!fs::is_regular_file(path, unknown))
     return InFile(path, absl::FailedPreconditionError("is not a regular file; give a file of TOML"));
+  const std::uintmax_t bytes = fs::file_size(path, unknown);
+  if (!unknown && bytes > kMostBytes) return InFile(path, TooLong(bytes, kind));
   std::ifstream file(path, std::ios::binary);
   std::string text(kMostBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));

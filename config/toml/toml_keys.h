@@ -30,7 +30,7 @@ struct TomlKind {
 // InvalidArgument "line 3: is not TOML ..." or "has 40000 bytes ...".
 absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kind);
 
-// The text of a file, or a little more than ParseToml takes.
+// The text of a file. Fails, as ParseToml does, for one that is too long.
 absl::StatusOr<std::string> ReadTomlText(const std::filesystem::path& path, const TomlKind& kind);
 
 // A problem of the text, with the path of its file before it.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ std::vector<OpenDecision> DecisionsOf(const Suggestions& suggestions) {
   return open;
 }
 
+// So many files are described: a survey file is read up to a length that those of a whole survey would exceed.
+constexpr std::size_t kMostFiles = 8;
+
 std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Suggestions& suggestions) {
   std::vector<std::string> lines = {
       "A survey file for albtpu-query, begun by `albtpu-query init`. What the files say is filled in. What must be "
@@ -80,12 +84,19 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
       "that line.");
   lines.push_back("");
   lines.push_back("Found:");
-  for (const LasLook& look : looks)
+  for (const LasLook& look : looks | std::views::take(kMostFiles))
     for (const std::string& found : FoundLines(look)) lines.push_back("  " + found);
+  if (looks.size() > kMostFiles)
+    lines.push_back(absl::StrCat("  and ", looks.size() - kMostFiles,
+                                 " more files; `albtpu-query init FILE` says the same of each"));
   for (const std::string& difference : Differences(looks)) lines.push_back("The files differ: " + difference + ".");
+  std::vector<std::string> to_decide;
   for (const LasLook& look : looks)
     for (const std::string& message : {look.crs_message, look.units_message})
-      if (!message.empty()) lines.push_back("DECIDE, on the command line: " + message);
+      if (!message.empty()) to_decide.push_back("DECIDE, on the command line: " + message);
+  for (std::string& message : to_decide | std::views::take(kMostFiles)) lines.push_back(std::move(message));
+  if (to_decide.size() > kMostFiles)
+    lines.push_back(absl::StrCat("DECIDE the same of ", to_decide.size() - kMostFiles, " more."));
   for (std::string& line : lines) line = PrintableText(line);  // A line break would end the comment.
   return lines;
 }

@@ -217,10 +217,16 @@ std::vector<std::string> FoundLines(const LasLook& look) {
 std::vector<std::string> Differences(std::span<const LasLook> looks) {
   std::vector<std::string> lines;
   const auto compare = [&](const char* what, const auto& of, const char* remedy) {
+    constexpr std::size_t kMost = 6;  // Further ones are counted.
     std::vector<std::string> seen;
     for (const LasLook& look : looks)
       if (const std::string text = of(look); look.contents.points > 0 && std::ranges::count(seen, text) == 0)
         seen.push_back(text);
+    if (seen.size() > kMost) {
+      const std::size_t more = seen.size() - kMost;
+      seen.resize(kMost);
+      seen.push_back(absl::StrCat(more, " more"));
+    }
     if (seen.size() > 1) lines.push_back(absl::StrCat(what, " differ: ", absl::StrJoin(seen, " | "), "; ", remedy));
   };
   const auto or_none = [](const std::string& text) { return text.empty() ? std::string("not stated") : text; };

@@ -70,8 +70,13 @@ class Planner {
       shown.Reach(done_, done_);
     }
     for (std::size_t i = 0; i < plan_.seas.size(); ++i) {
-      absl::Status status = waves && !sea_.file.has_value() ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
-      if (!status.ok() && i > 0) {  // Waves that are too steep for their period.
+      absl::Status status = absl::OkStatus();
+      if (waves && !sea_.file.has_value()) {
+        const config::SeaSettings sea = WithHeight(sea_, plan_.seas[i]);
+        status = config::CheckSea(sea);
+        if (status.ok()) status = Open(sea);
+      }
+      if (!status.ok() && i > 0) {  // Waves that break, or are too steep for their period.
         annotate::Note(absl::StrCat("--wave-heights: ", plan_.seas[i], " m and more left out: ", status.message()));
         plan_.seas.resize(i);
         break;
@@ -165,8 +170,7 @@ class Planner {
         config::SurveySettings settings = settings_;
         config::WaterSettings& water = settings.water;
         water.kd = kd;
-        if (!water.kd_kind.has_value() || *water.kd_kind == "secchi" || *water.kd_kind == "jerlov")
-          water.kd_kind = "diffuse532";
+        water.kd_kind = "diffuse532";
         water.kd_sigma = water.secchi = water.absorption = water.scattering = std::nullopt;
         water.jerlov = std::nullopt;
         ASSIGN_OR_RETURN(annotate::TotalPlan total, PlanOf(settings));

@@ -57,10 +57,11 @@ struct TrajectorySummary {
   std::string remark;  // What was repaired; without the path.
 
   double duration() const { return end - start; }
-  // Records per second, gaps left out.
+  // Records per second, gaps left out, unless all steps are so long.
   double rate() const {
     const double covered = duration() - gaps.total;
-    return covered > 0 ? static_cast<double>(records - 1 - gaps.count) / covered : 0;
+    if (records > gaps.count + 1 && covered > 0) return static_cast<double>(records - 1 - gaps.count) / covered;
+    return duration() > 0 ? static_cast<double>(records - 1) / duration() : 0;
   }
 };
 

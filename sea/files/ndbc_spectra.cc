@@ -35,7 +35,7 @@ absl::StatusOr<std::optional<NdbcTable>> ReadCompanion(const std::optional<std::
   return std::optional(*std::move(table));
 }
 
-// Adds the directions of one record; counts its bins that have energy and no direction.
+// The directions of records.
 class Directions {
  public:
   Directions(const std::optional<NdbcTable>& spread, const std::optional<NdbcTable>& direction)
@@ -61,10 +61,6 @@ DirectionalEnergy Bin(double energy, const std::pair<const NdbcRow*, const NdbcR
   if (spread == nullptr || direction == nullptr || std::isnan(spread->values[i]) || std::isnan(direction->values[i]))
     return {.energy = energy};
   return SymmetricEnergy(energy, {spread->values[i]}, RadiansOfDegrees(direction->values[i]));
-}
-
-bool IsDirectional(const std::pair<const NdbcRow*, const NdbcRow*>& at) {
-  return at.first != nullptr && at.second != nullptr;
 }
 
 // The waves of a row; null with fewer than two bins. Rows without gaps share their frequencies.
@@ -96,22 +92,18 @@ absl::StatusOr<SeaSeries> ReadNdbcSpectra(const NdbcTexts& texts) {
   SeaSeries series{.format = energy.real_time ? "NDBC spectra in real time" : "NDBC spectra of the history"};
   series.record_length = kNdbcRecordLength;
   const Directions directions(spread, direction);
-  std::size_t isotropic = 0, empty = 0;
+  std::size_t empty = 0;
   for (const NdbcRow& row : energy.rows) {
-    const auto at = directions.At(row);
-    BinnedWaves waves = WavesOf(row, at);
+    BinnedWaves waves = WavesOf(row, directions.At(row));
     if (!waves) {
       ++empty;
       continue;
     }
-    if (!IsDirectional(at)) ++isotropic;
     series.records.push_back({.time = row.time, .waves = std::move(waves)});
   }
   if (series.records.empty()) return absl::InvalidArgumentError("none of its records has energy; give another file");
   if (empty > 0) series.assumed.push_back(absl::StrCat(empty, " records have no energy and are left out"));
-  if (isotropic > 0)
-    series.assumed.push_back(
-        absl::StrCat(isotropic, " records have no r2 or alpha2: their waves are taken as isotropic"));
+  NoteIsotropic(series, "r2 or alpha2");
   series.assumed.push_back(absl::StrCat("waves are taken from the buoy up to ", kNdbcTrustedUpTo, " Hz"));
   SortByTime(series);
   return series;

@@ -108,6 +108,7 @@ class SeaCsvReader {
     }
     if (lines_.cut()) return lines_.CutError();
     RETURN_IF_ERROR(Finish());
+    NoteIsotropic(series_, "r2 or alpha2");
     SortByTime(series_);
     return std::move(series_);
   }

@@ -53,9 +53,22 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription given) {
   DescribedSea sea;
   sea.spectrum = sea.resolved = Resampled(**whole, SeaWavenumbers());
   sea.x_azimuth = given.wind_from ? FullTurn(*given.wind_from + std::numbers::pi) : 0;
+  sea.assumed.axes_from_north = !given.wind_from;
   sea.wind_speed_10m = given.wind_speed_10m.value_or(0);
   sea.water_depth = given.water_depth.value_or(sea.water_depth);
   return sea;
+}
+
+void NoteIsotropic(SeaSeries& series, std::string_view what) {
+  constexpr double kNoted = 0.1;
+  const auto is_noted = [](const SeaRecord& record) {
+    const auto* bins = std::get_if<BinnedWaves>(&record.waves);
+    return bins != nullptr && (*bins)->isotropic_share() > kNoted;
+  };
+  const auto records = std::ranges::count_if(series.records, is_noted);
+  if (records > 0)
+    series.assumed.push_back(absl::StrCat(records, " records have no ", std::string(what),
+                                          " for a tenth of their energy or more: these waves are taken as isotropic"));
 }
 
 void SortByTime(SeaSeries& series) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -51,6 +52,9 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription given = {});
 
 // The description of that sea. Not for a WholeSea, which is complete.
 SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription given = {});
+
+// States in `assumed` how many records have bins without direction. `what` is missing there: "r2 or alpha2".
+void NoteIsotropic(SeaSeries& series, std::string_view what);
 
 // Sorts records by point and time. Of records for the same point and time the first one stays; `assumed` says so.
 void SortByTime(SeaSeries& series);

@@ -63,17 +63,30 @@ double BinnedSpectrum::significant_wave_height() const {
   return 4 * std::sqrt(variance);
 }
 
-double BinnedSpectrum::leading_axis() const {
+DirectionalEnergy BinnedSpectrum::peak() const {
   std::size_t peak = 0;
   for (std::size_t i = 1; i < size(); ++i)
     if (bin(i).energy > bin(peak).energy) peak = i;
-  return bin(peak).PrincipalAxis();
+  return bin(peak);
 }
 
-double BinnedSpectrum::ShortWaveAxis(double f) const {
+double BinnedSpectrum::leading_axis() const { return peak().PrincipalAxis(); }
+
+std::optional<double> BinnedSpectrum::ShortWaveAxis(double f) const {
   DirectionalEnergy sum;
   for (const double centre : ComparedFrequencies(0.75 * f, f)) sum.Add((*this)(centre));
-  return sum.energy > 0 ? sum.PrincipalAxis() : leading_axis();
+  if (!(sum.energy > 0)) sum = peak();
+  return sum.IsIsotropic() ? std::nullopt : std::optional(sum.PrincipalAxis());
+}
+
+double BinnedSpectrum::isotropic_share() const {
+  double all = 0, isotropic = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double variance = bin(i).energy * width(i);
+    all += variance;
+    if (bin(i).IsIsotropic()) isotropic += variance;
+  }
+  return all > 0 ? isotropic / all : 0;
 }
 
 }  // namespace albtpu

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sea/spectra/frequency_spectrum.h"
@@ -30,9 +31,13 @@ class BinnedSpectrum final : public FrequencySpectrum {
   double trusted_up_to() const override { return trusted_up_to_; }
   double significant_wave_height() const override;
   double leading_axis() const override;
-  double ShortWaveAxis(double f) const override;
+  std::optional<double> ShortWaveAxis(double f) const override;
+  // The share of the variance in bins that have no direction.
+  double isotropic_share() const;
 
  private:
+  DirectionalEnergy peak() const;  // The bin of the most energy.
+
   std::shared_ptr<const std::vector<double>> centres_;
   std::size_t harmonics_;
   std::vector<double> values_;  // of each bin: energy, then cosine and sine of each harmonic

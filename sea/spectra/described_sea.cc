@@ -1,5 +1,6 @@
 #include "sea/spectra/described_sea.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,8 +28,10 @@ double XAzimuth(const SeaDescription& description, double wind_speed, double tai
   if (wind_speed > 0 && description.wind_from) return *description.wind_from + std::numbers::pi;
   if (!description.waves) return 0;
   if (wind_speed == 0) return description.waves->leading_axis();
-  assumed.wind_direction_from_waves = true;
-  return description.waves->ShortWaveAxis(tail_from);
+  const std::optional<double> axis = description.waves->ShortWaveAxis(tail_from);
+  assumed.wind_direction_from_waves = axis.has_value();
+  assumed.wind_direction_unknown = !axis.has_value();
+  return axis.value_or(0);
 }
 
 // Scales S(k) by a function of k.
@@ -36,6 +39,12 @@ template <typename Weight>
 HarmonicSpectrum Weighted(HarmonicSpectrum spectrum, const Weight& weight) {
   for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum.s[i] *= weight(spectrum.k[i]);
   return spectrum;
+}
+
+// The same waves in all directions.
+void MakeIsotropic(HarmonicSpectrum& spectrum) {
+  for (std::vector<double>& harmonic : spectrum.a) std::ranges::fill(harmonic, 0);
+  for (std::vector<double>& harmonic : spectrum.b) std::ranges::fill(harmonic, 0);
 }
 
 }  // namespace
@@ -78,9 +87,10 @@ DescribedSea Describe(const SeaDescription& description) {
   sea.q = level.q;
   sea.assumed.level_held = level.held;
   sea.assumed.level_unknown = level.compared == 0;
-  const HarmonicSpectrum tail = Weighted(WindWaves(*wind, k), [&](double at) {
+  HarmonicSpectrum tail = Weighted(WindWaves(*wind, k), [&](double at) {
     return weight(at) * std::pow(sea.q, LevelPower(description.tail, at, sea.cutoff));
   });
+  if (sea.assumed.wind_direction_unknown) MakeIsotropic(tail);
   sea.spectrum = WeightedSum(sea.resolved, 1, tail, 1);
   return sea;
 }

@@ -17,7 +17,7 @@ struct SeaDescription {
   std::shared_ptr<const FrequencySpectrum> waves = {};
   // Absent: from the waves, by EquilibriumFrictionVelocity(). 0 is a calm: there are no waves but `waves`.
   std::optional<double> wind_speed_10m = {};  // m/s, from 0
-  std::optional<double> wind_from = {};       // absent: along the shortest resolved waves
+  std::optional<double> wind_from = {};       // absent: along the shortest resolved waves, if they have a direction
   std::optional<double> water_depth = {};     // m, above 0; absent or infinity: deep water
   TailRule tail = TailRule::kRelax;
   std::optional<double> tail_from = {};  // Hz, above 0; absent: the waves' own trusted_up_to()
@@ -28,9 +28,11 @@ struct SeaAssumptions {
   bool wind_speed_from_waves = false;
   bool wind_unknown = false;  // the waves do not reach the frequencies from which the wind is derived: taken as calm
   bool wind_direction_from_waves = false;
+  bool wind_direction_unknown = false;  // the waves are isotropic, and so are those of the wind
   bool tail_from_of_waves = false;
-  bool level_held = false;     // q lay outside 0.5 to 2
-  bool level_unknown = false;  // no energy to compare at the cut-off: q is 1
+  bool level_held = false;       // q lay outside 0.5 to 2
+  bool level_unknown = false;    // no energy to compare at the cut-off: q is 1
+  bool axes_from_north = false;  // of harmonics of the whole sea, which count from the wind's direction, if it is given
 };
 
 struct DescribedSea {

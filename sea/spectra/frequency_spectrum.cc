@@ -15,6 +15,11 @@ DirectionalEnergy& DirectionalEnergy::Add(const DirectionalEnergy& other, double
   return *this;
 }
 
+bool DirectionalEnergy::IsIsotropic() const {
+  constexpr double kRounding = 1e-9;
+  return std::hypot(cosine[0], sine[0]) <= kRounding * energy;
+}
+
 double DirectionalEnergy::PrincipalAxis() const { return 0.5 * std::atan2(sine[0], cosine[0]); }
 
 DirectionalEnergy SymmetricEnergy(double energy, const std::array<double, kSeaHarmonics>& means, double axis) {

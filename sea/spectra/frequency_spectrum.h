@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sea/spectra/harmonic_spectrum.h"
@@ -16,6 +17,8 @@ struct DirectionalEnergy {
 
   DirectionalEnergy& Add(const DirectionalEnergy& other, double weight = 1);
 
+  // Whether all directions have the same share, by the second harmonic.
+  bool IsIsotropic() const;
   // The compass direction [rad] of the axis along which most of the energy travels, either way.
   double PrincipalAxis() const;
 };
@@ -44,8 +47,9 @@ class FrequencySpectrum {
   // The compass direction [rad] along which the first waves, or those at the peak, travel.
   virtual double leading_axis() const = 0;
 
-  // The same for the shortest waves up to `f` [Hz]. A wind of unknown direction is assumed to blow along it.
-  virtual double ShortWaveAxis(double f) const = 0;
+  // The same for the shortest waves up to `f` [Hz]; none where they travel in all directions alike. A wind of unknown
+  // direction is assumed to blow along it.
+  virtual std::optional<double> ShortWaveAxis(double f) const = 0;
 };
 
 // S(k) and its harmonics in water of `depth` [m], with psi from the x axis, which points to the compass direction

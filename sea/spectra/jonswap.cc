@@ -92,6 +92,6 @@ double JonswapSpectrum::significant_wave_height() const {
 
 double JonswapSpectrum::leading_axis() const { return waves_.front().travels_towards; }
 
-double JonswapSpectrum::ShortWaveAxis(double) const { return OfShortestPeriod(waves_).travels_towards; }
+std::optional<double> JonswapSpectrum::ShortWaveAxis(double) const { return OfShortestPeriod(waves_).travels_towards; }
 
 }  // namespace albtpu

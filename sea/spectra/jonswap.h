@@ -42,7 +42,7 @@ class JonswapSpectrum final : public FrequencySpectrum {
   double trusted_up_to() const override;
   double significant_wave_height() const override;
   double leading_axis() const override;  // that of the first waves
-  double ShortWaveAxis(double f) const override;
+  std::optional<double> ShortWaveAxis(double f) const override;
 
   const std::vector<JonswapWaves>& waves() const { return waves_; }
 

@@ -37,6 +37,9 @@ std::vector<std::string> Sentences(const SeaAssumptions& assumed) {
   add_if(assumed.wind_speed_from_waves, "the wind speed is derived from the shortest measured waves");
   add_if(assumed.wind_unknown, "the wind is not known and cannot be derived from the waves: it is taken as calm");
   add_if(assumed.wind_direction_from_waves, "the wind blows along the shortest measured waves");
+  add_if(assumed.wind_direction_unknown,
+         "the wind's direction is not known and the shortest waves have none: its waves are taken as isotropic");
+  add_if(assumed.axes_from_north, "the harmonics count from north, because no direction of the wind is given");
   add_if(assumed.tail_from_of_waves, "the tail begins where the waves are trusted up to");
   add_if(assumed.level_held,
          "at the cut-off the waves are more than twice the wind's or less than half: the "

@@ -38,6 +38,13 @@ TEST(Doubts, AreOfStandardDeviationsInAnotherUnit) {
                           "mm?"));
 }
 
+TEST(Doubts, AreOfTheChannelsOfASensor) {
+  EXPECT_THAT(DoubtsOf("[[sensor.channel]]\nscanner_channels = [1]\nname = \"riegl-vq-880-g\"\n"
+                       "[sensor.channel.sigma]\nbottom_range = 2.5\n"),
+              ElementsAre("[sensor.channel.sigma] (scanner channel 1) bottom_range is 2.5 m, more than 1 m: is it a "
+                          "standard deviation in m, not in cm or mm?"));
+}
+
 TEST(Doubts, AreNotOfUsualNumbers) {
   EXPECT_THAT(DoubtsOf(""), IsEmpty());
   std::string all = "[sigma]\n";

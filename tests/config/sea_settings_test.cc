@@ -87,6 +87,15 @@ TEST(SeaSettings, RefusesWavesThatBreak) {
   ExpectUsageError(CheckSea(sea), "in water of 0.5 m");
 }
 
+TEST(SeaSettings, RefusesATailInPlaceOfTheWaves) {
+  SeaSettings sea;
+  sea.waves = {{.significant_wave_height = 0.5, .peak_period = 4}};
+  sea.tail_from = 0.26;
+  EXPECT_TRUE(CheckSea(sea).ok());
+  sea.tail_from = 0.25;
+  ExpectUsageError(CheckSea(sea), "0.25 Hz is not above the peak of the waves of 4 s");
+}
+
 TEST(SeaSettings, RefusesATimeThatIsNone) {
   SeaSettings sea;
   sea.file = "41010.spec";
@@ -107,11 +116,16 @@ TEST(FlagsAndSurveyFile, GiveOtherWavesOfWhichTheFlagsCount) {
   buoy.place = "41010";
   buoy.longest_gap = 9;
   buoy.wind_speed = 6;
+  buoy.tail = "none";
+  buoy.tail_from = 0.2;
+  buoy.water_depth = 5;
   const SeaSettings flags_have_waves = Merged(waves, buoy);
   EXPECT_EQ(flags_have_waves.waves.size(), 1u);
   EXPECT_FALSE(flags_have_waves.file.has_value() || flags_have_waves.place.has_value() ||
                flags_have_waves.longest_gap.has_value());
+  EXPECT_FALSE(flags_have_waves.tail.has_value() || flags_have_waves.tail_from.has_value());
   EXPECT_EQ(flags_have_waves.wind_speed, 6);
+  EXPECT_EQ(flags_have_waves.water_depth, 5);
   const SeaSettings flags_have_a_file = Merged(buoy, waves);
   EXPECT_TRUE(flags_have_a_file.waves.empty());
   EXPECT_EQ(flags_have_a_file.place, "41010");

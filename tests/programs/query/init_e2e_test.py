@@ -162,9 +162,13 @@ class Draft(InitTest):
         feet = pathlib.Path(PATHS["laz_samples"]) / "1_4_w_evlr.las"
         if not feet.exists():
             self.skipTest(f"{feet} does not exist")
-        text, _ = self.init(feet)
-        self.assertIn("DECIDE, on the command line:", text)
-        self.assertIn("--units us-ft", text)
+        self.assertRegex(self.init(feet)[0], r"(?s)DECIDE, on the command line:.{,200}--units\s")
+
+    def test_of_a_whole_survey_is_short_enough_to_be_read(self):
+        las = make_flight(self.folder / "line.las")
+        text = self.init(*[las] * 60)[0]
+        self.assertIn("and 52 more files", text)
+        self.assertIn("decisions are missing", self.las(las, "out.las", "--survey", self.toml(text)).stderr)
 
     def test_of_several_files_says_what_differs(self):
         modern = make_flight(self.folder / "a.las")
@@ -182,8 +186,8 @@ class Draft(InitTest):
         self.assertIn("The points of some files have no GPS times, so that no trajectory can be used for them", words)
 
     def test_of_a_file_without_points(self):
-        text, _ = self.init(make_flight(self.folder / "a.las"), self.empty())
-        self.assertIn("empty.las: LAS 1.4, point format 6, 0 points", text)
+        self.assertIn("empty.las: LAS 1.4, point format 6, 0 points",
+                      self.init(make_flight(self.folder / "a.las"), self.empty())[0])
         self.assertNotRegex(self.init(self.empty())[0], "from_returns = true +# a choice")
 
     def empty(self):

@@ -121,6 +121,24 @@ class Plan(programs.Test):
         self.assertEqual(json.loads(result.stdout)["seas"], [3, 5])
         self.assert_fails(query("plan", "--table", self.table, *DRY, "--winds", 99), 2, "--winds", "nothing is left")
 
+    def test_leaves_out_waves_that_break(self):
+        """Miche's limit is 0.89 m at 2 s, 0.45 m in 0.5 m of water."""
+        for flags, kept in ((("--hs", 0.3, "--tp", 2), [0.25, 0.5, 0.75]),
+                            (("--hs", 0.25, "--tp", 6, "--sea-depth", 0.5, "--wave-heights", "0.25,1,2"), [0.25])):
+            result = query("plan", *DRY, *flags, "--waves-from", 200, "--altitudes", 400, "--incidences", 20, "--json",
+                           check=0)
+            self.assertEqual(json.loads(result.stdout)["seas"], kept)
+            self.assertIn("higher than waves can be", result.stderr)
+
+    def test_attenuations_are_those_at_532_nm(self):
+        """Whatever kind the survey's own attenuation is of."""
+        plans = []
+        for kind in ("diffuse532", "satellite490"):
+            survey = self.toml(WATER.replace("diffuse532", kind))
+            plans.append(self.plan("--survey", survey, "--winds", 5, "--kds", "0.1,0.2", "--altitudes", 400,
+                                   "--incidences", 20)["axes"][-1])
+        self.assertEqual(plans[0], plans[1])
+
     def test_prints_every_condition(self):
         flags = (*DRY, "--order", "special", "--winds", "2,6,10", "--altitudes", "300,500", "--incidences", "10,20")
         text = query("plan", "--table", self.table, *flags, check=0).stdout

@@ -54,6 +54,16 @@ class SeaTest(sea_states.Test):
         text = query("pulse", *PULSE, "--hs", 0.6, "--tp", 3.2, "--waves-from", 230, check=0).stdout
         self.assertIn("assumed: the wind speed is derived", text)
         self.assertIn("derived from the waves", text)
+        isotropic, complete = self.folder / "isotropic.csv", self.folder / "complete.csv"
+        isotropic.write_text("f,E\n0.1,1\n0.2,1\n0.3,0.2\n0.4,0.1\n")
+        complete.write_text("k,S,a2,b2\n0.1,1,0.5,0\n0.2,1,0.5,0\n")
+        for file, said in ((isotropic, "its waves are taken as isotropic"), (complete, "harmonics count from north")):
+            answers = [pulse("--sea", file, "--wind-speed", 6, "--beam-azimuth", azimuth) for azimuth in (0, 90)]
+            sea = answers[0]["sea"]["first"]
+            self.assertEqual(sea["wind_direction_of"], "unknown")
+            self.assertTrue(any(said in sentence for sentence in sea["assumed"]), sea["assumed"])
+            north, east = (numbers(answer)[2:4] for answer in answers)
+            self.assertEqual(np.allclose(north, east, rtol=1e-5), file == isotropic, (north, east))
         errors = pulse(*WAVES, "--standard-errors")
         self.assertAlmostEqual(errors["thu_standard_error"] / errors["thu"],
                                errors["sea"]["first"]["relative_standard_error"]["total"], delta=0.02)

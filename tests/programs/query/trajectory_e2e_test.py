@@ -64,6 +64,12 @@ class Trajectory(programs.Test):
         self.assertLess(shown["velocity_difference"], 0.007 * SPEED)
         self.assertIsNone(shown["sigma_north"])
 
+    def test_of_few_records_has_their_rate(self):
+        data, size = sbet(gap=(0, 0)), 17 * 8
+        thinned = b"".join(data[at * size:(at + 1) * size] for at in range(0, len(data) // size, 25))
+        shown, = self.json_of(self.file("a.out", thinned))
+        self.assertAlmostEqual(shown["rate"], 2, delta=1e-6)
+
     def test_shows_an_smrmsg(self):
         shown, = self.json_of(self.file("a.out", smrmsg()))
         self.assertEqual((shown["format"], shown["records"], shown["gaps"], shown["rate"]), ("SMRMSG", 20, 0, 1))

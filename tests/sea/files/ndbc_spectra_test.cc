@@ -66,9 +66,19 @@ TEST(NdbcRealTime, IsIsotropicWhereSpreadOrDirectionIsMissing) {
 TEST(NdbcRealTime, SaysWhereDirectionsAreMissing) {
   const auto without = ReadNdbcSpectra({.energy = kEnergy});
   EXPECT_THAT(without->assumed, Contains(HasSubstr("2 records have no r2 or alpha2")));
-  const std::string one_row = kSpread.substr(0, kSpread.rfind("2020"));
-  const auto partly = ReadNdbcSpectra({.energy = kEnergy, .spread = one_row, .direction = kDirection});
+  // One bin of the later record lacks alpha2, and has three quarters of the energy.
+  const auto partly = ReadNdbcSpectra({.energy = kEnergy, .spread = kSpread, .direction = kDirection});
   EXPECT_THAT(partly->assumed, Contains(HasSubstr("1 records have no r2 or alpha2")));
+  const std::string one_row = kSpread.substr(0, kSpread.rfind("2020"));
+  const auto of_one = ReadNdbcSpectra({.energy = kEnergy, .spread = one_row, .direction = kDirection});
+  EXPECT_THAT(of_one->assumed, Contains(HasSubstr("2 records have no r2 or alpha2")));
+  // Rows that are there, and have the number of a missing value in each bin.
+  std::string missing = kDirection;
+  for (const std::string value : {"30.0", "90.0", "120.0"})
+    for (std::size_t at; (at = missing.find(" " + value + " ")) != std::string::npos;)
+      missing.replace(at + 1, value.size(), "999.0");
+  const auto rows = ReadNdbcSpectra({.energy = kEnergy, .spread = kSpread, .direction = missing});
+  EXPECT_THAT(rows->assumed, Contains(HasSubstr("2 records have no r2 or alpha2")));
 }
 
 TEST(NdbcRealTime, LeavesOutBinsWithoutEnergyAndRecordsWithoutBins) {

@@ -36,6 +36,7 @@ TEST(SeaCsvByFrequency, HasEnergyAndDirections) {
 
 TEST(SeaCsvByFrequency, MayHaveNoDirections) {
   const auto series = ReadSeaCsv("f,E\n0.05,0.12\n0.06,0.3\n");
+  EXPECT_THAT(series->assumed, Contains(HasSubstr("1 records have no r2 or alpha2")));
   EXPECT_EQ(std::get<BinnedWaves>(series->records[0].waves)->bin(1).energy, 0.3);
 }
 

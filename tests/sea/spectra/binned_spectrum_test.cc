@@ -85,9 +85,18 @@ TEST(BinnedSpectrum, LeadsAlongItsPeakAndEndsAlongItsShortWaves) {
     bins.push_back(SymmetricEnergy(energy, {0.8}, axis));
   const BinnedSpectrum spectrum(std::make_shared<const std::vector<double>>(std::vector{0.1, 0.3, 0.4}), bins, 1, 0.4);
   EXPECT_NEAR(spectrum.leading_axis(), 0.2, 1e-14);
-  EXPECT_GT(spectrum.ShortWaveAxis(0.4), 0.9);
-  EXPECT_LT(spectrum.ShortWaveAxis(0.4), 1.1);
-  EXPECT_NEAR(spectrum.ShortWaveAxis(0.2), 0.2, 1e-14);  // no bin there
+  EXPECT_GT(spectrum.ShortWaveAxis(0.4).value(), 0.9);
+  EXPECT_LT(spectrum.ShortWaveAxis(0.4).value(), 1.1);
+  EXPECT_NEAR(spectrum.ShortWaveAxis(0.2).value(), 0.2, 1e-14);  // no bin there
+  EXPECT_EQ(spectrum.isotropic_share(), 0);
+}
+
+TEST(BinnedSpectrum, MayHaveNoDirectionInShortWaves) {
+  const std::vector bins = {SymmetricEnergy(5, {0.8}, 0.2), DirectionalEnergy{.energy = 1},
+                            DirectionalEnergy{.energy = 2}};
+  const BinnedSpectrum spectrum(std::make_shared<const std::vector<double>>(std::vector{0.1, 0.2, 0.3}), bins, 1, 0.3);
+  EXPECT_EQ(spectrum.ShortWaveAxis(0.3), std::nullopt);
+  EXPECT_NEAR(spectrum.isotropic_share(), 3. / 8, 1e-14);
 }
 
 }  // namespace

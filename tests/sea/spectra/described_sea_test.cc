@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -124,6 +125,22 @@ TEST(DescribedSea, TakesTheWindFromTheWavesAndSaysSo) {
   EXPECT_FALSE(given.assumed.wind_speed_from_waves || given.assumed.wind_direction_from_waves ||
                given.assumed.tail_from_of_waves || given.assumed.wind_unknown || given.assumed.level_held);
   EXPECT_EQ(given.tail_from, 0.3);
+}
+
+// Isotropic waves do not tell where the wind blows, and so its waves have no direction, either.
+TEST(DescribedSea, IsIsotropicWhereNothingHasADirection) {
+  const auto centres = std::make_shared<const std::vector<double>>(std::vector{0.1, 0.2, 0.3, 0.4});
+  const std::vector<DirectionalEnergy> bins(4, {.energy = 0.1});
+  const auto waves = std::make_shared<BinnedSpectrum>(centres, bins, 1, 0.4);
+  const DescribedSea sea = Describe({.waves = waves, .wind_speed_10m = 6});
+  EXPECT_TRUE(sea.assumed.wind_direction_unknown);
+  EXPECT_FALSE(sea.assumed.wind_direction_from_waves);
+  for (const std::vector<double>& harmonic : sea.spectrum.a)
+    EXPECT_EQ(std::ranges::count(harmonic, 0), harmonic.size());
+  const DescribedSea given = Describe({.waves = waves, .wind_speed_10m = 6, .wind_from = 0});
+  EXPECT_FALSE(given.assumed.wind_direction_unknown);
+  EXPECT_NEAR(MeanSquareSlope(given.spectrum), MeanSquareSlope(sea.spectrum), 1e-12);
+  EXPECT_GT(Resampled(given.spectrum, {50}).a[0][0], 0.05);
 }
 
 TEST(DescribedSea, IsWithoutEnergyToCompareAboveTheLastBin) {
