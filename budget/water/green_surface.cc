@@ -133,7 +133,8 @@ class Delays {
 // scattered many times. What is scattered forwards stays within the field of view: a + B b remain (quasi-single
 // scattering: Gordon 1973, doi:10.1364/AO.12.002803).
 double FirstOverK(const WaterOptics& optics) {
-  const double back = optics.scattering_over_absorption * std::sqrt(optics.least_fraction * optics.most_fraction);
+  const double albedo = optics.typical_albedo();
+  const double back = albedo / (1 - albedo) * optics.median_fraction();
   return (1 + back) / std::sqrt(1 + 6 * back);
 }
 

@@ -72,10 +72,14 @@ std::vector<std::string> AssumptionsOf(const KnownWater& water, const CompiledWa
           absl::StrFormat("The attenuation is known to %.3g %% (1 sigma), which is what %s is good for.",
                           100 * optics.attenuation_log_sigma, TextOf(water.optics).way));
     }
-    const double ratio = optics.scattering_over_absorption;
+    const double ratio = optics.scattering_over_absorption, albedo = ratio / (1 + ratio);
     if (!water.optics.omega0.has_value() && !water.optics.absorption.has_value()) {
-      sentences.push_back(
-          absl::StrFormat("The single-scattering albedo is %.3g, as that of coastal water.", ratio / (1 + ratio)));
+      sentences.push_back(absl::StrFormat("The single-scattering albedo is %.3g, as that of coastal water.", albedo));
+      if (optics.typical_albedo() < albedo)
+        sentences.push_back(
+            absl::StrFormat("So clear a water has an albedo of at most %.3g, because it absorbs no less "
+                            "than pure water; the spread of the attenuation changes that.",
+                            optics.typical_albedo()));
     }
     if (!water.optics.omega0_sigma.has_value() && !water.optics.absorption.has_value())
       sentences.push_back("The albedo is known to 0.1 (1 sigma).");

@@ -91,6 +91,13 @@ double WaterOptics::MaxRatio(double attenuation, double backscatter_fraction) {
   return std::max(0.0, (relative * relative - 1) / (6 * backscatter_fraction));
 }
 
+double WaterOptics::median_fraction() const { return std::sqrt(least_fraction * most_fraction); }
+
+double WaterOptics::typical_albedo() const {
+  const double ratio = std::min(scattering_over_absorption, MaxRatio(attenuation, median_fraction()));
+  return ratio / (1 + ratio);
+}
+
 OpticsText TextOf(const OpticsInput& given) {
   const std::string of_sun =
       absl::StrCat("K = ", kSunCosine, " Kd, the mean cosine of the sun's light in water (Gordon 1989)");
@@ -135,14 +142,13 @@ absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {
       given.kd_sigma.has_value() ? slope * *given.kd_sigma / attenuation.kd : attenuation.log_sigma;
   optics.least_fraction = given.backscatter_fraction.value_or(kMinFraction);
   optics.most_fraction = given.backscatter_fraction.value_or(kMaxFraction);
-  const double fraction = std::sqrt(optics.least_fraction * optics.most_fraction);
   const bool direct = given.absorption.has_value();
   if (direct ? *given.absorption < kPureWaterAbsorption : !(optics.attenuation > kPureWaterAbsorption)) {
     const double least = direct ? kPureWaterAbsorption : given_or_derived * kPureWaterAbsorption / optics.attenuation;
     return Invalid(absl::StrCat("the water is clearer than pure water, which absorbs ", kPureWaterAbsorption,
                                 " 1/m at 532 nm; an attenuation or absorption of its kind is above ", least, " 1/m"));
   }
-  const double greatest = WaterOptics::MaxRatio(optics.attenuation, fraction);
+  const double greatest = WaterOptics::MaxRatio(optics.attenuation, optics.median_fraction());
   const double omega0 = given.omega0.value_or(kDefaultOmega0);
   const double ratio = direct ? *given.scattering / *given.absorption : omega0 / (1 - omega0);
   if (!direct && ratio > greatest && given.omega0.has_value()) {
@@ -150,9 +156,9 @@ absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {
                                 " 1/m less absorption than pure water has; give at most ", greatest / (1 + greatest)));
   }
   const double albedo = ratio / (1 + ratio);
-  optics.scattering_over_absorption = direct ? ratio : std::min(ratio, greatest);
+  optics.scattering_over_absorption = ratio;
   if (!direct && !given.omega0.has_value()) {
-    optics.min_ratio = std::min(kMinAlbedo / (1 - kMinAlbedo), optics.scattering_over_absorption);
+    optics.min_ratio = kMinAlbedo / (1 - kMinAlbedo);
     optics.max_ratio = kMaxAlbedo / (1 - kMaxAlbedo);
   }
   const double sigma = given.omega0_sigma.value_or(direct ? 0 : kDefaultOmega0Sigma);

@@ -51,6 +51,11 @@ struct WaterOptics {
 
   // The largest b / a at an attenuation: no water absorbs less than pure water.
   static double MaxRatio(double attenuation, double backscatter_fraction);
+
+  double median_fraction() const;
+  // The single-scattering albedo at the medians. It is that of the median of b / a, or the largest that leaves the
+  // absorption of pure water: in the clearest waters most draws are limited by that, each at its own attenuation.
+  double typical_albedo() const;
 };
 
 // Absorption of pure water at 532 nm, 1/m: Pope and Fry (1997), doi:10.1364/AO.36.008710.

@@ -53,15 +53,14 @@ const WaterContribution& Usual(const WaterReceiver& receiver) {
 struct Twin {
   std::vector<double> vertical, along;
 
-  Twin(const WaterReceiver& receiver, double incidence, double depth) {
+  Twin(const WaterReceiver& receiver, double incidence, double depth, const WaterOptics& optics = Coastal()) {
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> even;
-    const WaterOptics optics = Coastal();
     const double last = Shipped().Range(WaterAxis::kOpticalDepth).second;
     for (int i = 0; i < 6000; ++i) {
-      const double attenuation =
-          std::max(1.001 * kPureWaterAbsorption, optics.attenuation * std::exp(0.26 * normal(random)));
+      const double attenuation = std::max(1.001 * kPureWaterAbsorption,
+                                          optics.attenuation * std::exp(optics.attenuation_log_sigma * normal(random)));
       const double fraction = 0.01 * std::pow(3, even(random));
       double ratio = 0;
       while (ratio < 1 || ratio > 19) ratio = 4 * std::exp(0.625 * normal(random));
@@ -118,6 +117,18 @@ TEST(WaterContribution, HasTheMomentsOfManyWaters) {
                   0.1 * std::abs(twin.vertical[twin.vertical.size() * 39 / 40]));
     }
   }
+}
+
+// Ocean as clear as its attenuation, known to 26 %, may say: half of the waters are clearer than pure water, and the
+// others may scatter as much as any. Their spread must not vanish with the scattering that the median leaves.
+TEST(WaterContribution, HasTheMomentsOfTheClearestWaters) {
+  const WaterOptics optics = *OpticsOf({.kd = 0.023, .kd_kind = KdKind::kSatellite490});
+  EXPECT_LT(optics.typical_albedo(), 0.3);
+  Twin twin(kWide, 20, 15, Coastal(0.85 * (0.0536 + 0.681 * (0.023 - 0.0224))));
+  const WaterAnswerOfSurvey answer = *Contribution(kWide, {}, optics).At(20, 15);
+  const double sigma = std::sqrt(Covariance(twin.vertical, twin.vertical));
+  EXPECT_NEAR(answer.mean_vertical, Mean(twin.vertical), 0.1 * sigma);
+  EXPECT_NEAR(answer.sigma_vertical, sigma, 0.1 * sigma);
 }
 
 // Mean, u and the interval that a program apart from this one found at 12 degrees and 10 m, too deep being positive

@@ -60,7 +60,8 @@ TEST(OpticsOf, LeavesNoLessAbsorptionThanPureWaterHas) {
   // The clearest ocean: an albedo of 0.8 would leave an absorption of 0.041 1/m.
   const absl::StatusOr<WaterOptics> clear = OpticsOf({.jerlov = "I", .backscatter_fraction = 0.0183});
   ASSERT_TRUE(clear.ok()) << clear.status();
-  const double ratio = clear->scattering_over_absorption;
+  EXPECT_NEAR(clear->scattering_over_absorption, 4, 1e-12);
+  const double ratio = clear->typical_albedo() / (1 - clear->typical_albedo());
   EXPECT_LT(ratio, 4);
   EXPECT_NEAR(clear->attenuation / std::sqrt(1 + 6 * 0.0183 * ratio), kPureWaterAbsorption, 1e-9);
   EXPECT_THAT(ProblemOf({.jerlov = "I", .omega0 = 0.8}), HasSubstr("give at most"));
