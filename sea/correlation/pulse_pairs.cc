@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sea/catmull_rom.h"
@@ -23,10 +24,13 @@ Entries EntriesOf(const SharedWaves& shared) {
 }  // namespace
 
 PulsePairs::PulsePairs(double side) : side_(side) {
-  const double longest = std::min(kReach, std::numbers::sqrt2 * side);
-  distances_ = static_cast<int>(std::asinh(longest / kFirst) / kStep) + 3;  // The cubic needs one more.
+  const double diagonal = std::numbers::sqrt2 * side;
+  const bool whole = diagonal <= kWhole;
+  reach_ = whole ? std::numeric_limits<double>::infinity() : kReach;
+  // The cubic needs one more.
+  distances_ = static_cast<int>(std::asinh((whole ? diagonal : kReach) / kFirst) / kStep) + 3;
   near_ = Eigen::VectorXd::Zero(kHarmonics * distances_ + 1);
-  if (std::numbers::sqrt2 * side <= kReach) return;
+  if (whole) return;
   constexpr int kSteps = 200;  // Along half of each axis, of the density of the lag.
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
@@ -41,7 +45,7 @@ double PulsePairs::Distance(int j) const { return kFirst * std::sinh(kStep * j);
 
 void PulsePairs::Add(const Eigen::Vector2d& lag, double weight, Eigen::VectorXd& weights) const {
   const double distance = lag.norm();
-  if (distance > kReach) {
+  if (distance > reach_) {
     weights(weights.size() - 1) += weight;
     return;
   }

@@ -16,8 +16,10 @@ namespace albtpu {
 
 class PulsePairs {
  public:
-  // Pairs further apart than this [m] have one covariance, the mean of those that are so far apart in a cell.
-  static constexpr double kReach = 8;
+  // In cells whose diagonal [m] is longer than kWhole, pairs further apart than kReach have one covariance, the mean of
+  // those that are so far apart in a cell. It is what the near ones leave of all, so that it is known well only where
+  // the far ones are many.
+  static constexpr double kWhole = 16, kReach = 8;
   // Of more pulses, pairs are those of some, spread over all, with the others.
   static constexpr std::size_t kMostPulses = 32;
   // xx, xy, xz, yy, yz and zz of the errors per depth^2, on the axes of the sea, and the heights.
@@ -40,8 +42,9 @@ class PulsePairs {
   void Add(const Eigen::Vector2d& lag, double weight, Eigen::VectorXd& weights) const;
 
   double side_;
+  double reach_;  // m
   int distances_;
-  Eigen::VectorXd near_;  // Of two random points of a cell within kReach of each other.
+  Eigen::VectorXd near_;  // Of two random points of a cell within reach of each other.
   double far_ = 0;        // How many of these pairs are further apart.
 };
 

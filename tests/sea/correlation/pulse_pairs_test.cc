@@ -100,6 +100,22 @@ TEST_F(PulsePairsOf, RandomPlacesAreThoseOfTheCellInTheMean) {
     }
 }
 
+// The furthest pairs of a cell: sparse nodes have points in opposite corners. In cells of more than 11.3 m, all pairs
+// that are further than 8 m apart have their mean.
+TEST_F(PulsePairsOf, CornersAreThoseOfTheirPairs) {
+  for (const double incidence : {0.0, 0.35}) {
+    const BeamCorrelation beam = Beam(incidence);
+    for (const double side : {5.0, 5.66, 5.7, 5.8, 6.0, 6.096, 7.0, 8.0, 10.0, 11.3, 11.4, 14.0, 20.0}) {
+      const PulsePairs pairs(side);
+      const Eigen::MatrixXf table = pairs.TableOf(beam, kOrientation);
+      const double c = 0.495 * side;
+      const std::vector<Vector2d> places = {{-c, -c}, {c, -c}, {-c, c}, {c, c}};
+      EXPECT_NEAR((4 + Sum(pairs, table, places)) / 16, (4 + SumOfEach(beam, places)) / 16, side < 11.3 ? 0.01 : 0.02)
+          << incidence << ", " << side << " m";
+    }
+  }
+}
+
 // Rasters of 600 to 1200 pulses, whose pairs are told from those of 32.
 TEST_F(PulsePairsOf, ManyPulsesAreToldFromSome) {
   std::mt19937_64 random(3);
