@@ -26,98 +26,24 @@ namespace fs = std::filesystem;
 
 constexpr int kSamples = 200;  // Of each run of the timeline.
 
-constexpr std::size_t kBeginning = 4096;  // Bytes, by which a file is recognized.
-
 // Files that a summary names one by one. It is written for each file of points, so that their number squared counts.
 constexpr std::size_t kNamedFiles = 100;
 
-bool IsNamedAsErrors(const fs::path& path) {
-  const std::string name = absl::AsciiStrToLower(path.filename().string());
-  return absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
-}
-
-bool IsSmrmsg(const fs::path& path) {
-  const absl::StatusOr<formats::MappedFile> file = formats::MappedFile::Open(path, "an SMRMSG");
-  if (!file.ok()) return false;
-  const std::string_view beginning = file->bytes().substr(0, kBeginning);
-  return !formats::AsciiTrajectory::Recognizes(beginning) && formats::SmrmsgFile::Recognizes(beginning);
-}
-
-absl::Status AddFolder(const std::string& path, TrajectoryErrors::Files& errors, std::vector<std::string>& skipped) {
-  ASSIGN_OR_RETURN(const std::vector<fs::path> files, formats::FilesAt(path));
-  std::vector<std::string> others;
-  const std::size_t before = errors.size();
-  for (const fs::path& file : files) {
-    const bool is_named = IsNamedAsErrors(file);
-    if (!IsSmrmsg(file) && (!is_named || formats::OpenTrajectory(file).ok())) {
-      if (is_named) others.push_back(file.filename().string());
-      continue;
-    }
-    ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(file));
-    errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
-  }
-  if (!others.empty()) {
-    skipped.push_back(
-        absl::StrCat(path, ": skipped ", absl::StrJoin(others, ", "), " (trajectories by their contents)"));
-  }
-  if (errors.size() > before) return absl::OkStatus();
-  return absl::NotFoundError(absl::StrCat(
-      path, ": no error file in this folder (no file is an SMRMSG by its contents", others.empty() ? "" : "; ",
-      absl::StrJoin(others, ", "), others.empty() ? "" : ": trajectories by their contents", "); name the files"));
-}
-
 }  // namespace
 
-absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths) {
-  TrajectoryErrors::Files errors;
-  std::vector<std::string> skipped;
-  for (const std::string& path : paths) {
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
-      RETURN_IF_ERROR(AddFolder(path, errors, skipped));
-      continue;
-    }
-    ASSIGN_OR_RETURN(formats::SmrmsgFile smrmsg, formats::SmrmsgFile::Open(path));
-    errors.push_back(std::make_shared<const formats::SmrmsgFile>(std::move(smrmsg)));
-  }
-  return TrajectoryErrors(std::move(errors), std::move(skipped));
-}
-
-TrajectoryErrors::TrajectoryErrors(Files files, std::vector<std::string> skipped)
-    : files_(std::move(files)), skipped_(std::move(skipped)) {
-  std::vector<formats::TimeSpan> spans;
-  spans.reserve(files_.size());
-  for (const auto& file : files_) spans.push_back({file->TimeAt(0), file->TimeAt(file->size() - 1)});
-  spans_ = formats::SpanIndex(spans);
-}
-
-TrajectoryErrors TrajectoryErrors::During(const formats::TrajectoryTimeline& timeline) const {
-  std::vector<std::size_t> found;
-  for (const formats::TimelineRun& run : timeline.runs())
-    spans_.Find({run.span().first - run.offset, run.span().last - run.offset}, found);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  Files files;
-  for (const std::size_t i : found) files.push_back(files_[i]);
-  return TrajectoryErrors(std::move(files));
-}
-
-std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
+std::optional<TrajectoryPrecision> PrecisionOf(const std::vector<formats::ErrorsOfRun>& errors,
                                                const formats::TrajectoryTimeline& timeline) {
-  const TrajectoryErrors near = errors.During(timeline);
   std::vector<double> horizontal, vertical;
-  for (const formats::TimelineRun& run : timeline.runs()) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const formats::TimelineRun& run = timeline.runs()[i];
     const double first = std::max(run.span().first, timeline.points().span.first);
     const double last = std::min(run.span().last, timeline.points().span.last);
-    for (int i = 0; first <= last && i < kSamples; ++i) {
-      const double time = first + (last - first) * i / (kSamples - 1) - run.offset;
-      for (const std::shared_ptr<const formats::SmrmsgFile>& file : near) {
-        const std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time);
-        if (!sigma.has_value()) continue;
-        horizontal.push_back(std::hypot(sigma->north, sigma->east));
-        vertical.push_back(sigma->down);
-        break;
-      }
+    for (int k = 0; first <= last && k < kSamples; ++k) {
+      const double time = first + (last - first) * k / (kSamples - 1) - run.offset;
+      const std::optional<formats::TrajectorySigma> sigma = errors[i].SigmaAt(time);
+      if (!sigma.has_value()) continue;
+      horizontal.push_back(std::hypot(sigma->north, sigma->east));
+      vertical.push_back(sigma->down);
     }
   }
   if (horizontal.empty()) return std::nullopt;
@@ -225,12 +151,11 @@ double Or(double stated, double otherwise) { return std::isfinite(stated) ? stat
 }  // namespace
 
 std::optional<formats::TrajectorySigma> TrajectoryMotions::SigmaAt(double time) const {
-  for (const formats::TimelineRun& run : timeline_.runs()) {
+  for (std::size_t i = 0; i < timeline_.runs().size(); ++i) {
+    const formats::TimelineRun& run = timeline_.runs()[i];
     if (!(time >= run.span().first && time <= run.span().last)) continue;
-    for (const std::shared_ptr<const formats::SmrmsgFile>& file : errors_) {
-      std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time - run.offset);
-      if (sigma.has_value()) return sigma;
-    }
+    if (i < errors_.size())
+      if (const auto sigma = errors_[i].SigmaAt(time - run.offset); sigma.has_value()) return sigma;
     const std::size_t next =
         formats::FirstRecordFrom(run.begin, run.end, time, [&run](std::size_t i) { return run.TimeAt(i); });
     return run.trajectory->SigmaAt(run.TimeAt(next) == time ? next : next - 1);

@@ -18,52 +18,20 @@
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/track_spline.h"
 #include "formats/trajectories/point_clock.h"
-#include "formats/trajectories/sbet_file.h"
 #include "formats/trajectories/sbet_record.h"
-#include "formats/trajectories/span_index.h"
+#include "formats/trajectories/trajectory_errors.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "formats/trajectories/water_level_file.h"
 
 namespace albtpu::annotate {
-
-// The error files (SMRMSG) of a trajectory: the uncertainty of a trajectory at the points of a file.
-
-class TrajectoryErrors {
- public:
-  using Files = std::vector<std::shared_ptr<const formats::SmrmsgFile>>;
-
-  TrajectoryErrors() = default;
-  // `skipped` are files that were left out, a line for the user each, with the reason.
-  explicit TrajectoryErrors(Files files, std::vector<std::string> skipped = {});
-
-  bool empty() const { return files_.empty(); }
-  std::size_t size() const { return files_.size(); }
-  const std::shared_ptr<const formats::SmrmsgFile>& operator[](std::size_t file) const { return files_[file]; }
-  Files::const_iterator begin() const { return files_.begin(); }
-  Files::const_iterator end() const { return files_.end(); }
-  const std::vector<std::string>& skipped() const { return skipped_; }
-
-  // Those that have records at the times of a timeline, in their order.
-  TrajectoryErrors During(const formats::TrajectoryTimeline& timeline) const;
-
- private:
-  Files files_;
-  std::vector<std::string> skipped_;
-  formats::SpanIndex spans_;
-};
-
-// Opens files and folders. Of a folder, the files that are an SMRMSG by their contents are opened, in the order of
-// their names. skipped() lists those that are trajectories although their names say otherwise (smrmsg, rms). Fails on
-// the first of the others that is not a sound SMRMSG although its name says so, and on a folder without any.
-absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths);
 
 // Medians over the part of the trajectory that has points, one standard deviation.
 struct TrajectoryPrecision {
   double horizontal = 0, vertical = 0;  // m; horizontal: the root of the sum of squares of north and east.
 };
 
-// nullopt where no error file has records at these times.
-std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
+// nullopt where no error file has records at these times. `errors` are of each run.
+std::optional<TrajectoryPrecision> PrecisionOf(const std::vector<formats::ErrorsOfRun>& errors,
                                                const formats::TrajectoryTimeline& timeline);
 
 // One incidence for all pulses, as of a cone around the vertical.
@@ -126,7 +94,7 @@ struct BeamPlan {
 
   // The files of TrajectoryFromFiles, opened and checked.
   std::shared_ptr<const formats::TrajectoryFiles> trajectories;
-  TrajectoryErrors trajectory_errors;
+  formats::TrajectoryErrors trajectory_errors;
 
   // The source of the water surface: at least one of the three.
   std::optional<double> water_level;                              // In the vertical unit and datum of the points.
@@ -155,8 +123,9 @@ nlohmann::ordered_json Parameters(const BeamPlan& plan);
 // of its positions. Standard deviations are those of the error files, or those of the trajectory file itself.
 class TrajectoryMotions final : public SensorMotions {
  public:
-  TrajectoryMotions(formats::TrajectoryTimeline timeline, const TrajectoryErrors& errors)
-      : timeline_(std::move(timeline)), errors_(errors.During(timeline_)) {}
+  // `errors` are of each run.
+  TrajectoryMotions(formats::TrajectoryTimeline timeline, std::vector<formats::ErrorsOfRun> errors)
+      : timeline_(std::move(timeline)), errors_(std::move(errors)) {}
 
   std::optional<SensorMotion> At(double time) const override;
 
@@ -164,7 +133,7 @@ class TrajectoryMotions final : public SensorMotions {
   std::optional<formats::TrajectorySigma> SigmaAt(double time) const;
 
   formats::TrajectoryTimeline timeline_;
-  TrajectoryErrors errors_;
+  std::vector<formats::ErrorsOfRun> errors_;
 };
 
 // Velocity and course of any track of the sensor; no attitude.

@@ -40,15 +40,20 @@ TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame,
   };
 }
 
-absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan, const formats::TrajectoryTimeline& timeline,
-                            FileTrack& found) {
-  const std::optional<TrajectoryPrecision> precision = PrecisionOf(plan.trajectory_errors, timeline);
+absl::Status StatePrecision(const TrackedFile& file, const std::vector<formats::ErrorsOfRun>& errors,
+                            const formats::TrajectoryTimeline& timeline, FileTrack& found) {
+  const std::optional<TrajectoryPrecision> precision = PrecisionOf(errors, timeline);
   if (!precision.has_value()) {
     return absl::FailedPreconditionError(
         absl::StrCat(file.name,
                      ": no error file of --trajectory-errors covers the times of its points; give those of "
                      "this trajectory"));
   }
+  std::set<std::string> left_out;
+  for (const formats::ErrorsOfRun& of_run : errors) left_out.insert(of_run.left_out.begin(), of_run.left_out.end());
+  if (!left_out.empty())
+    found.notes.push_back(absl::StrCat("error files of other flights at the same seconds of a week are left out: ",
+                                       absl::StrJoin(left_out, ", ")));
   (*found.json)["sigma"] = {{"horizontal", precision->horizontal}, {"vertical", precision->vertical}};
   found.notes.push_back(
       absl::StrFormat("trajectory known to %.3f m horizontally and %.3f m vertically (1 sigma, median)",
@@ -149,6 +154,7 @@ absl::StatusOr<FileTrack> TrackOfThisWeek(const TrackedFile& stated, const BeamP
   formats::TrajectoryFiles::Files fitting;
   std::vector<std::string> others;
   BeamPlan chosen = plan;
+  chosen.trajectory_errors = {};  // They are sought for the flight that is found.
   for (const std::size_t i : near) {
     const std::shared_ptr<const formats::Trajectory>& file = (*plan.trajectories)[i];
     chosen.trajectories = std::make_shared<const formats::TrajectoryFiles>(formats::TrajectoryFiles::Files{file});
@@ -159,6 +165,7 @@ absl::StatusOr<FileTrack> TrackOfThisWeek(const TrackedFile& stated, const BeamP
   }
   if (fitting.empty() || others.empty()) return contradiction;
   chosen.trajectories = std::make_shared<const formats::TrajectoryFiles>(std::move(fitting));
+  chosen.trajectory_errors = plan.trajectory_errors;
   ASSIGN_OR_RETURN(FileTrack found, TrackByClock(stated, chosen, clock, least_covered));
   found.notes.push_back(absl::StrCat("of the trajectories of these hours of a week, ", absl::StrJoin(others, ", "),
                                      others.size() > 1 ? " are" : " is", " not of this flight and left out"));
@@ -184,9 +191,12 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   const TrackedFile& file = clock.changes_times() ? changed : stated;
   FileTrack found;
   NoteRemarks(*timeline, found);
-  if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, plan, *timeline, found));
+  absl::StatusOr<std::vector<formats::ErrorsOfRun>> errors = plan.trajectory_errors.Of(*timeline);
+  if (!errors.ok())
+    return absl::Status(errors.status().code(), absl::StrCat(file.name, ": ", errors.status().message()));
+  if (!plan.trajectory_errors.empty()) RETURN_IF_ERROR(StatePrecision(file, *errors, *timeline, found));
   RETURN_IF_ERROR(formats::CheckNearPoints(file.name, *timeline, *file.map, file.extent));
-  found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
+  found.motions = std::make_unique<TrajectoryMotions>(*timeline, *std::move(errors));
   ASSIGN_OR_RETURN(found.track,
                    ProjectedTrack::Create(*std::move(timeline), file.map,
                                           {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},

@@ -186,18 +186,23 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
   const double later = clock == TrajectoryClock::kUtc ? 1 : 0;
   if (points.form == PointTimeForm::kWeekSeconds) {
     // The week of the points is not known; that of a trajectory with absolute times is.
-    double leap = kGpsMinusUtcNow;
-    double week = 0;
-    if (!week_seconds) {
-      const double gps = *GpsTimeOfTrajectory(trajectory.first);
-      leap = GpsMinusUtc(gps);
-      week = gps - trajectory.first - kSecondsPerWeek * std::floor(gps / kSecondsPerWeek);
-    }
-    const double base = week + later * leap;
-    // Points that start again from 0 span the whole week. Their trajectory is in the week in which it began.
-    const Candidate same_week = Longest(trajectory, points.span, std::array{base});
-    if (same_week.overlap >= 0) return same_week;
-    return Longest(trajectory, points.span, std::array{base, base - kSecondsPerWeek, base + kSecondsPerWeek});
+    const auto of_base = [&](double base) {
+      // Points that start again from 0 span the whole week. Their trajectory is in the week in which it began.
+      const Candidate same_week = Longest(trajectory, points.span, std::array{base});
+      if (same_week.overlap >= 0) return same_week;
+      return Longest(trajectory, points.span, std::array{base, base - kSecondsPerWeek, base + kSecondsPerWeek});
+    };
+    if (week_seconds) return of_base(later * kGpsMinusUtcNow);
+    const auto of_gps = [&](double gps) {
+      const double week = gps - trajectory.first - kSecondsPerWeek * std::floor(gps / kSecondsPerWeek);
+      return of_base(week + later * GpsMinusUtc(gps));
+    };
+    const Candidate best = of_gps(*GpsTimeOfTrajectory(trajectory.first));
+    // From 1990 to September 2011, GPS times since 1980 are as large as adjusted ones of later years.
+    constexpr double kFirstSurveys = 3e8;
+    if (best.overlap >= 0 || trajectory.first < kFirstSurveys || trajectory.first >= kAdjustedGpsOffset) return best;
+    const Candidate since_1980 = of_gps(trajectory.first);
+    return since_1980.overlap >= 0 ? since_1980 : best;
   }
   const double gps = points.span.first + kAdjustedGpsOffset;
   const double leap = later * GpsMinusUtc(gps);

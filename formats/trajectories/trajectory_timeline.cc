@@ -161,6 +161,9 @@ absl::StatusOr<TrajectoryTimeline> TrajectoryTimeline::Create(const TrajectoryFi
     AppendWithoutGaps(*kept, parts);
   }
   if (!kept.has_value() && no_overlap.ok()) no_overlap = offset_of(*files.front()).status();
+  if (!kept.has_value() && no_overlap.ok())  // Its seconds vanish beside times that are too large.
+    no_overlap = absl::InvalidArgumentError(absl::StrFormat("%s: no record at the times of the points, %s",
+                                                            files.front()->name(), DescribePointTimes(points)));
   if (!kept.has_value() && files.size() == 1) return no_overlap;
   if (!kept.has_value()) {
     return absl::InvalidArgumentError(absl::StrFormat(

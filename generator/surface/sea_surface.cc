@@ -52,6 +52,7 @@ std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFad
     return sum / total;
   };
   const double mean = moment(1, 0), second = moment(2, mean), third = moment(3, mean);
+  if (second == 0) return {WaveOfSlope(mean, psi, total), WaveOfSlope(mean, psi, 0)};  // All is at one node.
   // The roots of x^2 - third / second x - second = 0, the polynomial orthogonal to 1 and x about the mean.
   const double lean = 0.5 * third / second, root = std::sqrt(lean * lean + second);
   const double below = lean - root, above = lean + root;

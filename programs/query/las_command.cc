@@ -217,7 +217,7 @@ absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
                      formats::LoadTrajectories(files->paths, files->velocity_axes));
     for (const std::string& line : trajectories.skipped()) annotate::Note(line);
     plan.trajectories = std::make_shared<const formats::TrajectoryFiles>(std::move(trajectories));
-    ASSIGN_OR_RETURN(plan.trajectory_errors, annotate::LoadTrajectoryErrors(files->errors));
+    ASSIGN_OR_RETURN(plan.trajectory_errors, formats::LoadTrajectoryErrors(files->errors));
     for (const std::string& line : plan.trajectory_errors.skipped()) annotate::Note(line);
   }
   if (!plan.water_level_file.has_value()) return absl::OkStatus();

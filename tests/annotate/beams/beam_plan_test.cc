@@ -32,8 +32,9 @@ class TrajectoryFilesTest : public ::testing::Test {
 
 class TrajectoryMotionsTest : public TrajectoryFilesTest {
  protected:
-  TrajectoryMotions Motions(const Flight& flight, const TrajectoryErrors& errors) {
-    return {TimelineOf(flight, flight.start, flight.start + flight.duration), errors};
+  TrajectoryMotions Motions(const Flight& flight, const formats::TrajectoryErrors& errors) {
+    const formats::TrajectoryTimeline timeline = TimelineOf(flight, flight.start, flight.start + flight.duration);
+    return {timeline, *errors.Of(timeline)};
   }
 };
 
@@ -69,7 +70,7 @@ TEST_F(TrajectoryMotionsTest, SinksWhereTheHeightFalls) {
 // The file states (field + 1) cm of each field, a tenth more each second; angles are in arc minutes.
 TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
   const Flight flight;
-  const auto errors = LoadTrajectoryErrors(
+  const auto errors = formats::LoadTrajectoryErrors(
       std::vector<std::string>{folder_.Write("smrmsg.out", SmrmsgBytes(flight.start, 61)).string()});
   const std::optional<SensorMotion> motion = Motions(flight, *errors).At(flight.start + 20);
   ASSERT_TRUE(motion.has_value());
@@ -82,7 +83,7 @@ TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
 // Points count the seconds from 0 again at the end of the week, trajectories go on.
 TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFilesAfterTheEndOfTheWeek) {
   const Flight flight{.start = formats::kSecondsPerWeek - 20};
-  const auto errors = LoadTrajectoryErrors(
+  const auto errors = formats::LoadTrajectoryErrors(
       std::vector<std::string>{folder_.Write("smrmsg.out", SmrmsgBytes(flight.start, 61)).string()});
   const std::optional<SensorMotion> motion = Motions(flight, *errors).At(10);
   ASSERT_TRUE(motion.has_value());
@@ -126,8 +127,12 @@ TEST(CourseMotions, AreTheTrueVelocityAndCourseOfATrack) {
 
 class TrajectoryErrorsTest : public TrajectoryFilesTest {
  protected:
-  absl::StatusOr<TrajectoryErrors> Load(const std::vector<std::filesystem::path>& paths) {
-    return LoadTrajectoryErrors(std::vector<std::string>(paths.begin(), paths.end()));
+  absl::StatusOr<formats::TrajectoryErrors> Load(const std::vector<std::filesystem::path>& paths) {
+    return formats::LoadTrajectoryErrors(std::vector<std::string>(paths.begin(), paths.end()));
+  }
+  static std::optional<TrajectoryPrecision> Precision(const formats::TrajectoryErrors& errors,
+                                                      const formats::TrajectoryTimeline& timeline) {
+    return PrecisionOf(*errors.Of(timeline), timeline);
   }
   std::string Refusal(const std::filesystem::path& path) { return std::string(Load({path}).status().message()); }
 
@@ -138,7 +143,7 @@ TEST_F(TrajectoryErrorsTest, TakesTheErrorFilesOfAFolderByName) {
   folder_.Write("b_SMRMSG.out", SmrmsgBytes(200, 2));
   folder_.Write("a_rms.txt", SmrmsgBytes(100, 2));
   folder_.Write("flight.sbet", SbetBytes(Fly(flight_)));
-  const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.path()});
+  const absl::StatusOr<formats::TrajectoryErrors> errors = Load({folder_.path()});
   std::vector<double> starts;
   for (const auto& file : *errors) starts.push_back(file->TimeAt(0));
   EXPECT_THAT(starts, ElementsAre(100, 200));
@@ -150,7 +155,7 @@ TEST_F(TrajectoryErrorsTest, DecidesByContentsAndNotByNames) {
   folder_.Write("farms.dat", SmrmsgBytes(100, 2));
   folder_.Write("sigma.bin", SmrmsgBytes(200, 2));
   folder_.Write("notes.txt", "none");
-  const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.path()});
+  const absl::StatusOr<formats::TrajectoryErrors> errors = Load({folder_.path()});
   ASSERT_TRUE(errors.ok()) << errors.status();
   std::vector<double> starts;
   for (const auto& file : *errors) starts.push_back(file->TimeAt(0));
@@ -159,7 +164,7 @@ TEST_F(TrajectoryErrorsTest, DecidesByContentsAndNotByNames) {
 }
 
 TEST_F(TrajectoryErrorsTest, TakesAFileOfAnyName) {
-  const absl::StatusOr<TrajectoryErrors> errors = Load({folder_.Write("errors", SmrmsgBytes(100, 2))});
+  const absl::StatusOr<formats::TrajectoryErrors> errors = Load({folder_.Write("errors", SmrmsgBytes(100, 2))});
   EXPECT_EQ(errors->size(), 1u);
 }
 
@@ -182,26 +187,44 @@ void ExpectFactor(const std::optional<TrajectoryPrecision>& precision, double fa
 
 TEST_F(TrajectoryErrorsTest, StateTheMedianWhereTheFileHasItsPoints) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(300000, 61))});
-  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
-  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300040, 300050)), 5.5);
+  ExpectFactor(Precision(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
+  ExpectFactor(Precision(*errors, TimelineOf(flight_, 300040, 300050)), 5.5);
 }
 
 TEST_F(TrajectoryErrorsTest, FollowTheClockOfTheirTrajectory) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(300000, 61))});
   // Times of the trajectory and its errors are UTC; those of the points are 18 s ahead.
-  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300028, 300038, formats::TrajectoryClock::kUtc)), 2.5);
+  ExpectFactor(Precision(*errors, TimelineOf(flight_, 300028, 300038, formats::TrajectoryClock::kUtc)), 2.5);
 }
 
 TEST_F(TrajectoryErrorsTest, ComeFromTheFileThatCoversTheTime) {
   const auto errors =
       Load({folder_.Write("first", SmrmsgBytes(100000, 61)), folder_.Write("second", SmrmsgBytes(300000, 61))});
-  ExpectFactor(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
+  ExpectFactor(Precision(*errors, TimelineOf(flight_, 300010, 300020)), 2.5);
+}
+
+// Of two flights at the same hours of two weeks, the error file that begins and ends with the trajectory.
+TEST_F(TrajectoryErrorsTest, AreThoseOfTheirFlight) {
+  const std::string own = folder_.Write("own", SmrmsgBytes(300000, 61)),
+                    other = folder_.Write("other", SmrmsgBytes(299900, 300));
+  const formats::TrajectoryTimeline timeline = TimelineOf(flight_, 300010, 300020);
+  for (const auto& files : {std::vector{own, other}, std::vector{other, own}}) {
+    const auto errors = formats::LoadTrajectoryErrors(files)->Of(timeline);
+    ASSERT_TRUE(errors.ok()) << errors.status();
+    ExpectFactor(PrecisionOf(*errors, timeline), 2.5);
+    EXPECT_THAT(errors->front().left_out, ElementsAre(other));
+  }
+  const std::string third = folder_.Write("third", SmrmsgBytes(299950, 200));
+  EXPECT_THAT(std::string(formats::LoadTrajectoryErrors(std::vector{third, other})->Of(timeline).status().message()),
+              HasSubstr("neither begins and ends with "));
+  // The same file twice contradicts nothing.
+  EXPECT_EQ(formats::LoadTrajectoryErrors(std::vector{other, other})->Of(timeline)->front().files.size(), 2u);
 }
 
 TEST_F(TrajectoryErrorsTest, AreNotKnownAtOtherTimes) {
   const auto errors = Load({folder_.Write("smrmsg", SmrmsgBytes(100000, 61))});
-  EXPECT_FALSE(PrecisionOf(*errors, TimelineOf(flight_, 300010, 300020)).has_value());
-  EXPECT_FALSE(PrecisionOf({}, TimelineOf(flight_, 300010, 300020)).has_value());
+  EXPECT_FALSE(Precision(*errors, TimelineOf(flight_, 300010, 300020)).has_value());
+  EXPECT_FALSE(Precision({}, TimelineOf(flight_, 300010, 300020)).has_value());
 }
 
 }  // namespace

@@ -263,7 +263,7 @@ TEST_F(TrackFromFilesTest, RefusesATrajectoryOfAnotherTime) {
 
 TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
   const auto errors =
-      LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(flight_.start, 121))});
+      formats::LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(flight_.start, 121))});
   plan_.trajectory_errors = *errors;
   const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
   // 50 s after its start, 0.04 m (1 + 5) down; 200 samples of a minute place the median within 0.3 s.
@@ -272,7 +272,8 @@ TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
 }
 
 TEST_F(TrackFromFilesTest, RefusesErrorFilesOfAnotherTrajectory) {
-  const auto errors = LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(0, 60))});
+  const auto errors =
+      formats::LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(0, 60))});
   plan_.trajectory_errors = *errors;
   EXPECT_THAT(Refusal(), HasSubstr("in.las: no error file of --trajectory-errors covers the times"));
 }

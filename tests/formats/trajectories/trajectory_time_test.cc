@@ -66,6 +66,8 @@ TEST(TrajectoryTime, AcceptsAbsoluteTimes) {
   EXPECT_EQ(Offset({first + 1e9 - 100, first + 1e9 + 100}, WeekSeconds(305000, 305001)), -1896 * kWeek);
   EXPECT_EQ(Offset({first - 100, first + 100}, WeekSeconds(305000, 305001), TrajectoryClock::kUtc),
             17 - kBeginOfWeek1896);
+  // October 2008: since 1980 below 1e9, as adjusted times of 2040 are.
+  EXPECT_EQ(Offset({1500 * kWeek + 300000, 1500 * kWeek + 310000}, WeekSeconds(305000, 305001)), -1500 * kWeek);
 }
 
 TEST(TrajectoryTime, NamesBothRangesAndAnotherFlight) {

@@ -71,6 +71,19 @@ TEST_F(TrajectoryTimelineTest, FollowsTheFlight) {
   }
 }
 
+// Beside the largest number, which stands for no time in some files, the seconds of a trajectory vanish.
+TEST_F(TrajectoryTimelineTest, RefusesTimesThatNoClockGives) {
+  const auto file = Open("a", Fly(Flight()));
+  for (const double time : {1e17, 1e300, std::numeric_limits<double>::max()}) {
+    const auto timeline =
+        TrajectoryTimeline::Create({file}, TrajectoryClock::kGps, {{time, time}, PointTimeForm::kAdjustedStandard});
+    ASSERT_FALSE(timeline.ok()) << time;
+    EXPECT_THAT(std::string(timeline.status().message()), HasSubstr("no record at the times of the points")) << time;
+  }
+  EXPECT_TRUE(IsNoTime(std::numeric_limits<double>::max()));
+  EXPECT_FALSE(IsNoTime(1.7e15));  // Unix time in microseconds.
+}
+
 TEST_F(TrajectoryTimelineTest, KnowsNothingInAGap) {
   const std::vector<SbetRow> rows = Fly(Flight());
   std::vector<SbetRow> with_gap = Part(rows, 0, 20);

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "generator/surface/discretization.h"
+#include "sea/sampled_spectrum.h"
+#include "sea/spectra/harmonic_spectrum.h"
 #include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
@@ -51,6 +55,19 @@ TEST(SurfaceModel, HasTheSlopeVariancesOfTheClosedFormOverTheFootprint) {
     EXPECT_LE(excess.diagonal().cwiseAbs().maxCoeff(), 0.0015)
         << excess << " at " << c.wind_speed << " m/s, " << c.fetch << " m, " << c.beam.footprint << " m";
   }
+}
+
+// A swell of three lines of the lattice, beside which the spectrum is 0: of a narrow ring one node alone may have slope.
+TEST(LongWaveModel, IsFiniteWhereARingHasSlopeAtOneNode) {
+  HarmonicSpectrum swell = FlatSea(SeaWavenumbers(), 1);
+  std::fill_n(swell.s.begin() + 75, 3, 0.4);
+  for (std::size_t i = 0; i < swell.k.size(); ++i)
+    if (swell.k[i] > 2.1 && swell.k[i] < 300) swell.s[i] = 0.003 * std::pow(swell.k[i], -3);
+  const SeaState sea(
+      {.waves = KnownWaves{std::make_shared<SampledSpectrum>(swell, SpectrumText{"swell", "a test", "none"})}});
+  for (double all_patch = 10; all_patch < 60; all_patch *= 1.002)
+    for (const LongWaveModel::Wave& wave : LongWaveModel(sea, CrossFade(all_patch / 2, all_patch)).waves())
+      ASSERT_TRUE(std::isfinite(wave.variance) && wave.wavenumber.allFinite()) << all_patch;
 }
 
 // Where the footprint is narrower than the waves, as it is in most surveys, plane waves have nearly all of its slope.
