@@ -280,6 +280,16 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   return plan;
 }
 
+void TakeErrorsOfTrajectory(TotalPlan& plan) {
+  for (StatedNumber& number : plan.numbers) {
+    const bool position = number.name == kErrorSources[Index(&AirErrors::position)].name;
+    if (!position && number.name != kErrorSources[Index(&AirErrors::attitude)].name) continue;
+    if (number.source == "[sigma]") continue;
+    (position ? plan.position_by_pulse : plan.attitude_by_pulse) = true;
+    number = {number.name, "pulse by pulse", "the trajectory", false};
+  }
+}
+
 std::string SpectrumOf(const client::TableSummary& table) {
   const auto found = table.attributes.find("spectrum");
   return found != table.attributes.end() ? found->second : "";

@@ -278,8 +278,8 @@ class AsciiReader {
       trajectory.velocities_.push_back({value(kVelocityNorth), value(kVelocityEast), value(kVelocityUp)});
     const AsciiTrajectory::Line& line = trajectory.lines_.back();
     trajectory.has_grid_ = trajectory.has_grid_ || line.x != 0 || line.y != 0;
-    trajectory.has_sigma_ = trajectory.has_sigma_ || line.sigma_x > 0 || line.sigma_y > 0 || line.sigma_z > 0 ||
-                            line.sigma_roll > 0 || line.sigma_pitch > 0 || line.sigma_heading > 0;
+    trajectory.has_position_sigma_ |= line.sigma_x > 0 || line.sigma_y > 0 || line.sigma_z > 0;
+    trajectory.has_attitude_sigma_ |= line.sigma_roll > 0 || line.sigma_pitch > 0 || line.sigma_heading > 0;
     return absl::OkStatus();
   }
 
@@ -328,16 +328,15 @@ TrajectoryRecord AsciiTrajectory::Record(std::size_t record) const {
 }
 
 std::optional<TrajectorySigma> AsciiTrajectory::SigmaAt(std::size_t record) const {
-  if (!has_sigma_) return std::nullopt;
+  if (!has_position_sigma_ && !has_attitude_sigma_) return std::nullopt;
   const Line& line = lines_[record];
-  TrajectorySigma sigma;
-  sigma.north = line.sigma_y;
-  sigma.east = line.sigma_x;
-  sigma.down = line.sigma_z;
-  sigma.roll = line.sigma_roll;
-  sigma.pitch = line.sigma_pitch;
-  sigma.heading = line.sigma_heading;
-  return sigma;
+  const auto or_not = [](bool stated, float sigma) { return stated ? double{sigma} : kNotStated; };
+  return TrajectorySigma{.north = or_not(has_position_sigma_, line.sigma_y),
+                         .east = or_not(has_position_sigma_, line.sigma_x),
+                         .down = or_not(has_position_sigma_, line.sigma_z),
+                         .roll = or_not(has_attitude_sigma_, line.sigma_roll),
+                         .pitch = or_not(has_attitude_sigma_, line.sigma_pitch),
+                         .heading = or_not(has_attitude_sigma_, line.sigma_heading)};
 }
 
 std::optional<GridPosition> AsciiTrajectory::GridPositionAt(std::size_t record) const {

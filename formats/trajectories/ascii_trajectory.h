@@ -39,6 +39,7 @@ class AsciiTrajectory : public Trajectory {
   std::size_t size() const override { return lines_.size(); }
   double TimeAt(std::size_t record) const override { return lines_[record].time; }
   TrajectoryRecord Record(std::size_t record) const override;
+  // Those of position or attitude are not stated where their columns are 0 in all lines.
   std::optional<TrajectorySigma> SigmaAt(std::size_t record) const override;
 
   // X and Y of a record, to be compared with the projected position: another map frame (such as the neighbouring UTM
@@ -57,7 +58,8 @@ class AsciiTrajectory : public Trajectory {
   std::size_t columns_;
   std::vector<Line> lines_;
   std::vector<std::array<double, 3>> velocities_;  // North, east, up, m/s; empty without such columns.
-  bool has_grid_ = false, has_sigma_ = false;      // A number other than 0 in these columns.
+  // A number other than 0 in these columns.
+  bool has_grid_ = false, has_position_sigma_ = false, has_attitude_sigma_ = false;
 
   friend class AsciiReader;
 };

@@ -227,6 +227,12 @@ absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
   return absl::OkStatus();
 }
 
+// Whether trajectories without error files state how well they are known, as those in ASCII may.
+bool StateTheirErrors(const annotate::BeamPlan& plan) {
+  return plan.trajectories != nullptr && plan.trajectory_errors.empty() &&
+         std::ranges::any_of(*plan.trajectories, [](const auto& each) { return each->SigmaAt(0).has_value(); });
+}
+
 // The inputs in which a mistake in the coordinates is sought.
 annotate::CauseContext ContextOf(const annotate::BeamPlan& plan, const client::TableSummary& table) {
   annotate::CauseContext context{
@@ -251,7 +257,10 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, JobsOf(options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
+  const bool own_errors = StateTheirErrors(annotation.plan);
+  if (own_errors && annotation.total.has_value()) annotate::TakeErrorsOfTrajectory(*annotation.total);
   for (annotate::LasChannel& channel : annotation.channels) {
+    if (own_errors) annotate::TakeErrorsOfTrajectory(channel.total);
     channel.plan.trajectories = annotation.plan.trajectories;
     channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
     channel.plan.water_levels = annotation.plan.water_levels;

@@ -82,6 +82,12 @@ TEST(PlanTotal, TakesErrorsOfTheTrajectoryPulseByPulseUnlessTheUserOverridesThem
   ASSERT_TRUE(plan.ok());
   EXPECT_FALSE(plan->position_by_pulse);
   EXPECT_TRUE(plan->attitude_by_pulse);
+  plan = PlanTotal(Survey(Decided() + "[sigma]\nposition = [0, 0, 0]\n"), {.has_level = true});
+  TakeErrorsOfTrajectory(*plan);
+  EXPECT_FALSE(plan->position_by_pulse);
+  EXPECT_TRUE(plan->attitude_by_pulse);
+  EXPECT_EQ(Number(*plan, "attitude").source, "the trajectory");
+  EXPECT_FALSE(Number(*plan, "attitude").assumed);
 }
 
 TEST(PlanTotal, LocatesTheSurfaceAsGivenElseByWhatThereIs) {

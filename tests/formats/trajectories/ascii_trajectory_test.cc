@@ -209,6 +209,10 @@ TEST(AsciiTrajectory, HasNoGridPositionOrSigmaWhereAllAreZero) {
   }}));
   EXPECT_FALSE(trajectory->GridPositionAt(5).has_value());
   EXPECT_FALSE(trajectory->SigmaAt(5).has_value());
+  const auto positions_alone = Read(
+      FlightText({.change = [](FlightLine& line) { line.sigma_roll = line.sigma_pitch = line.sigma_heading = 0; }}));
+  EXPECT_GT(positions_alone->SigmaAt(5)->north, 0);
+  EXPECT_TRUE(std::isnan(positions_alone->SigmaAt(5)->roll));
 }
 
 TEST(AsciiTrajectory, CrossesTheLongitudeOf180Degrees) {

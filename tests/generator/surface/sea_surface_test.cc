@@ -57,7 +57,7 @@ TEST(SurfaceModel, HasTheSlopeVariancesOfTheClosedFormOverTheFootprint) {
   }
 }
 
-// A swell of three lines of the lattice, beside which the spectrum is 0: of a narrow ring one node alone may have slope.
+// A swell of three lines of the lattice, beside which the spectrum is 0: in a narrow ring one node alone has slope.
 TEST(LongWaveModel, IsFiniteWhereARingHasSlopeAtOneNode) {
   HarmonicSpectrum swell = FlatSea(SeaWavenumbers(), 1);
   std::fill_n(swell.s.begin() + 75, 3, 0.4);

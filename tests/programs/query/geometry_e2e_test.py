@@ -4,6 +4,8 @@ The limits are those that the program promises (docs/geometry.md). What a plane 
 incidence at 400 m and 0.002 at 600 m, and the points are rounded to 1 mm: 0.5 mm of depth.
 """
 
+import json
+
 import numpy as np
 
 import programs
@@ -89,6 +91,25 @@ class GeometryTest(programs.Test):
                         flags += ["--trajectory-errors", survey.errors]
                     details, _ = self.query(survey, *flags)
                     self.assert_true(details["flight"], truth)
+
+    def test_an_ascii_trajectory_states_its_errors(self):
+        """1.5 m down in place of 0.04: below a level that is known, 1/n of it. With [sigma] it does not count."""
+        survey, worse = self.survey("--seed", 21), self.folder / "worse.txt"
+        lines = [line.split() for line in survey.ascii.read_text().splitlines()]
+        worse.write_text("".join(" ".join([*line[:11], "1.5", *line[12:]]) + "\n" for line in lines))
+        given = self.toml("[sigma]\nposition = [0.02, 0.02, 0.04]\n")
+        tvus = []
+        for trajectory, more in ((survey.ascii, ()), (worse, ()), (worse, ("--survey", given))):
+            query("las", survey.las, self.folder / "out.las", "--table", self.table, "--trajectory", trajectory,
+                  *LEVER_ARM, "--water-level", survey.water_level, "--wind-speed", 6, "--fetch", 30000, "--classes", 40,
+                  "--divergence", DIVERGENCE, "--sensor", "riegl-vq-880-g", "--datum-sigma", 0, "--water-column",
+                  "none", "--overwrite", *more, check=0)
+            summary = json.loads((self.folder / "out.las.json").read_text())
+            tvus.append(summary["answers"]["total"]["all"]["total_tvu"]["mean"])
+            self.assertEqual(summary["parameters"]["total"]["numbers"]["attitude"]["source"], "the trajectory")
+        self.assertGreater(tvus[1], 1.96 * 1.5 / 1.34)
+        self.assertLess(tvus[0], 0.6)
+        self.assertAlmostEqual(tvus[2], tvus[0], delta=0.01)
 
     def test_surface_returns_give_the_depth(self):
         dense = ("--pulse-rate", 8000, "--seconds", 5)  # Some returns of the surface within 10 m of each point.
