@@ -26,14 +26,17 @@ absl::Status CheckSurface(const Json& surface, std::uint64_t points_with_number)
 
 Json NodesOf(const Json& surface, const std::string& order, double pass_share) {
   if (surface.is_null()) return nullptr;
-  // Each node counts for the strictest order that it meets, and these begin with the strictest.
-  std::uint64_t meeting = 0;
+  // Each node of the bottom counts for the strictest order that it meets, or for "none", and these begin with the
+  // strictest. Nodes of land alone have no order.
+  std::uint64_t nodes = 0, meeting = 0;
+  bool strict_enough = true;
   const Json orders = SurfaceMember(surface, "order_met");
   for (const auto& [name, count] : orders.items()) {
-    if (count.is_number_unsigned()) meeting += count.get<std::uint64_t>();
-    if (name == order) break;
+    const std::uint64_t of_order = count.is_number_unsigned() ? count.get<std::uint64_t>() : 0;
+    nodes += of_order;
+    if (strict_enough) meeting += of_order;
+    if (name == order) strict_enough = false;
   }
-  const auto nodes = SurfaceMember(surface, "nodes").get<std::uint64_t>();
   const double fraction = nodes > 0 ? static_cast<double>(meeting) / static_cast<double>(nodes) : 0;
   return {{"cell", SurfaceMember(surface, "cell")},
           {"nodes", nodes},

@@ -12,8 +12,8 @@ namespace albtpu::quality {
 // `surface` is surface.json of `albtpu-query surface`, or null. FailedPrecondition where it is of other points.
 absl::Status CheckSurface(const nlohmann::ordered_json& surface, std::uint64_t points_with_number);
 
-// How many nodes meet an order of S-44, by their uncertainty and bias and the THU of their points; null without a
-// surface. `pass_share`: %.
+// How many nodes of the bottom meet an order of S-44, by their uncertainty and bias and the THU of their points; null
+// without a surface. Nodes of land alone do not count. `pass_share`: %.
 nlohmann::ordered_json NodesOf(const nlohmann::ordered_json& surface, const std::string& order, double pass_share);
 
 }  // namespace albtpu::quality

@@ -93,6 +93,16 @@ class Land(programs.Test):
         self.assertGreater(once.sum(), 50)
         self.assertAlmostEqual(np.median(ratio), 1, delta=0.02)
 
+    def test_has_no_part_in_the_verdict_by_nodes(self):
+        _, summary = self.surface("--land")
+        query("report", annotated, "--output", self.folder / "report", "--surface", self.folder / "surface",
+              "--no-page", check=0)
+        nodes = json.loads((self.folder / "report/report.json").read_text())["wanted"]["nodes"]
+        self.assertGreater(summary["land"]["nodes"], 50)
+        self.assertEqual(nodes["nodes"], summary["nodes"] - summary["land"]["nodes"])
+        meeting = sum(summary["order_met"][order] for order in ("exclusive", "special", "1a", "1b"))
+        self.assertEqual((nodes["meeting"], nodes["fraction"]), (meeting, meeting / nodes["nodes"]))
+
     def test_leaves_the_nodes_of_the_bottom_as_they_are(self):
         with_land, summary = self.surface("--land")
         without, other = self.surface(name="without")
