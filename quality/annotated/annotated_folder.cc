@@ -76,6 +76,7 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vec
   if (twice != paths.end())
     return absl::InvalidArgumentError(absl::StrCat(twice->string(), ": is given twice; give each file once"));
   std::vector<AnnotatedLasFile> files;
+  std::size_t of_datum = 0;  // The first file that states a vertical datum; the last one where none does.
   for (const fs::path& path : paths) {
     ASSIGN_OR_RETURN(const formats::LasReader reader, formats::LasReader::Open(path));
     if (reader.header().point_count == 0) {
@@ -84,17 +85,20 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vec
     }
     ASSIGN_OR_RETURN(AnnotatedLasFile file, AnnotatedLasFile::Open(path));
     files.push_back(std::move(file));
-    const AnnotatedLasFile &first = files.front(), &last = files.back();
-    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
-                            const std::string& remedy) {
+    if (files[of_datum].vertical_name().empty()) of_datum = files.size() - 1;
+    const AnnotatedLasFile &first = files.front(), &datum = files[of_datum], &last = files.back();
+    const auto differ_from = [&](const AnnotatedLasFile& other, const std::string& what, const std::string& in_other,
+                                 const std::string& in_last, const std::string& remedy) {
       return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last, " (in ",
-                                                     first.path().string(), " it is ", in_first, "); ", remedy));
+                                                     other.path().string(), " it is ", in_other, "); ", remedy));
     };
+    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
+                            const std::string& remedy) { return differ_from(first, what, in_first, in_last, remedy); };
     if (last.crs_name() != first.crs_name())
       return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
-    if (last.vertical_name() != first.vertical_name() && !last.vertical_name().empty() &&
-        !first.vertical_name().empty())
-      return differ("vertical datum", first.vertical_name(), last.vertical_name(), "report each datum apart");
+    if (last.vertical_name() != datum.vertical_name() && !last.vertical_name().empty())
+      return differ_from(datum, "vertical datum", datum.vertical_name(), last.vertical_name(),
+                         "report each datum apart");
     if (last.metres_per_unit() != first.metres_per_unit()) {
       const auto unit = [](double metres) { return absl::StrFormat("%.10g m", metres); };
       return differ("unit of x and y", unit(first.metres_per_unit()), unit(last.metres_per_unit()),

@@ -57,6 +57,15 @@ Json ProjectOf(const std::vector<AnnotatedLasFile>& files,
   return nullptr;
 }
 
+StatedDatum DatumOf(const std::vector<AnnotatedLasFile>& files, const std::string& given) {
+  std::string name = given;
+  for (const AnnotatedLasFile& file : files) {
+    if (!file.vertical_wkt().empty()) return {.name = file.vertical_name(), .wkt = file.vertical_wkt()};
+    if (name.empty()) name = file.vertical_name();
+  }
+  return {.name = name, .wkt = ""};
+}
+
 Json NumbersOf(const Json& summary) {
   const auto of_total = [](const Json& in) {
     const Json numbers = MemberOf(MemberOf(in, "total"), "numbers");

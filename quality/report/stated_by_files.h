@@ -17,6 +17,14 @@ namespace albtpu::quality {
 nlohmann::ordered_json ProjectOf(const std::vector<AnnotatedLasFile>& files,
                                  const std::vector<std::pair<std::string, std::string>>& given);
 
+// The vertical datum of elevations in metres.
+struct StatedDatum {
+  std::string name, wkt;  // Empty if not stated.
+};
+// That of the first file whose coordinate system states it; otherwise `given`, or else the first name that the survey
+// file of a file gave.
+StatedDatum DatumOf(const std::vector<AnnotatedLasFile>& files, const std::string& given);
+
 // Of one file, by name; of several scanners in one file with the channel: "scan, scanner channel 1".
 nlohmann::ordered_json NumbersOf(const nlohmann::ordered_json& summary);
 

@@ -76,6 +76,7 @@ class Reporter {
         orders_(options.specifications),
         classes_(ClassCount(options.specifications)),
         first_(files.front()),
+        datum_(DatumOf(files, options.vertical_datum)),
         grid_(options.cell / first_.metres_per_unit(), first_.coverage()),
         land_cells_(options.cell / first_.metres_per_unit()),
         patches_(options.patch, first_.metres_per_unit(), first_.coverage()) {}
@@ -106,8 +107,8 @@ class Reporter {
                         .facts = {.coverage = first_.coverage(),
                                   .crs_name = first_.crs_name(),
                                   .crs_wkt = first_.crs_wkt(),
-                                  .vertical_name = VerticalName(),
-                                  .vertical_wkt = first_.vertical_wkt(),
+                                  .vertical_name = datum_.name,
+                                  .vertical_wkt = datum_.wkt,
                                   .metres_per_unit = first_.metres_per_unit()}};
   }
 
@@ -140,13 +141,6 @@ class Reporter {
     ++failing_.points;
     for (std::size_t i = 0; i < shares.size(); ++i) failing_.shares[i] += shares[i];
     ++failing_.largest[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
-  }
-
-  // The files state it or the surveyor does.
-  std::string VerticalName() const {
-    for (const AnnotatedLasFile& file : files_)
-      if (!file.vertical_wkt().empty()) return file.vertical_name();
-    return options_.vertical_datum.empty() ? first_.vertical_name() : options_.vertical_datum;
   }
 
   // The verdict if the overlap's factor were applied to all standard deviations; null where it is not known.
@@ -251,7 +245,6 @@ class Reporter {
   }
 
   Json ToJson(const std::optional<CrossCheck>& check, const BottomCoverage& coverage) const {
-    const std::string vertical = VerticalName();
     Json json = {{"program", "albtpu-query"},
                  {"program_version", std::string(Version())},
                  {"made_from", MadeFrom(files_, options_)},
@@ -259,7 +252,7 @@ class Reporter {
                  {"project", ProjectOf(files_, options_.project)},
                  {"surveyed", SurveyedJson()},
                  {"crs", first_.crs_name()},
-                 {"vertical_datum", vertical.empty() ? Json() : Json(vertical)},
+                 {"vertical_datum", datum_.name.empty() ? Json() : Json(datum_.name)},
                  {"metres_per_unit", first_.metres_per_unit()},
                  {"metres_per_height_unit", first_.metres_per_height_unit()},
                  {"table", first_.summary().value("table", Json())},
@@ -307,6 +300,7 @@ class Reporter {
   S44Orders orders_;
   std::size_t classes_;
   const AnnotatedLasFile& first_;
+  StatedDatum datum_;
   PointTally all_;
   LandTable land_;
   DepthTallies depths_;

@@ -25,20 +25,29 @@ std::vector<std::pair<std::string, std::string>> SettingsOf(const PartFacts& fac
           {"index of the water", absl::StrFormat("%.10g", facts.seas.front().water_index)}};
 }
 
+absl::Status Differ(const SurfacePart& first, const SurfacePart& other, const std::string& what,
+                    const std::string& in_first, const std::string& in_other) {
+  return absl::InvalidArgumentError(absl::StrCat(other.path.string(), ": its ", what, " is ", in_other, " (in ",
+                                                 first.path.string(), " it is ", in_first, "); make all parts alike"));
+}
+
 absl::Status CheckAlike(const SurfacePart& first, const SurfacePart& other) {
   const auto of_first = SettingsOf(first.facts), of_other = SettingsOf(other.facts);
-  const auto differ = [&](const std::string& what, const std::string& in_other, const std::string& in_first) {
-    return absl::InvalidArgumentError(absl::StrCat(other.path.string(), ": its ", what, " is ", in_other, " (in ",
-                                                   first.path.string(), " it is ", in_first,
-                                                   "); make all parts alike"));
-  };
   for (std::size_t i = 0; i < of_first.size(); ++i)
     if (of_first[i].second != of_other[i].second)
-      return differ(of_first[i].first, of_other[i].second, of_first[i].second);
-  const std::string &datum = first.facts.map.vertical_name, &other_datum = other.facts.map.vertical_name;
-  if (datum != other_datum && !datum.empty() && !other_datum.empty())
-    return differ("vertical datum", other_datum, datum);
+      return Differ(first, other, of_first[i].first, of_first[i].second, of_other[i].second);
   return absl::OkStatus();
+}
+
+// Parts that state no vertical datum go with those of any one.
+absl::Status CheckDatums(const std::vector<SurfacePart>& parts) {
+  const auto datum = [](const SurfacePart& part) -> const std::string& { return part.facts.map.vertical_name; };
+  const auto first = std::ranges::find_if(parts, [&](const SurfacePart& part) { return !datum(part).empty(); });
+  const auto other = std::find_if(first, parts.end(), [&](const SurfacePart& part) {
+    return !datum(part).empty() && datum(part) != datum(*first);
+  });
+  return other == parts.end() ? absl::OkStatus()
+                              : Differ(*first, *other, "vertical datum", datum(*first), datum(*other));
 }
 
 bool IsSame(const SeaOfSource& a, const SeaOfSource& b) {
@@ -66,6 +75,7 @@ absl::StatusOr<std::uint16_t> AddSource(PartFacts& facts, const SeaOfSource& sea
 absl::StatusOr<JoinedParts> Join(std::vector<SurfacePart>& parts) {
   std::ranges::sort(
       parts, {}, [](const SurfacePart& part) { return std::ranges::min(part.facts.files, {}, &PartFile::name).name; });
+  RETURN_IF_ERROR(CheckDatums(parts));
   JoinedParts joined;
   std::map<PartFile, const SurfacePart*> parts_of_files;
   for (const SurfacePart& part : parts) {
