@@ -66,6 +66,29 @@ absl::StatusOr<annotate::JsonBox> SurfaceOf(const std::string& folder) {
       absl::StrCat("--surface: ", path.string(), " cannot be read; give the folder that albtpu-query surface wrote"));
 }
 
+absl::Status TwoClasses() {
+  return formats::UsageError("report: --s44-order names a class of S-44; give it alone, or --spec and --class");
+}
+
+// The flags that name the class. `wanted` is that of --spec.
+absl::Status CheckAskedFor(const ReportCommandOptions& flags, const quality::Specification& wanted) {
+  if (wanted.land && !flags.wanted_class.empty())
+    return formats::UsageError(absl::StrCat(
+        "report: --class names a class that each point of the bottom can meet, and those of ", wanted.title,
+        " are root mean square errors of land; leave out --class: the report has every class with whether land meets "
+        "it, and --s44-order names that of the bottom"));
+  if (wanted.land || flags.s44_order.empty()) return absl::OkStatus();
+  return TwoClasses();
+}
+
+// Whose verdict there is instead.
+void NoteLand(const quality::Specification& of_land, const std::string& order) {
+  annotate::Note(absl::StrCat(of_land.title,
+                              ": its limits are root mean square errors, and are held against the points of land; the "
+                              "verdict on the bottom is that of IHO S-44 ",
+                              order));
+}
+
 // All installed specifications, a specification from a file of the user, and the required class.
 absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags) {
   quality::ReportOptions options{.cell = flags.cell,
@@ -75,6 +98,7 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                  .pass_share = flags.pass_share,
                                  .patch = flags.patch,
                                  .check_points = flags.check_points};
+  if (!flags.s44_order.empty() && !flags.wanted_class.empty()) return TwoClasses();
   if (!flags.survey.empty()) {
     ASSIGN_OR_RETURN(const config::SurveySettings survey, config::ReadSurvey(flags.survey));
     const nlohmann::ordered_json project = ProjectJson(survey.project);
@@ -87,7 +111,6 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
   ASSIGN_OR_RETURN(options.specifications, quality::ListSpecifications());
   if (!flags.specification.empty()) {
     ASSIGN_OR_RETURN(quality::Specification wanted, quality::FindSpecification(flags.specification));
-    options.specification = wanted.name;
     const bool own = flags.specification.ends_with(".toml") || flags.specification.find('/') != std::string::npos;
     if (own && std::ranges::any_of(options.specifications,
                                    [&](const quality::Specification& each) { return each.name == wanted.name; })) {
@@ -95,18 +118,22 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                                      " is the name of an installed specification; give the "
                                                      "file another name"));
     }
-    if (wanted.name != "s44") options.wanted_class = wanted.classes.front().name;
+    RETURN_IF_ERROR(CheckAskedFor(flags, wanted));
+    options.specification = wanted.land ? "s44" : wanted.name;
+    if (options.specification != "s44") options.wanted_class = wanted.classes.front().name;
+    if (wanted.land) NoteLand(wanted, options.wanted_class);
     std::erase_if(options.specifications, [&](const quality::Specification& each) { return each.name == wanted.name; });
     // S-44 stays first, because maps show its orders.
     options.specifications.insert(options.specifications.begin() + (wanted.name == "s44" ? 0 : 1), std::move(wanted));
   }
   if (!flags.wanted_class.empty()) options.wanted_class = flags.wanted_class;
-  const std::size_t classes = quality::ClassCount(options.specifications);
+  const std::vector<quality::Specification> of_points = quality::OfPoints(options.specifications);
+  const std::size_t classes = quality::ClassCount(of_points);
   if (classes > quality::ClassJudge::kMaxClasses) {
     return absl::InvalidArgumentError(absl::StrCat("the specifications have ", classes, " classes; at most ",
                                                    quality::ClassJudge::kMaxClasses, " can be stated"));
   }
-  RETURN_IF_ERROR(quality::FindClass(options.specifications, options.specification, options.wanted_class).status());
+  RETURN_IF_ERROR(quality::FindClass(of_points, options.specification, options.wanted_class).status());
   return options;
 }
 
@@ -120,8 +147,6 @@ absl::Status CheckReplacesNone(const ReportCommandOptions& flags) {
 }
 
 absl::Status RunReport(const ReportCommandOptions& flags) {
-  if (!flags.s44_order.empty() && !(flags.specification.empty() && flags.wanted_class.empty()))
-    return formats::UsageError("report: --s44-order names a class of S-44; give it alone, or --spec and --class");
   RETURN_IF_ERROR(CheckReplacesNone(flags));
   ASSIGN_OR_RETURN(const quality::ReportOptions options, Options(flags));
   if (!flags.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
@@ -182,7 +207,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
       ->check(OneOf({kS44OrderNames.begin(), kS44OrderNames.end()}));
   command
       ->add_option("--spec", options->specification,
-                   "Another specification: s44, catzoc, noaa, usgs, asprs or the path of a TOML file")
+                   "Another specification: s44, catzoc, noaa, usgs or the path of a TOML file; asprs is of land")
       ->check(NotEmpty("specification"));
   command->add_option("--class", options->wanted_class, "Class of --spec that was asked for (default: its first)");
   command->add_option("--pass", options->pass_share, "Share of the points that must meet it [%]")

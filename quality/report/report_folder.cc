@@ -228,13 +228,19 @@ std::string ReportText(const nlohmann::ordered_json& report) {
                     "\n");
   }
   if (const auto& land = report["land"]; !land.is_null()) {
-    std::string met;
-    for (const auto& of : land["classes"])
-      if (met.empty() && of["met"].get<bool>())
-        met = absl::StrCat("; ", of["specification"].get<std::string>(), " ", of["name"].get<std::string>());
-    absl::StrAppendFormat(&text, "  %d dry points of land: RMSE %.3f m horizontal, %.3f m vertical%s\n",
+    // Of each specification the first class that is met.
+    std::vector<std::pair<std::string, std::string>> met;
+    for (const auto& of : land["classes"]) {
+      const auto specification = of["specification"].get<std::string>();
+      if (met.empty() || met.back().first != specification) met.emplace_back(specification, "");
+      if (met.back().second.empty() && of["met"].get<bool>()) met.back().second = of["name"].get<std::string>();
+    }
+    absl::StrAppendFormat(&text, "  %d dry points of land: RMSE %.3f m horizontal, %.3f m vertical",
                           land["points"].get<std::uint64_t>(), land["rmse_horizontal"].get<double>(),
-                          land["rmse_vertical"].get<double>(), met);
+                          land["rmse_vertical"].get<double>());
+    for (const auto& [specification, name] : met)
+      absl::StrAppend(&text, "; ", specification, " ", name.empty() ? "no class" : name);
+    text += "\n";
   }
   const std::string also = AlsoOf(report);
   absl::StrAppend(&text, "  not tested by these files: ",

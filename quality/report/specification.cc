@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -163,6 +164,12 @@ absl::StatusOr<Specification> FindSpecification(std::string_view name_or_path) {
   return absl::NotFoundError(
       absl::StrCat("'", formats::OneLine(std::string(name_or_path)), "' is no specification",
                    formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
+}
+
+std::vector<Specification> OfPoints(const std::vector<Specification>& specifications) {
+  std::vector<Specification> of_points;
+  std::ranges::remove_copy_if(specifications, std::back_inserter(of_points), &Specification::land);
+  return of_points;
 }
 
 std::size_t ClassCount(const std::vector<Specification>& specifications) {

@@ -35,7 +35,7 @@ struct Specification {
   std::string title = {};    // "IHO S-44"
   std::string edition = {};  // Of the document, whose text was read: "6.1.0 (2022)"; empty if nobody stated it.
   std::string source = {};   // The document.
-  // Its limits are those of root mean square errors, and hold for dry points together, beside each bathymetric one.
+  // Its limits are those of root mean square errors, which hold for all dry points together and for no single point.
   bool land = false;
   std::vector<SpecificationClass> classes = {};
 };
@@ -67,6 +67,9 @@ absl::StatusOr<std::vector<Specification>> ListSpecifications();
 // The specification in a file (ends in .toml or has a slash), or the installed one of this name in any case; "S-44" is
 // "s44". NotFound with the names that there are.
 absl::StatusOr<Specification> FindSpecification(std::string_view name_or_path);
+
+// Without those of land.
+std::vector<Specification> OfPoints(const std::vector<Specification>& specifications);
 
 // Classes of all of them.
 std::size_t ClassCount(const std::vector<Specification>& specifications);

@@ -68,13 +68,16 @@ class S44Orders {
 
 class Reporter {
  public:
-  Reporter(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options, const WantedClass& wanted)
+  // `specifications` are those of points, among which `wanted` is one.
+  Reporter(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options,
+           const std::vector<Specification>& specifications, const WantedClass& wanted)
       : files_(files),
         options_(options),
+        specifications_(specifications),
         wanted_(wanted),
-        judge_(options.specifications),
-        orders_(options.specifications),
-        classes_(ClassCount(options.specifications)),
+        judge_(specifications),
+        orders_(specifications),
+        classes_(ClassCount(specifications)),
         first_(files.front()),
         datum_(DatumOf(files, options.vertical_datum)),
         grid_(options.cell / first_.metres_per_unit(), first_.coverage()),
@@ -168,7 +171,7 @@ class Reporter {
   }
 
   Json WantedJson() const {
-    const Specification& specification = options_.specifications[wanted_.specification];
+    const Specification& specification = specifications_[wanted_.specification];
     const std::uint64_t meeting = all_.meeting(wanted_.index);
     const double fraction = static_cast<double>(meeting) / static_cast<double>(all_.points());
     Json json = {{"specification", specification.title},
@@ -191,7 +194,7 @@ class Reporter {
   Json SpecificationsJson() const {
     Json list = Json::array();
     std::size_t index = 0;
-    for (const Specification& each : options_.specifications) {
+    for (const Specification& each : specifications_) {
       Json json = {{"name", each.name},
                    {"title", each.title},
                    {"edition", each.edition.empty() ? Json() : Json(each.edition)},
@@ -278,7 +281,7 @@ class Reporter {
       json["lines"].push_back(std::move(of_line));
     }
     json["wanted"]["with_factor"] = WithFactorJson(check);
-    const Specification& specification = options_.specifications[wanted_.specification];
+    const Specification& specification = specifications_[wanted_.specification];
     json["wanted"]["nodes"] =
         specification.name != "s44"
             ? Json()
@@ -295,6 +298,7 @@ class Reporter {
 
   const std::vector<AnnotatedLasFile>& files_;
   const ReportOptions& options_;
+  const std::vector<Specification>& specifications_;
   WantedClass wanted_;
   ClassJudge judge_;
   S44Orders orders_;
@@ -334,9 +338,9 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
 }
 
 absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options) {
-  ASSIGN_OR_RETURN(const WantedClass wanted,
-                   FindClass(options.specifications, options.specification, options.wanted_class));
-  return Reporter(files, options, wanted).Make();
+  const std::vector<Specification> of_points = OfPoints(options.specifications);
+  ASSIGN_OR_RETURN(const WantedClass wanted, FindClass(of_points, options.specification, options.wanted_class));
+  return Reporter(files, options, of_points, wanted).Make();
 }
 
 }  // namespace albtpu::quality

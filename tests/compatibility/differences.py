@@ -109,9 +109,24 @@ def read_json(path):
     return json.loads(path.read_text())
 
 
+def without_land(report):
+    """Since 0.1.0 limits of land are held against no single point: a report without them, all others as they were."""
+    kept = [each for each in report.get("specifications", ()) if each["name"] != "asprs"]
+    places = [of["index"] for each in kept for of in each["classes"]]
+
+    def changed(value, key=""):
+        if isinstance(value, dict):
+            return {name: changed(of, name) for name, of in value.items()}
+        if isinstance(value, list):
+            return [value[place] for place in places] if key == "meeting" else [changed(of) for of in value]
+        return places.index(value) if key == "index" else value
+
+    return changed({**report, "specifications": kept}) if kept else report
+
+
 def of_files(old, new, ignored=()):
     kinds = {".csv": of_csv, ".las": of_las,
-             ".json": lambda *paths: of_json(*map(read_json, paths), ignored)}
+             ".json": lambda *_: of_json(without_land(read_json(old)), read_json(new), ignored)}
     return [f"{new.name}: {line}" for line in kinds[old.suffix](old, new)]
 
 

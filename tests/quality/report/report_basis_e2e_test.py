@@ -1,4 +1,5 @@
-"""What a report rests on, from outside: the vertical datum that some of its files state."""
+"""What a report rests on, from outside: the vertical datum that some of its files state, and the specifications that
+hold for its points and those that hold for land."""
 
 import json
 import pathlib
@@ -82,6 +83,48 @@ class Datum(Basis):
         with netCDF4.Dataset(self.folder / "report/grid.nc") as grid:
             self.assertEqual(grid["elevation"].vertical_datum, "MLLW")
         self.assertIsNone(self.report(self.stating())["vertical_datum"])
+
+
+class OfLand(Basis):
+    OWN = """
+title = "Topographic lidar"
+source = "Contract, section 3"
+land = "rmse"
+[[class]]
+name = "A"
+coverage = "1sigma"
+vertical = {constant = %s}
+"""
+
+    def test_is_no_specification_of_points(self):
+        self.assertEqual([each["name"] for each in self.json["specifications"]], ["s44", "catzoc", "noaa", "usgs"])
+        classes = [each for of in self.json["specifications"] for each in of["classes"]]
+        self.assertEqual([each["index"] for each in classes], list(range(len(classes))))
+        for tally in (self.json["all"], *self.json["lines"], *self.json["files"], *self.json["by_depth"]):
+            self.assertEqual(len(tally["meeting"]), len(classes))
+        self.assertEqual([each["meeting"] for each in classes], self.json["all"]["meeting"])
+        self.assertEqual({each["specification"] for each in self.json["land"]["classes"]}, {"ASPRS"})
+
+    def test_leaves_the_verdict_on_the_bottom_to_s44(self):
+        for constant, met in ((0.001, False), (0.9, True)):
+            own = self.write("own.toml", self.OWN % constant)
+            for flags, order in (((), "1b"), (("--s44-order", "special"), "special")):
+                result = query("report", self.annotated, "--output", self.folder / "report", "--no-page", "--overwrite",
+                               "--spec", own, *flags, check=0)
+                report = json.loads((self.folder / "report/report.json").read_text())
+                self.assertEqual((report["wanted"]["specification"], report["wanted"]["class"]), ("IHO S-44", order))
+                self.assertIn("Topographic lidar: its limits are root mean square errors", result.stderr)
+                self.assertIn(f"the verdict on the bottom is that of IHO S-44 {order}", result.stderr)
+                self.assertEqual([each["met"] for each in report["land"]["classes"]
+                                  if each["specification"] == "Topographic lidar"], [met])
+                self.assertIn(f"; Topographic lidar {'A' if met else 'no class'}; ASPRS", result.stdout)
+        self.assertEqual(self.report(self.annotated)["wanted"], self.json["wanted"])
+
+    def test_has_no_class_for_points(self):
+        self.assert_fails(query("report", self.annotated, "--output", self.folder / "made", "--spec", "asprs",
+                                "--class", "10 cm"), 2, "--class", "ASPRS", "root mean square errors of land",
+                          "--s44-order")
+        self.assertFalse((self.folder / "made").exists())
 
 
 if __name__ == "__main__":

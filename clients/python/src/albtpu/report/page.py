@@ -103,17 +103,21 @@ def _specifications(report: Report) -> str:
             rows.append([text(specification["title"]), _short(entry["name"]), _unbroken(COVERAGES[entry["coverage"]]),
                          _unbroken(limit_text(entry["horizontal"])), _unbroken(limit_text(entry["vertical"])),
                          text(entry.get("also") or "–"), _judged(entry["fraction"], report)])
-    sources = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
-                      for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
             + table(["specification", "class", "at", "THU limit", "TVU limit", "also asks (not tested)",
                      "points that meet it"],
                     rows, "words")
-            + f"<ul class='soft'>{sources}</ul>"
+            + _sources(report["specifications"])
             + "<h3>By depth</h3><p class='soft'>% of the points with an uncertainty that meet each class.</p>"
             + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
                                                   for band in report["depth_bands"]], "matrix"))
+
+
+def _sources(specifications: list[dict[str, Any]]) -> str:
+    items = "".join(f"<li>{text(each['title'])}{_edition(each)}: {text(each['source'])}</li>"
+                    for each in specifications)
+    return f"<ul class='soft'>{items}</ul>"
 
 
 def _short(name: str) -> str:
@@ -175,6 +179,7 @@ def _land(report: Report) -> str:
                for each in land["classes"]]
     if classes:
         parts.append(table(["specification", "class", "RMSE horizontal", "RMSE vertical", "met"], classes))
+        parts.append(_sources([each for each in report["made_from"]["specifications"] if each["land"]]))
     return "".join(parts)
 
 
