@@ -20,6 +20,7 @@
 #include "formats/las/las_points.h"
 #include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
+#include "tables/digest.h"
 
 namespace albtpu::quality {
 namespace {
@@ -198,6 +199,12 @@ std::string AnnotatedLasFile::table_digest() const {
   const Json table = summary_->value("table", Json());
   const Json digest = table.is_object() ? table.value("digest", Json()) : Json();
   return digest.is_string() ? digest.get<std::string>() : "";
+}
+
+std::string AnnotatedLasFile::summary_digest() const {
+  Sha256 digest;
+  digest.Update(summary_->dump(-1, ' ', false, Json::error_handler_t::replace));
+  return Hex(digest.Finish());
 }
 
 Json LeftOutJson(const LeftOutPoints& points) { return {{"withheld", points.withheld}, {"noise", points.noise}}; }

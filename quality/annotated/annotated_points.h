@@ -94,6 +94,7 @@ class AnnotatedLasFile {
   const formats::LasReader& reader() const { return reader_; }
   Coverage coverage() const { return coverage_; }
   std::string table_digest() const;
+  std::string summary_digest() const;  // SHA-256 of the summary, which is another one for another annotation.
   const std::string& crs_name() const { return crs_name_; }  // "not stated" if the file states none.
   const std::string& crs_wkt() const { return crs_wkt_; }
   // Of the heights in metres; where the file does not state their datum, the name that the surveyor gave, or empty.

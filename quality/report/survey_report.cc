@@ -333,7 +333,9 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
   json["check_points"] = Json::array({options.check_points.horizontal, options.check_points.vertical});
   for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
   for (const AnnotatedLasFile& file : files)
-    json["files"].push_back({{"name", file.path().filename().string()}, {"bytes", file.reader().file_size()}});
+    json["files"].push_back({{"name", file.path().filename().string()},
+                             {"bytes", file.reader().file_size()},
+                             {"summary_digest", file.summary_digest()}});
   return json;
 }
 

@@ -1,5 +1,5 @@
-"""What a report rests on, from outside: the vertical datum that some of its files state, and the specifications that
-hold for its points and those that hold for land."""
+"""What a report rests on, from outside: the vertical datum that some of its files state, the specifications that hold
+for its points and those that hold for land, and the annotations of its files."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "programs/q
 import programs  # noqa: E402
 import reported_survey  # noqa: E402
 from programs import query  # noqa: E402
-from reported_survey import Report  # noqa: E402
+from reported_survey import Report, annotate  # noqa: E402
 
 
 def setUpModule():
@@ -125,6 +125,34 @@ vertical = {constant = %s}
                                 "--class", "10 cm"), 2, "--class", "ASPRS", "root mean square errors of land",
                           "--s44-order")
         self.assertFalse((self.folder / "made").exists())
+
+
+class Annotation(Basis):
+    def setUp(self):
+        super().setUp()
+        self.other = self.folder / "other"
+        annotate(self.flight, self.other, self.one_table, datum=0.5)
+        sizes = [{path.name: path.stat().st_size for path in folder.glob("*.las")}
+                 for folder in (self.annotated, self.other)]
+        self.assertEqual(*sizes)
+
+    def test_decides_what_resume_keeps(self):
+        made, report = self.folder / "report", self.folder / "report/report.json"
+
+        def resume(folder):
+            return query("report", folder, "--output", made, "--no-page", "--resume", check=0).stderr
+
+        self.assertNotIn("already", resume(self.annotated))
+        self.assertIn("already", resume(self.annotated))
+        self.assertNotIn("already", resume(self.other))
+        self.assertGreater(json.loads(report.read_text())["all"]["tvu"]["mean"], self.json["all"]["tvu"]["mean"] + 0.5)
+        self.assertIn("already", resume(self.other))
+        # Reports of before do not state the annotations.
+        json_of_before = json.loads(report.read_text())
+        for file in json_of_before["made_from"]["files"]:
+            file.pop("summary_digest")
+        report.write_text(json.dumps(json_of_before))
+        self.assertNotIn("already", resume(self.other))
 
 
 if __name__ == "__main__":
