@@ -207,6 +207,13 @@ std::string AnnotatedLasFile::summary_digest() const {
   return Hex(digest.Finish());
 }
 
+std::string DigestOfAnnotations(std::vector<std::string> summary_digests) {
+  std::ranges::sort(summary_digests);
+  Sha256 digest;
+  for (const std::string& each : summary_digests) digest.Update(each);
+  return Hex(digest.Finish());
+}
+
 Json LeftOutJson(const LeftOutPoints& points) { return {{"withheld", points.withheld}, {"noise", points.noise}}; }
 
 Json MemberOf(const Json& json, const char* key) { return json.is_object() ? json.value(key, Json()) : Json(); }

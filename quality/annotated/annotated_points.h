@@ -48,6 +48,9 @@ nlohmann::ordered_json LeftOutJson(const LeftOutPoints& points);
 // "12 withheld points and 3 points of noise (classes 7 and 18) take no part".
 std::string LeftOutText(const LeftOutPoints& points);
 
+// SHA-256 of the digests of summaries (AnnotatedLasFile::summary_digest), whatever their order is.
+std::string DigestOfAnnotations(std::vector<std::string> summary_digests);
+
 // The member of an object of a summary; null where there is none.
 nlohmann::ordered_json MemberOf(const nlohmann::ordered_json& json, const char* key);
 

@@ -1,6 +1,7 @@
 #include "quality/report/surface_nodes.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 
@@ -13,15 +14,19 @@ Json SurfaceMember(const Json& json, const char* key) { return json.is_object() 
 
 }  // namespace
 
-absl::Status CheckSurface(const Json& surface, std::uint64_t points_with_number) {
+absl::Status CheckSurface(const Json& surface, const std::vector<AnnotatedLasFile>& files) {
   if (surface.is_null()) return absl::OkStatus();
-  const Json points = SurfaceMember(surface, "points_with_number");
-  if (!SurfaceMember(surface, "nodes").is_number_unsigned() || !SurfaceMember(surface, "order_met").is_object())
+  const Json annotations = SurfaceMember(surface, "annotations_digest");
+  if (!SurfaceMember(surface, "nodes").is_number_unsigned() || !SurfaceMember(surface, "order_met").is_object() ||
+      !annotations.is_string())
     return absl::InvalidArgumentError("--surface: its surface.json is none of albtpu-query surface; make it again");
-  if (points == points_with_number) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("--surface: is of ", points.dump(),
-                                                    " points with a number, where these files have ",
-                                                    points_with_number, "; give the surface that was made of them"));
+  std::vector<std::string> digests;
+  for (const AnnotatedLasFile& file : files) digests.push_back(file.summary_digest());
+  if (annotations == DigestOfAnnotations(std::move(digests))) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(
+      "--surface: is of other files or annotations (", SurfaceMember(surface, "files").dump(), " files with ",
+      SurfaceMember(surface, "points_with_number").dump(), " points that have a number) than these ", files.size(),
+      " files; give the surface that was made of them"));
 }
 
 Json NodesOf(const Json& surface, const std::string& order, double pass_share) {

@@ -1,16 +1,18 @@
 // The verdict by the nodes of a surface, beside that by points.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "quality/annotated/annotated_points.h"
 
 namespace albtpu::quality {
 
-// `surface` is surface.json of `albtpu-query surface`, or null. FailedPrecondition where it is of other points.
-absl::Status CheckSurface(const nlohmann::ordered_json& surface, std::uint64_t points_with_number);
+// `surface` is surface.json of `albtpu-query surface`, or null. FailedPrecondition where it is of other files, or of
+// other annotations of them.
+absl::Status CheckSurface(const nlohmann::ordered_json& surface, const std::vector<AnnotatedLasFile>& files);
 
 // How many nodes of the bottom meet an order of S-44, by their uncertainty and bias and the THU of their points; null
 // without a surface. Nodes of land alone do not count. `pass_share`: %.

@@ -100,7 +100,6 @@ class Reporter {
       RETURN_IF_ERROR(grid_.status());
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
-    RETURN_IF_ERROR(CheckSurface(*options_.surface, all_.with_number()));
     const BottomCoverage coverage = BottomCoverage::Of(grid_, land_cells_, first_.metres_per_unit());
     ASSIGN_OR_RETURN(const FileSeas seas, SeasOf(files_, nullptr));
     RETURN_IF_ERROR(FillPatches(files_, seas, patches_));
@@ -340,6 +339,7 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
 }
 
 absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options) {
+  RETURN_IF_ERROR(CheckSurface(*options.surface, files));
   const std::vector<Specification> of_points = OfPoints(options.specifications);
   ASSIGN_OR_RETURN(const WantedClass wanted, FindClass(of_points, options.specification, options.wanted_class));
   return Reporter(files, options, of_points, wanted).Make();

@@ -151,6 +151,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
                          options.land ? add_dry : nullptr));
     facts.left_out.Add(of_file);
     facts.files.push_back(NameOf(file));
+    facts.summary_digests.push_back(file.summary_digest());
     if (facts.map.vertical_name.empty())
       facts.map.vertical_name = file.vertical_name(), facts.map.vertical_wkt = file.vertical_wkt();
   }

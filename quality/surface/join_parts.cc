@@ -99,6 +99,7 @@ absl::StatusOr<JoinedParts> Join(std::vector<SurfacePart>& parts) {
     if (all.map.vertical_name.empty())
       all.map.vertical_name = facts.map.vertical_name, all.map.vertical_wkt = facts.map.vertical_wkt;
     all.files.insert(all.files.end(), facts.files.begin(), facts.files.end());
+    all.summary_digests.insert(all.summary_digests.end(), facts.summary_digests.begin(), facts.summary_digests.end());
     all.with_number += facts.with_number, all.without_number += facts.without_number;
     if (facts.dry.has_value()) all.dry = all.dry.value_or(0) + *facts.dry;
     all.left_out.Add(facts.left_out);

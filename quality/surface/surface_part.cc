@@ -63,6 +63,7 @@ Json ToJson(const PartFacts& facts) {
                {"coverage", annotate::CoverageName(facts.coverage)},
                {"table_digest", facts.table_digest},
                {"files", Json::array()},
+               {"summary_digests", facts.summary_digests},
                {"seas", Json::array()},
                {"sources", Json::array()},
                {"points", {facts.with_number, facts.without_number}},
@@ -90,6 +91,7 @@ PartFacts FactsOf(const Json& json) {
   json.at("table_digest").get_to(facts.table_digest);
   for (const Json& file : json.at("files"))
     facts.files.push_back({.name = file.at(0), .bytes = file.at(1), .points = file.at(2), .bounds = file.at(3)});
+  json.at("summary_digests").get_to(facts.summary_digests);
   for (const Json& sea : json.at("seas"))
     facts.seas.push_back({.spectrum = {.k = sea.at(0), .s = sea.at(1), .a = sea.at(2), .b = sea.at(3)},
                           .x_azimuth = sea.at(4),

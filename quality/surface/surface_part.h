@@ -44,6 +44,7 @@ struct PartFacts {
   Coverage coverage = Coverage::kTwoSigma;  // Of the files; the points are at 1 sigma.
   std::string table_digest;
   std::vector<PartFile> files;
+  std::vector<std::string> summary_digests;  // Of each file.
   std::vector<SeaOfSource> seas;
   std::vector<SourceOfPoints> sources;  // By SurfacePoint::source.
   std::uint64_t with_number = 0, without_number = 0;

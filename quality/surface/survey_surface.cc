@@ -137,6 +137,7 @@ absl::StatusOr<MadeSurface> MakeSurface(std::vector<SurfacePart> parts, const fs
                {"metres_per_unit", facts.map.metres_per_unit},
                {"surveyed", Json()},
                {"files", facts.files.size()},
+               {"annotations_digest", DigestOfAnnotations(facts.summary_digests)},
                {"seas", facts.seas.size()},
                {"points_with_number", facts.with_number},
                {"points_without_number", facts.without_number}};

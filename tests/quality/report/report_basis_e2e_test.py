@@ -154,6 +154,28 @@ class Annotation(Basis):
         report.write_text(json.dumps(json_of_before))
         self.assertNotIn("already", resume(self.other))
 
+    def test_is_that_of_the_surface(self):
+        made, flags = self.folder / "report", ("--no-page", "--overwrite")
+        files = sorted(self.annotated.glob("*.las"))
+        parts = [self.folder / name for name in ("a.part", "b.part")]
+        for part, of_part in zip(parts, (files[1::2], files[::2])):
+            query("surface", *of_part, "--partial", part, "--cell", 4, check=0)
+        query("surface", "merge", *parts, "--output", self.folder / "merged", check=0)
+        for name, folder in (("surface", self.annotated), ("of_other", self.other)):
+            query("surface", folder, "--output", self.folder / name, "--cell", 4, check=0)
+        for name in ("surface", "merged"):
+            query("report", self.annotated, "--output", made, "--surface", self.folder / name, *flags, check=0)
+        for name, folder in (("of_other", self.annotated), ("merged", self.other)):
+            result = query("report", folder, "--output", made, "--surface", self.folder / name, *flags)
+            self.assert_fails(result, 1, "--surface: is of other files or annotations",
+                              "give the surface that was made of them")
+        json_of_before = self.folder / "merged/surface.json"
+        surface = json.loads(json_of_before.read_text())
+        surface.pop("annotations_digest")
+        json_of_before.write_text(json.dumps(surface))
+        result = query("report", self.annotated, "--output", made, "--surface", self.folder / "merged", *flags)
+        self.assert_fails(result, 1, "surface.json is none of albtpu-query surface", "make it again")
+
 
 if __name__ == "__main__":
     programs.main()
