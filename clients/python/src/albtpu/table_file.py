@@ -53,10 +53,17 @@ class TableFile(UncertaintySource):
         self._scaled: tuple[float, TableContent] | None = None
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file of the table, for `open_table`, albtpu-query and albtpu-serve. Never overwrites a file."""
+        """Writes the file of the table, for `open_table`, albtpu-query and albtpu-serve. Never overwrites a file,
+        and leaves none that is not whole."""
         path = pathlib.Path(path)
-        with errors_naming(path), path.open("xb") as file:
-            file.write(self._file)
+        with errors_naming(path):
+            file = path.open("xb")
+            try:
+                with file:
+                    file.write(self._file)
+            except BaseException:
+                path.unlink(missing_ok=True)
+                raise
 
     def table(self, name: str | None = None) -> Table:
         self._check_name(name)

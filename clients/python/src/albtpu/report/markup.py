@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import os
 import pathlib
 from typing import Any
 
@@ -90,14 +91,26 @@ document.querySelectorAll('.sortable').forEach(table => {
 
 
 def write_document(path: pathlib.Path, title: str, body: str, foot: str = "") -> None:
-    """A page that needs nothing from outside. `foot` stands at the foot of printed pages, beside their number."""
+    """A page that needs nothing from outside. `foot` stands at the foot of printed pages, beside their number. An
+    earlier page is replaced by a whole one, or stays."""
     pages = PAGES.format(foot=_css_string(foot or title))
     script = f"\n<script>{SCRIPT}</script>" if '"sortable"' in body else ""
-    path.write_text(
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+    _replace(
+        path, '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f"<title>{text(title)}</title><style>{STYLE}{pages}</style></head><body>{body}"
-        f"{script}</body></html>\n", encoding="utf-8")
+        f"{script}</body></html>\n")
+
+
+def _replace(path: pathlib.Path, content: str) -> None:
+    path = path.resolve()  # A link stays one.
+    written = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        written.write_text(content, encoding="utf-8")
+        os.replace(written, path)
+    except BaseException:
+        written.unlink(missing_ok=True)
+        raise
 
 
 def _css_string(words: str) -> str:
