@@ -59,6 +59,8 @@ class CheckPointReader {
     RETURN_IF_ERROR(Number(record, *elevation_, point.elevation));
     point.elevation *= units_.metres_per_height_unit;
     point.sigma = {given_.horizontal.value_or(0), given_.vertical.value_or(0)};
+    list_.horizontal_stated &= given_.horizontal.has_value() || Has(record, horizontal_);
+    list_.vertical_stated &= given_.vertical.has_value() || Has(record, vertical_);
     RETURN_IF_ERROR(Sigma(record, horizontal_, units_.metres_per_unit, point.sigma.horizontal));
     return Sigma(record, vertical_, units_.metres_per_height_unit, point.sigma.vertical);
   }
@@ -114,9 +116,13 @@ class CheckPointReader {
     return absl::OkStatus();
   }
 
+  bool Has(const formats::CsvRecord& record, const Column& column) const {
+    return column.has_value() && !absl::StripAsciiWhitespace(record.Cell(*column)).empty();
+  }
+
   // An empty cell leaves what was given for all.
   absl::Status Sigma(const formats::CsvRecord& record, const Column& column, double metres, double& sigma) const {
-    if (!column.has_value() || absl::StripAsciiWhitespace(record.Cell(*column)).empty()) return absl::OkStatus();
+    if (!Has(record, column)) return absl::OkStatus();
     RETURN_IF_ERROR(Number(record, *column, sigma));
     sigma *= metres;
     if (sigma >= 0 && sigma <= kMostOfSigma) return absl::OkStatus();

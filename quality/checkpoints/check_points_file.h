@@ -29,7 +29,7 @@ struct CheckPoint {
 struct CheckPointList {
   std::vector<CheckPoint> points;  // One at least.
   bool has_classes = false;
-  bool horizontal_stated = false, vertical_stated = false;  // Their errors, by a column or a flag.
+  bool horizontal_stated = false, vertical_stated = false;  // Of all: by a column or a flag.
 };
 
 // Errors of all points, where no column has their own, m.

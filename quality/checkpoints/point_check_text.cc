@@ -171,7 +171,8 @@ std::string PointCheckText(const PointCheck& check) {
       all.standard_error, all.predicted_by_survey, all.bias, all.rmse_degrees, all.squared_z_degrees, all.rmse.value,
       all.rmse_points, all.rmse_total(), all.points, kPointsOfAsprs);
   if (!check.list.vertical_stated)
-    absl::StrAppend(&text, "errors of the check points are not stated, and taken as 0: give --point-sigma-vertical\n");
+    absl::StrAppend(&text,
+                    "errors of some or all check points are not stated, and taken as 0: give --point-sigma-vertical\n");
   if (!check.left_out.empty()) absl::StrAppend(&text, LeftOutText(check.left_out), "\n");
   return text;
 }

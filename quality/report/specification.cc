@@ -150,6 +150,11 @@ absl::StatusOr<std::vector<Specification>> ListSpecifications() {
     specifications.push_back(std::move(read));
   }
   if (specifications.empty()) return NotInstalled();
+  if (std::ranges::find(specifications, "s44", &Specification::name) == specifications.end())
+    return absl::NotFoundError(
+        absl::StrCat(SpecificationsDirectory().string(),
+                     ": has no s44.toml, by whose orders maps are drawn; copy the installed one there, or give a "
+                     "specification of your own by the path of its file"));
   return specifications;
 }
 

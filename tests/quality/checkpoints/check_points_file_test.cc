@@ -61,6 +61,9 @@ TEST_F(CheckPointsFile, HasErrorsOfItsOwnBeforeThoseOfAll) {
   EXPECT_EQ(list->points[1].sigma.vertical, 0.05);
   EXPECT_EQ(list->points[1].sigma.horizontal, 0.02);
   EXPECT_TRUE(list->vertical_stated);
+  // One point without an error of its own, and none for all.
+  EXPECT_FALSE(Read("x,y,z,sigma_vertical\n0,0,10,0.1\n0,0,10,\n")->vertical_stated);
+  EXPECT_TRUE(Read("x,y,z,sigma_vertical\n0,0,10,0.1\n0,0,10,0\n")->vertical_stated);
 }
 
 TEST_F(CheckPointsFile, SaysWhatIsWrong) {

@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <string>
 #include <string_view>
+
+#include "tests/temporary_folder.h"
 
 namespace albtpu::quality {
 namespace {
@@ -155,6 +159,13 @@ TEST(Specifications, SayWhatIsWrongWithThem) {
   EXPECT_THAT(ProblemOf(std::string(kGood) + "horizontal = {constant = -1}\n"), HasSubstr("constant"));
   EXPECT_THAT(ProblemOf(std::string(kGood) + "vertikal = {constant = 1}\n"),
               AllOf(HasSubstr("'class.vertikal' is no key"), HasSubstr("did you mean vertical?")));
+}
+
+TEST_F(ShippedSpecifications, InAFolderOfTheUserNeedTheOrdersOfS44) {
+  const albtpu::testing::TemporaryFolder folder;
+  std::filesystem::copy_file(std::filesystem::path(SHIPPED_SPECIFICATIONS) / "usgs.toml", folder / "harbour.toml");
+  setenv("ALBTPU_SPECIFICATIONS", folder.path().c_str(), 1);
+  EXPECT_THAT(std::string(ListSpecifications().status().message()), HasSubstr("has no s44.toml"));
 }
 
 }  // namespace
