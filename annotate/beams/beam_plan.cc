@@ -151,11 +151,11 @@ double Or(double stated, double otherwise) { return std::isfinite(stated) ? stat
 }  // namespace
 
 std::optional<formats::TrajectorySigma> TrajectoryMotions::SigmaAt(double time) const {
-  for (std::size_t i = 0; i < timeline_.runs().size(); ++i) {
-    const formats::TimelineRun& run = timeline_.runs()[i];
+  for (std::size_t which = 0; which < timeline_.runs().size(); ++which) {
+    const formats::TimelineRun& run = timeline_.runs()[which];
     if (!(time >= run.span().first && time <= run.span().last)) continue;
-    if (i < errors_.size())
-      if (const auto sigma = errors_[i].SigmaAt(time - run.offset); sigma.has_value()) return sigma;
+    if (which < errors_.size())
+      if (const auto sigma = errors_[which].SigmaAt(time - run.offset); sigma.has_value()) return sigma;
     const std::size_t next =
         formats::FirstRecordFrom(run.begin, run.end, time, [&run](std::size_t i) { return run.TimeAt(i); });
     return run.trajectory->SigmaAt(run.TimeAt(next) == time ? next : next - 1);

@@ -47,9 +47,8 @@ struct TimeSpan {
 // The overlap of two intervals, s; negative: the gap between them.
 double Overlap(const TimeSpan& a, const TimeSpan& b);
 
-// A time that no clock gives: 0, which files have where the clock was not known, not finite, or so large that it stands
-// for none, such as the largest number. Unix times in microseconds have 2e15.
-inline bool IsNoTime(double stated) { return stated == 0 || !(std::abs(stated) < 1e16); }
+// A time that no clock gives: 0, which files have where the clock was not known, or not finite.
+inline bool IsNoTime(double stated) { return stated == 0 || !std::isfinite(stated); }
 
 // The form of GPS times in a LAS file, global encoding bit 0.
 enum class PointTimeForm { kWeekSeconds, kAdjustedStandard };

@@ -65,9 +65,11 @@ TEST(LongWaveModel, IsFiniteWhereARingHasSlopeAtOneNode) {
     if (swell.k[i] > 2.1 && swell.k[i] < 300) swell.s[i] = 0.003 * std::pow(swell.k[i], -3);
   const SeaState sea(
       {.waves = KnownWaves{std::make_shared<SampledSpectrum>(swell, SpectrumText{"swell", "a test", "none"})}});
-  for (double all_patch = 10; all_patch < 60; all_patch *= 1.002)
-    for (const LongWaveModel::Wave& wave : LongWaveModel(sea, CrossFade(all_patch / 2, all_patch)).waves())
+  for (double all_patch = 10; all_patch < 60; all_patch *= 1.002) {
+    const LongWaveModel model(sea, CrossFade(all_patch / 2, all_patch));
+    for (const LongWaveModel::Wave& wave : model.waves())
       ASSERT_TRUE(std::isfinite(wave.variance) && wave.wavenumber.allFinite()) << all_patch;
+  }
 }
 
 // Where the footprint is narrower than the waves, as it is in most surveys, plane waves have nearly all of its slope.
