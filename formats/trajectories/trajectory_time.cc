@@ -316,6 +316,9 @@ std::optional<double> GpsTimeOfTrajectory(double stated) {
 double Overlap(const TimeSpan& a, const TimeSpan& b) { return std::min(a.last, b.last) - std::max(a.first, b.first); }
 
 std::string DescribePointTimes(const PointTimes& points) {
+  constexpr double kOfNoClock = 1e17;  // Unix time in microseconds has 2e15.
+  if (std::max(std::abs(points.span.first), std::abs(points.span.last)) >= kOfNoClock)
+    return absl::StrFormat("%.3g to %.3g s, which no clock gives", points.span.first, points.span.last);
   if (points.form == PointTimeForm::kWeekSeconds)
     return absl::StrFormat("%.1f to %.1f s of the GPS week", points.span.first, points.span.last);
   const double gps = points.span.first + kAdjustedGpsOffset;
