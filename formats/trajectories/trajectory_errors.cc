@@ -66,6 +66,9 @@ bool Contradict(const SmrmsgFile& a, const SmrmsgFile& b, const TimeSpan& during
   constexpr int kTimes = 20;
   const double first = std::max({SpanOf(a).first, SpanOf(b).first, during.first});
   const double last = std::min({SpanOf(a).last, SpanOf(b).last, during.last});
+  // Those of other weeks cover the same hours; parts of one flight have little in common.
+  const auto length = [](const SmrmsgFile& file) { return SpanOf(file).last - SpanOf(file).first; };
+  if (Overlap(SpanOf(a), SpanOf(b)) < 0.5 * std::min(length(a), length(b))) return false;
   const auto differ = [](double one, double other) { return one > kMost * other || other > kMost * one; };
   for (int i = 0; first <= last && i <= kTimes; ++i) {
     const double time = first + (last - first) * i / kTimes;

@@ -198,8 +198,8 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
       return of_base(week + later * GpsMinusUtc(gps));
     };
     const Candidate best = of_gps(*GpsTimeOfTrajectory(trajectory.first));
-    // From 1990 to September 2011, GPS times since 1980 are as large as adjusted ones of later years.
-    constexpr double kFirstSurveys = 3e8;
+    // From 2000 to September 2011, GPS times since 1980 are as large as adjusted ones after 2031.
+    constexpr double kFirstSurveys = 6.3e8;
     if (best.overlap >= 0 || trajectory.first < kFirstSurveys || trajectory.first >= kAdjustedGpsOffset) return best;
     const Candidate since_1980 = of_gps(trajectory.first);
     return since_1980.overlap >= 0 ? since_1980 : best;

@@ -217,6 +217,10 @@ TEST_F(TrajectoryErrorsTest, AreThoseOfTheirFlight) {
   const std::string third = folder_.Write("third", SmrmsgBytes(299950, 200));
   EXPECT_THAT(std::string(formats::LoadTrajectoryErrors(std::vector{third, other})->Of(timeline).status().message()),
               HasSubstr("neither begins and ends with "));
+  // Parts of one flight, at whose seams errors differ, contradict nothing.
+  const std::string part = folder_.Write("part", SmrmsgBytes(300015, 200)),
+                    before = folder_.Write("before", SmrmsgBytes(299900, 121));
+  EXPECT_TRUE(formats::LoadTrajectoryErrors(std::vector{part, before})->Of(timeline).ok());
   // The same file twice contradicts nothing.
   EXPECT_EQ(formats::LoadTrajectoryErrors(std::vector{other, other})->Of(timeline)->front().files.size(), 2u);
 }

@@ -68,6 +68,9 @@ TEST(TrajectoryTime, AcceptsAbsoluteTimes) {
             17 - kBeginOfWeek1896);
   // October 2008: since 1980 below 1e9, as adjusted times of 2040 are.
   EXPECT_EQ(Offset({1500 * kWeek + 300000, 1500 * kWeek + 310000}, WeekSeconds(305000, 305001)), -1500 * kWeek);
+  // Adjusted times of 2023 are not read so: another day would fit.
+  const double other_day = 2250 * kWeek - 1e9 + 305000 + 265600;
+  EXPECT_FALSE(Refusal({other_day - 100, other_day + 100}, WeekSeconds(305000, 305001)).empty());
 }
 
 TEST(TrajectoryTime, NamesBothRangesAndAnotherFlight) {
