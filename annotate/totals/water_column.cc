@@ -103,11 +103,11 @@ void StateOptics(const config::WaterSettings& settings, const WaterOptics& optic
        settings.kd_sigma.has_value() ? "[water] kd_sigma" : absl::StrCat("assumed: what ", text.way, " is good for"),
        !settings.kd_sigma.has_value()});
   const bool albedo_told = settings.omega0.has_value() || settings.absorption.has_value();
-  const double albedo = optics.typical_albedo();
-  const char* const assumed = albedo < 0.8 * (1 - 1e-9)
+  const char* const assumed = optics.limited_by_pure_water()
                                   ? "assumed: as coastal water, 0.8 +- 0.1, but absorbs as pure water"
                                   : "assumed: coastal water, 0.8 +- 0.1";
-  numbers.push_back({"water_albedo", absl::StrFormat("%.3g", albedo), albedo_told ? "[water]" : assumed, !albedo_told});
+  numbers.push_back({"water_albedo", absl::StrFormat("%.3g", optics.typical_albedo()),
+                     albedo_told ? "[water]" : assumed, !albedo_told});
   numbers.push_back({"water_backscatter_fraction",
                      optics.least_fraction == optics.most_fraction
                          ? absl::StrCat(optics.least_fraction)

@@ -75,10 +75,10 @@ std::vector<std::string> AssumptionsOf(const KnownWater& water, const CompiledWa
     const double ratio = optics.scattering_over_absorption, albedo = ratio / (1 + ratio);
     if (!water.optics.omega0.has_value() && !water.optics.absorption.has_value()) {
       sentences.push_back(absl::StrFormat("The single-scattering albedo is %.3g, as that of coastal water.", albedo));
-      if (optics.typical_albedo() < albedo)
+      if (optics.limited_by_pure_water())
         sentences.push_back(
-            absl::StrFormat("So clear a water has an albedo of at most %.3g, because it absorbs no less "
-                            "than pure water; the spread of the attenuation changes that.",
+            absl::StrFormat("At the attenuation that is given, the albedo is at most %.3g: no water absorbs less than "
+                            "pure water.",
                             optics.typical_albedo()));
     }
     if (!water.optics.omega0_sigma.has_value() && !water.optics.absorption.has_value())

@@ -93,6 +93,11 @@ double WaterOptics::MaxRatio(double attenuation, double backscatter_fraction) {
 
 double WaterOptics::median_fraction() const { return std::sqrt(least_fraction * most_fraction); }
 
+bool WaterOptics::limited_by_pure_water() const {
+  constexpr double kRounding = 1e-9;
+  return MaxRatio(attenuation, median_fraction()) < scattering_over_absorption * (1 - kRounding);
+}
+
 double WaterOptics::typical_albedo() const {
   const double ratio = std::min(scattering_over_absorption, MaxRatio(attenuation, median_fraction()));
   return ratio / (1 + ratio);

@@ -53,8 +53,10 @@ struct WaterOptics {
   static double MaxRatio(double attenuation, double backscatter_fraction);
 
   double median_fraction() const;
-  // The single-scattering albedo at the medians. It is that of the median of b / a, or the largest that leaves the
-  // absorption of pure water: in the clearest waters most draws are limited by that, each at its own attenuation.
+  // Whether the water is so clear that the median of b / a would leave it less absorption than pure water has. Then
+  // most draws are limited by that, each at its own attenuation.
+  bool limited_by_pure_water() const;
+  // The single-scattering albedo at the medians, within that limit.
   double typical_albedo() const;
 };
 

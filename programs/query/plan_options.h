@@ -1,4 +1,4 @@
-// The flags of `albtpu-query plan`, and what of them has no effect.
+// The flags of `albtpu-query plan`, and a check that each of them has an effect.
 #pragma once
 
 #include <optional>
