@@ -51,6 +51,8 @@ absl::Status StatePrecision(const TrackedFile& file, const std::vector<formats::
   }
   std::set<std::string> left_out;
   for (const formats::ErrorsOfRun& of_run : errors) left_out.insert(of_run.left_out.begin(), of_run.left_out.end());
+  for (const formats::ErrorsOfRun& of_run : errors)
+    for (const auto& used : of_run.files) left_out.erase(used->name());
   if (!left_out.empty())
     found.notes.push_back(absl::StrCat("error files of other flights at the same seconds of a week are left out: ",
                                        absl::StrJoin(left_out, ", ")));

@@ -263,7 +263,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input, con
     annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
   }
   if (annotated.sigmas_assumed > 0) {
-    annotated.notes.push_back(absl::StrCat("no error file states the errors of the trajectory at ",
+    annotated.notes.push_back(absl::StrCat("nothing states the errors of the trajectory at ",
                                            annotated.sigmas_assumed, " points; those of a good one are assumed"));
   }
   if (annotation.seas != nullptr) {

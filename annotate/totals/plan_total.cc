@@ -280,14 +280,12 @@ absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const 
   return plan;
 }
 
-void TakeErrorsOfTrajectory(TotalPlan& plan) {
-  for (StatedNumber& number : plan.numbers) {
-    const bool position = number.name == kErrorSources[Index(&AirErrors::position)].name;
-    if (!position && number.name != kErrorSources[Index(&AirErrors::attitude)].name) continue;
-    if (number.source == "[sigma]") continue;
-    (position ? plan.position_by_pulse : plan.attitude_by_pulse) = true;
-    number = {number.name, "pulse by pulse", "the trajectory", false};
-  }
+void TakeErrorsOfTrajectory(std::string_view source, TotalPlan& plan) {
+  const auto number = std::ranges::find(plan.numbers, source, &StatedNumber::name);
+  if (number == plan.numbers.end() || number->source == "[sigma]") return;
+  const bool position = source == kErrorSources[Index(&AirErrors::position)].name;
+  (position ? plan.position_by_pulse : plan.attitude_by_pulse) = true;
+  *number = {number->name, "pulse by pulse", "the trajectory", false};
 }
 
 std::string SpectrumOf(const client::TableSummary& table) {

@@ -69,8 +69,9 @@ std::vector<config::OpenDecision> UndecidedOf(const config::SurveySettings& surv
 // Also where the survey has several scanners and none is named.
 absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context);
 
-// The trajectory states its own standard deviations, which count pulse by pulse where [sigma] does not say otherwise.
-void TakeErrorsOfTrajectory(TotalPlan& plan);
+// The trajectory states its own standard deviations of `source`, position or attitude. They count pulse by pulse where
+// [sigma] does not say otherwise.
+void TakeErrorsOfTrajectory(std::string_view source, TotalPlan& plan);
 
 // The spectrum by which a table of winds was made, an attribute; empty if it does not state it.
 std::string SpectrumOf(const client::TableSummary& table);

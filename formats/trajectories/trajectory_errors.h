@@ -41,9 +41,9 @@ class TrajectoryErrors {
   Files::const_iterator end() const { return files_.end(); }
   const std::vector<std::string>& skipped() const { return skipped_; }
 
-  // The files for each run of a timeline. An SMRMSG does not name its week. Where two files contradict each other at the
-  // times of the points, the one counts that begins and ends with the trajectory of the run. FailedPrecondition where
-  // no file does, or where several do and contradict each other.
+  // The files for each run of a timeline. An SMRMSG does not name its week. Where two files contradict each other at
+  // the times of the points, the one counts that begins and ends with the trajectory of the run. FailedPrecondition
+  // where no file does, or where several do and contradict each other.
   absl::StatusOr<std::vector<ErrorsOfRun>> Of(const TrajectoryTimeline& timeline) const;
 
  private:

@@ -227,10 +227,19 @@ absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
   return absl::OkStatus();
 }
 
-// Whether trajectories without error files state how well they are known, as those in ASCII may.
-bool StateTheirErrors(const annotate::BeamPlan& plan) {
-  return plan.trajectories != nullptr && plan.trajectory_errors.empty() &&
-         std::ranges::any_of(*plan.trajectories, [](const auto& each) { return each->SigmaAt(0).has_value(); });
+// What trajectories without error files state of their own errors, as those in ASCII may.
+std::vector<std::string_view> StatedErrorsOf(const annotate::BeamPlan& plan) {
+  std::vector<std::string_view> stated;
+  if (plan.trajectories == nullptr || !plan.trajectory_errors.empty()) return stated;
+  const auto any_states = [&](double formats::TrajectorySigma::*sigma) {
+    return std::ranges::any_of(*plan.trajectories, [&](const auto& each) {
+      const std::optional<formats::TrajectorySigma> of_first = each->SigmaAt(0);
+      return of_first.has_value() && std::isfinite((*of_first).*sigma);
+    });
+  };
+  if (any_states(&formats::TrajectorySigma::north)) stated.emplace_back("position");
+  if (any_states(&formats::TrajectorySigma::roll)) stated.emplace_back("attitude");
+  return stated;
 }
 
 // The inputs in which a mistake in the coordinates is sought.
@@ -257,10 +266,11 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   ASSIGN_OR_RETURN(const std::optional<formats::LasKind> kind, OutputKind(options));
   ASSIGN_OR_RETURN(const std::vector<annotate::Job> jobs, JobsOf(options));
   RETURN_IF_ERROR(OpenFilesOf(annotation.plan));
-  const bool own_errors = StateTheirErrors(annotation.plan);
-  if (own_errors && annotation.total.has_value()) annotate::TakeErrorsOfTrajectory(*annotation.total);
+  for (const std::string_view source : StatedErrorsOf(annotation.plan)) {
+    if (annotation.total.has_value()) annotate::TakeErrorsOfTrajectory(source, *annotation.total);
+    for (annotate::LasChannel& channel : annotation.channels) annotate::TakeErrorsOfTrajectory(source, channel.total);
+  }
   for (annotate::LasChannel& channel : annotation.channels) {
-    if (own_errors) annotate::TakeErrorsOfTrajectory(channel.total);
     channel.plan.trajectories = annotation.plan.trajectories;
     channel.plan.trajectory_errors = annotation.plan.trajectory_errors;
     channel.plan.water_levels = annotation.plan.water_levels;

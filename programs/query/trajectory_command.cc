@@ -227,10 +227,13 @@ std::string TrajectoryText(const std::string& path, const TrajectorySummary& sum
   if (summary.speed.has_value()) line("speed", absl::StrFormat("%.1f m/s, median", *summary.speed));
   if (summary.sigma.has_value()) {
     const formats::TrajectorySigma& sigma = *summary.sigma;
-    line("sigma",
-         absl::StrFormat("north %.3f m, east %.3f m, down %.3f m, medians", sigma.north, sigma.east, sigma.down));
-    line("", absl::StrFormat("roll %.4f, pitch %.4f, heading %.4f degrees", DegreesOfRadians(sigma.roll),
-                             DegreesOfRadians(sigma.pitch), DegreesOfRadians(sigma.heading)));
+    if (std::isfinite(sigma.north))
+      line("sigma",
+           absl::StrFormat("north %.3f m, east %.3f m, down %.3f m, medians", sigma.north, sigma.east, sigma.down));
+    if (std::isfinite(sigma.roll))
+      line(std::isfinite(sigma.north) ? "" : "sigma",
+           absl::StrFormat("roll %.4f, pitch %.4f, heading %.4f degrees", DegreesOfRadians(sigma.roll),
+                           DegreesOfRadians(sigma.pitch), DegreesOfRadians(sigma.heading)));
   }
   if (!summary.remark.empty()) line("velocities", summary.remark);
   if (summary.velocity_difference.has_value()) {

@@ -68,7 +68,8 @@ void NoteIsotropic(SeaSeries& series, std::string_view what) {
   const auto records = std::ranges::count_if(series.records, is_noted);
   if (records > 0)
     series.assumed.push_back(absl::StrCat(records, " records have no ", std::string(what),
-                                          " for a tenth of their energy or more: these waves are taken as isotropic"));
+                                          ", or an r2 of 0, for a tenth of their energy or more: these waves are taken "
+                                          "as isotropic"));
 }
 
 void SortByTime(SeaSeries& series) {

@@ -83,8 +83,10 @@ TEST(PlanTotal, TakesErrorsOfTheTrajectoryPulseByPulseUnlessTheUserOverridesThem
   EXPECT_FALSE(plan->position_by_pulse);
   EXPECT_TRUE(plan->attitude_by_pulse);
   plan = PlanTotal(Survey(Decided() + "[sigma]\nposition = [0, 0, 0]\n"), {.has_level = true});
-  TakeErrorsOfTrajectory(*plan);
+  TakeErrorsOfTrajectory("position", *plan);
   EXPECT_FALSE(plan->position_by_pulse);
+  EXPECT_TRUE(Number(*plan, "attitude").assumed);
+  TakeErrorsOfTrajectory("attitude", *plan);
   EXPECT_TRUE(plan->attitude_by_pulse);
   EXPECT_EQ(Number(*plan, "attitude").source, "the trajectory");
   EXPECT_FALSE(Number(*plan, "attitude").assumed);

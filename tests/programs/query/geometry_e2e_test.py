@@ -99,14 +99,20 @@ class GeometryTest(programs.Test):
         worse.write_text("".join(" ".join([*line[:11], "1.5", *line[12:]]) + "\n" for line in lines))
         given = self.toml("[sigma]\nposition = [0.02, 0.02, 0.04]\n")
         tvus = []
-        for trajectory, more in ((survey.ascii, ()), (worse, ()), (worse, ("--survey", given))):
+        positions = self.folder / "positions.txt"
+        positions.write_text("".join(" ".join([*line[:12], "0", "0", "0"]) + "\n" for line in lines))
+        attitudes = []
+        for trajectory, more in ((survey.ascii, ()), (worse, ()), (worse, ("--survey", given)), (positions, ())):
             query("las", survey.las, self.folder / "out.las", "--table", self.table, "--trajectory", trajectory,
                   *LEVER_ARM, "--water-level", survey.water_level, "--wind-speed", 6, "--fetch", 30000, "--classes", 40,
                   "--divergence", DIVERGENCE, "--sensor", "riegl-vq-880-g", "--datum-sigma", 0, "--water-column",
                   "none", "--overwrite", *more, check=0)
             summary = json.loads((self.folder / "out.las.json").read_text())
             tvus.append(summary["answers"]["total"]["all"]["total_tvu"]["mean"])
-            self.assertEqual(summary["parameters"]["total"]["numbers"]["attitude"]["source"], "the trajectory")
+            attitudes.append(summary["parameters"]["total"]["numbers"]["attitude"])
+        self.assertEqual([each["source"] for each in attitudes[:3]], ["the trajectory"] * 3)
+        self.assertTrue(attitudes[3]["assumed"], attitudes[3])
+        self.assertNotIn("nan", query("trajectory", positions, check=0).stdout)
         self.assertGreater(tvus[1], 1.96 * 1.5 / 1.34)
         self.assertLess(tvus[0], 0.6)
         self.assertAlmostEqual(tvus[2], tvus[0], delta=0.01)
