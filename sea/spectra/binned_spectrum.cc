@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace albtpu {
@@ -40,11 +41,40 @@ double BinnedSpectrum::width(std::size_t i) const {
 DirectionalEnergy BinnedSpectrum::operator()(double f) const {
   const std::vector<double>& centres = *centres_;
   if (f < centres.front() || f > centres.back()) return {};
-  const auto above = std::lower_bound(centres.begin() + 1, centres.end(), f);
-  const auto right = static_cast<std::size_t>(above - centres.begin());
+  const std::size_t right = right_of(f);
   const double t = (f - centres[right - 1]) / (centres[right] - centres[right - 1]);
   DirectionalEnergy result;
   return result.Add(bin(right - 1), 1 - t).Add(bin(right), t);
+}
+
+std::size_t BinnedSpectrum::right_of(double f) const {
+  return static_cast<std::size_t>(std::lower_bound(centres_->begin() + 1, centres_->end(), f) - centres_->begin());
+}
+
+DirectionalEnergy BinnedSpectrum::Between(double below, double f, double above) const {
+  const std::vector<double>& centres = *centres_;
+  if (f < centres.front() || f > centres.back()) return {};
+  const std::size_t right = right_of(f);
+  if (!(centres[right] - centres[right - 1] < above - f)) return (*this)(f);
+
+  std::vector<double> knots{std::max(below, centres.front()), f, std::min(above, centres.back())};
+  for (const double centre : centres)
+    if (centre > knots[0] && centre < knots[2] && centre != f) knots.push_back(centre);
+  std::sort(knots.begin(), knots.end());
+  const auto weight = [&](double at) { return at < f ? (at - below) / (f - below) : (above - at) / (above - f); };
+  DirectionalEnergy sum;
+  double weights = 0;
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    if (!(knots[i] > knots[i - 1])) continue;
+    // Between knots both factors are linear, for which Simpson's rule is exact.
+    const double middle = std::midpoint(knots[i - 1], knots[i]), width = knots[i] - knots[i - 1];
+    for (const auto& [at, part] : {std::pair(knots[i - 1], 1.0), std::pair(middle, 4.0), std::pair(knots[i], 1.0)}) {
+      sum.Add((*this)(at), width * part * weight(at));
+      weights += width * part * weight(at);
+    }
+  }
+  DirectionalEnergy mean;
+  return mean.Add(sum, 1 / weights);
 }
 
 std::vector<double> BinnedSpectrum::ComparedFrequencies(double lowest, double highest) const {

@@ -25,6 +25,9 @@ class BinnedSpectrum final : public FrequencySpectrum {
   double width(std::size_t i) const;
 
   DirectionalEnergy operator()(double f) const override;
+  // Where centres are closer than `f` and `above`: the mean with weights that rise from `below` to f and fall to
+  // `above`, over what is between the first and the last centre.
+  DirectionalEnergy Between(double below, double f, double above) const override;
   double highest_frequency() const override { return centres_->back(); }
   // The centres of bins with energy: instruments round little energy to 0.
   std::vector<double> ComparedFrequencies(double lowest, double highest) const override;
@@ -37,6 +40,8 @@ class BinnedSpectrum final : public FrequencySpectrum {
 
  private:
   DirectionalEnergy peak() const;  // The bin of the most energy.
+  // The centre at or above `f`, from the second one; `f` is between the first and the last.
+  std::size_t right_of(double f) const;
 
   std::shared_ptr<const std::vector<double>> centres_;
   std::size_t harmonics_;

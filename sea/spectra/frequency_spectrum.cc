@@ -1,5 +1,6 @@
 #include "sea/spectra/frequency_spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sea/spectra/spectrum_moments.h"
@@ -37,7 +38,9 @@ HarmonicSpectrum ByWavenumber(const FrequencySpectrum& spectrum, double depth, d
   HarmonicSpectrum result = FlatSea(wavenumbers, kSeaHarmonics);
   for (std::size_t i = 0; i < wavenumbers.size(); ++i) {
     const double k = wavenumbers[i];
-    const DirectionalEnergy at_f = spectrum(FrequencyOfWavenumber(k, depth));
+    const auto frequency = [&](std::size_t of) { return FrequencyOfWavenumber(wavenumbers[of], depth); };
+    const DirectionalEnergy at_f = spectrum.Between(frequency(i == 0 ? i : i - 1), frequency(i),
+                                                    frequency(std::min(i + 1, wavenumbers.size() - 1)));
     if (!(at_f.energy > 0)) continue;
     result.s[i] = at_f.energy * FrequencySlope(k, depth);
     // psi = x_azimuth - c, because a compass turns clockwise.

@@ -33,6 +33,10 @@ class FrequencySpectrum {
 
   virtual DirectionalEnergy operator()(double f) const = 0;  // f in Hz, above 0
 
+  // What a sample at `f` stands for, if its neighbours are at `below` and `above`: the value at f unless the spectrum
+  // changes within less than such a step.
+  virtual DirectionalEnergy Between(double /*below*/, double f, double /*above*/) const { return (*this)(f); }
+
   // Beyond it the spectrum is 0; infinity if it has no end.
   virtual double highest_frequency() const = 0;
 
@@ -53,7 +57,7 @@ class FrequencySpectrum {
 };
 
 // S(k) and its harmonics in water of `depth` [m], with psi from the x axis, which points to the compass direction
-// `x_azimuth` [rad].
+// `x_azimuth` [rad]. Bins finer than the wavenumbers are averaged, so that the variance is kept.
 HarmonicSpectrum ByWavenumber(const FrequencySpectrum& spectrum, double depth, double x_azimuth,
                               const std::vector<double>& wavenumbers);
 

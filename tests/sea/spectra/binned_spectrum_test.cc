@@ -61,6 +61,27 @@ TEST(BinnedSpectrumByWavenumber, KeepsItsVariance) {
   }
 }
 
+// Swell in one bin of 1 mHz, which is narrower than the step of 5 %: at any of its frequencies the variance is kept, and
+// so is the second harmonic.
+TEST(BinnedSpectrumByWavenumber, KeepsTheVarianceOfSwellBetweenItsWavenumbers) {
+  for (double swell = 0.06; swell < 0.09; swell += 0.00037) {
+    std::vector<double> f, energy;
+    for (int i = -30; i <= 30; ++i) {
+      f.push_back(swell + 0.001 * i);
+      energy.push_back(i == 0 ? 1 : 0);
+    }
+    for (const double depth : {12.0, kDeep}) {
+      const HarmonicSpectrum by_k = ByWavenumber(Bins(f, energy), depth, 0, SeaWavenumbers());
+      EXPECT_NEAR(ElevationVariance(by_k) / 0.001, 1, 0.02) << swell << ' ' << depth;
+      for (std::size_t i = 0; i < by_k.size(); ++i) {
+        if (by_k.s[i] > 0) {
+          EXPECT_NEAR(by_k.a[0][i], 0.5, 1e-12);
+        }
+      }
+    }
+  }
+}
+
 // x points to the east; waves along 60 degrees of the compass travel 30 degrees to its left.
 TEST(BinnedSpectrumByWavenumber, TurnsFromTheCompassToTheFrame) {
   const BinnedSpectrum spectrum = Bins({0.1, 0.3}, {1, 1}, 60 * kDegree);

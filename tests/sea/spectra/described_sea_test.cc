@@ -43,15 +43,30 @@ std::shared_ptr<const FrequencySpectrum> MeasuredWindSea(double wind_speed, doub
                                           0.4);
 }
 
+// What a sample at k[i] stands for: the mean of E with weights that fall to its neighbours.
+double AroundSample(const WaveSpectrum& spectrum, const std::vector<double>& k, std::size_t i) {
+  const auto f = [&](std::size_t of) { return FrequencyOfWavenumber(k[of], kDeep); };
+  double sum = 0, weights = 0;
+  for (double t = -0.995; t < 1; t += 0.01) {
+    const double width = t < 0 ? f(i) - f(i - 1) : f(i + 1) - f(i), weight = (1 - std::abs(t)) * width;
+    const double at = WavenumberOfFrequency(f(i) + t * width, kDeep);
+    sum += weight * spectrum(at) / FrequencySlope(at, kDeep);
+    weights += weight;
+  }
+  return sum / weights * FrequencySlope(k[i], kDeep);
+}
+
 TEST(DescribedSea, IsTheWindSeaItselfWhereThatWasMeasured) {
-  const HarmonicSpectrum whole = Sampled(ElfouhailySpectrum(8, kDeep), SeaWavenumbers(), 1);
+  const ElfouhailySpectrum wind(8, kDeep);
+  const HarmonicSpectrum whole = Sampled(wind, SeaWavenumbers(), 1);
   for (const TailRule rule : {TailRule::kWind, TailRule::kRelax, TailRule::kLevel}) {
     const DescribedSea sea =
         Describe({.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
     EXPECT_NEAR(sea.q, 1, 1e-12);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       if (whole.k[i] < 0.03) continue;  // so steep that straight lines between bins are too high
-      EXPECT_NEAR(sea.spectrum.s[i], whole.s[i], 2e-3 * whole.s[i]) << whole.k[i];
+      const double s = whole.k[i] < 0.1 ? AroundSample(wind, whole.k, i) : whole.s[i];  // 0.1 rad/m: steep below it
+      EXPECT_NEAR(sea.spectrum.s[i], s, 2e-3 * s) << whole.k[i];
       EXPECT_NEAR(sea.spectrum.a[0][i], whole.a[0][i], 1e-3) << whole.k[i];
     }
   }
