@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <ranges>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,7 +84,7 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
       "that line.");
   lines.push_back("");
   lines.push_back("Found:");
-  for (const LasLook& look : looks | std::views::take(kMostFiles))
+  for (const LasLook& look : std::span(looks).first(std::min(looks.size(), kMostFiles)))
     for (const std::string& found : FoundLines(look)) lines.push_back("  " + found);
   if (looks.size() > kMostFiles)
     lines.push_back(absl::StrCat("  and ", looks.size() - kMostFiles,
@@ -94,7 +94,8 @@ std::vector<std::string> Heading(const std::vector<LasLook>& looks, const Sugges
   for (const LasLook& look : looks)
     for (const std::string& message : {look.crs_message, look.units_message})
       if (!message.empty()) to_decide.push_back("DECIDE, on the command line: " + message);
-  for (std::string& message : to_decide | std::views::take(kMostFiles)) lines.push_back(std::move(message));
+  for (const std::string& message : std::span(to_decide).first(std::min(to_decide.size(), kMostFiles)))
+    lines.push_back(message);
   if (to_decide.size() > kMostFiles)
     lines.push_back(absl::StrCat("DECIDE the same of ", to_decide.size() - kMostFiles, " more."));
   for (std::string& line : lines) line = PrintableText(line);  // A line break would end the comment.
