@@ -1,5 +1,6 @@
 #include "annotate/csv/csv_annotation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -97,6 +98,7 @@ class BlockWork {
     const PulseBatch& pulses = chunk.pulses[has_azimuth];
     auto& [answers, aircraft, totals] = chunk.halves[has_azimuth];
     RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), pulses, selection_, answers));
+    if (total_ != nullptr) RefuseInvalid(aircraft, pulses.size, answers);
     if (total_ != nullptr) AddWater(total_->plan.water, pulses, answers, totals.water);
     if (pulses.size == 0) return absl::OkStatus();
     chunk.summary.Add(pulses, answers);
@@ -105,6 +107,7 @@ class BlockWork {
       answers.sea_axes = aircraft.sea_axes;
       if (total_->plan.waves_unseen()) WaveHeightsOfWinds(pulses, total_->wind_spectrum, answers.wave_heights);
     }
+    ForgetAxes(aircraft, answers);
     ComputeTotals(total_->plan, pulses, answers, aircraft.columns, totals);
     for (std::size_t i = 0; i < pulses.size; ++i) {
       if (!aircraft.undirected[i]) continue;
@@ -113,6 +116,32 @@ class BlockWork {
     chunk.totals.Add(pulses, answers, totals);
     chunk.totals.Add(SampleSources(total_->plan, pulses, aircraft.columns, totals));
     return absl::OkStatus();
+  }
+
+  // As a service answers budgets.
+  static void RefuseInvalid(const CsvAircraftBatch& aircraft, std::size_t size, AnswerBatch& answers) {
+    BudgetInputs inputs{.size = size};
+    for (const BudgetInput input : kAircraftInputs) inputs[input] = aircraft.columns[input];
+    std::vector<std::uint8_t> invalid(size);
+    FindInvalid(inputs, invalid.data());
+    for (std::size_t i = 0; i < size; ++i) {
+      if (invalid[i] == 0 || !answers.interpolated(i)) continue;
+      answers.outcomes[i] = static_cast<std::uint8_t>(static_cast<int>(Outcome::kInvalid) + 1);
+      answers.outcome_axes[i] = 0;
+      for (std::vector<float>& values : answers.values)
+        if (!values.empty()) values[i] = NAN;
+    }
+  }
+
+  // Where the direction of a beam is not known, the error of the sea is the same in all directions.
+  void ForgetAxes(const CsvAircraftBatch& aircraft, AnswerBatch& answers) const {
+    const std::vector<bool>& undirected = aircraft.undirected;
+    if (std::ranges::find(undirected, true) == undirected.end()) return;
+    std::vector<float>& axes = answers.sea_axes;
+    if (axes.empty()) axes.assign(1, total_->plan.sea_axis.value_or(NAN));
+    if (axes.size() == 1) axes.assign(undirected.size(), float{axes[0]});
+    for (std::size_t i = 0; i < undirected.size(); ++i)
+      if (undirected[i]) axes[i] = NAN;
   }
 
   static void AppendNumber(const formats::CsvDialect& dialect, float value, std::string& to) {
@@ -130,16 +159,16 @@ class BlockWork {
     number(totals.thu[i]);
     number(totals.tvu[i]);
     if (total_->details) {
+      const auto part = [&](float value) { number(std::isfinite(totals.thu[i]) ? value : NAN); };
       for (const auto* column : {&totals.thu_air, &totals.tvu_air, &totals.thu_sea, &totals.tvu_sea})
-        number((*column)[i]);
+        part((*column)[i]);
       if (total_->plan.water.has_share()) {
-        number(totals.thu_water[i]);
-        number(totals.tvu_water[i]);
+        part(totals.thu_water[i]);
+        part(totals.tvu_water[i]);
       }
-      const bool answered = std::isfinite(totals.thu[i]);
       if (total_->plan.has_extra())
-        for (const float added : {totals.extra.thu, totals.extra.tvu}) number(answered ? added : NAN);
-      for (const std::vector<float>& entry : totals.covariance) number(answered ? entry[i] : NAN);
+        for (const float added : {totals.extra.thu, totals.extra.tvu}) part(added);
+      for (const std::vector<float>& entry : totals.covariance) part(entry[i]);
     }
     number(answers[Quantity::kBiasAlongBeam][i]);
     number(answers[Quantity::kBiasVertical][i]);

@@ -252,12 +252,13 @@ absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::str
                                std::optional<OutputFile> csv) {
   const fs::path summary_path = SummaryPath(job.output);
   RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, existing));
-  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, Existing::kReplace));
+  std::error_code error;
+  const bool replaces = existing == Existing::kReplace || fs::exists(summary_path, error);
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, replaces ? Existing::kReplace : existing));
   RETURN_IF_ERROR(output.Sync());
   if (csv.has_value()) RETURN_IF_ERROR(csv->Sync());
   RETURN_IF_ERROR(file.Write(summary));
   RETURN_IF_ERROR(file.Sync());
-  std::error_code error;
   const bool new_csv = csv.has_value() && !fs::exists(job.csv, error);
   if (csv.has_value()) RETURN_IF_ERROR(csv->Commit());
   if (fs::exists(job.output, error)) {
@@ -267,8 +268,10 @@ absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::str
     return file.Commit();
   }
   absl::Status status = file.Commit();
-  if (status.ok()) status = output.Commit();
-  if (!status.ok()) fs::remove(summary_path, error);
+  if (status.ok()) {
+    status = output.Commit();
+    if (!status.ok()) fs::remove(summary_path, error);
+  }  // Else another process may have written the same output: the summary is of that one.
   if (!status.ok() && new_csv) fs::remove(job.csv, error);
   return status;
 }

@@ -20,7 +20,7 @@ constexpr auto kInvalid = static_cast<std::uint8_t>(static_cast<int>(Outcome::kI
 
 // Memory of one piece of work.
 struct Scratch {
-  std::uint8_t outcomes[kGrain], outcome_axes[kGrain], refused[kGrain];
+  std::uint8_t outcomes[kGrain], outcome_axes[kGrain], invalid[kGrain];
   float sea_thu[kGrain], sea_tvu[kGrain], along[kGrain], cross[kGrain];
   float bias_along_beam[kGrain], bias_vertical[kGrain];
 };
@@ -38,24 +38,27 @@ float Below(BudgetInput input) {
   return std::nextafter(least, -std::numeric_limits<float>::infinity());
 }
 
-// Marks the pulses whose numbers of the aircraft are not valid.
-void Refuse(const BudgetInputs& aircraft, std::uint8_t* refused) {
-  std::fill_n(refused, aircraft.size, std::uint8_t{0});
+}  // namespace
+
+void FindInvalid(const BudgetInputs& aircraft, std::uint8_t* invalid) {
+  std::fill_n(invalid, aircraft.size, std::uint8_t{0});
   for (const BudgetInput input : kAircraftInputs) {
     const std::span<const float> column = aircraft[input];
     if (column.empty()) continue;
     const float below = Below(input);
     const auto greatest = static_cast<float>(kGreatestBudgetNumber);
-    const auto is_refused = [=](float x) {
+    const auto is_invalid = [=](float x) {
       return static_cast<std::uint8_t>((static_cast<int>(x > below) & static_cast<int>(x <= greatest)) ^ 1);
     };
     if (column.size() == 1) {
-      if (is_refused(column[0])) std::fill_n(refused, aircraft.size, std::uint8_t{1});
+      if (is_invalid(column[0])) std::fill_n(invalid, aircraft.size, std::uint8_t{1});
       continue;
     }
-    for (std::size_t i = 0; i < aircraft.size; ++i) refused[i] |= is_refused(column[i]);
+    for (std::size_t i = 0; i < aircraft.size; ++i) invalid[i] |= is_invalid(column[i]);
   }
 }
+
+namespace {
 
 BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::size_t count) {
   const auto column = [&](std::size_t index) {
@@ -124,9 +127,9 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   Sum(scratch.bias_along_beam, piece.aircraft[BudgetInput::kWaterBiasAlong], begin, count, bias_along_beam);
   Sum(scratch.bias_vertical, piece.aircraft[BudgetInput::kWaterBiasVertical], begin, count, bias_vertical);
 
-  Refuse(piece.aircraft, scratch.refused);
+  FindInvalid(piece.aircraft, scratch.invalid);
   for (std::size_t i = 0; i < count; ++i) {
-    if (scratch.refused[i] == 0 || outcomes[i] != kInterpolated) continue;
+    if (scratch.invalid[i] == 0 || outcomes[i] != kInterpolated) continue;
     outcomes[i] = kInvalid;
     axes[i] = 0;
   }

@@ -106,12 +106,15 @@ BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t co
 // and sums of products of three such numbers have squares that single precision holds (1e38).
 inline constexpr double kGreatestBudgetNumber = 1e6;
 
+// Whether a number of the aircraft of each pulse is not valid, 0 or 1: NaN or beyond kGreatestBudgetNumber, an altitude
+// not above 0, a standard deviation or a wave height negative.
+void FindInvalid(const BudgetInputs& aircraft, std::uint8_t* invalid);
+
 // Answers all pulses, for which CheckQuery() must be OK. The answer for a pulse depends on this pulse and the
 // instruction set alone. Runs on all cores if there are enough pulses for that to be faster, else on this thread.
 //
 // A pulse without an answer of the table has the table's outcome and no number. A pulse is invalid if a number of the
-// aircraft is NaN or beyond kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height
-// negative.
+// aircraft is (FindInvalid).
 void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
                            const BudgetOptions& options, const BudgetAnswers& answers);
 

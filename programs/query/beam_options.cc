@@ -230,7 +230,7 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags)
            group::kSea, flags);
   for (const annotate::PulseInput input : {annotate::PulseInput::kFootprint, annotate::PulseInput::kAzimuth})
     AddInput(command, input, options.fixed);
-  AddNumber(command, "--altitude", Sign::kNotNegative,
+  AddNumber(command, "--altitude", Sign::kPositive,
             "Height of the aircraft above the water, where no trajectory gives it [m]", options.altitude)
       ->group(group::kPulse);
   AddNumber(command, "--divergence", Sign::kNotNegative, "Divergence of the beam, full angle [mrad]",

@@ -195,9 +195,8 @@ absl::Status RunCsv(const CsvOptions& given, const CLI::App& command) {
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
   const std::string notes = answerer.SeaText();
-  std::vector<std::filesystem::path> files;
-  if (sea.file.has_value()) files.emplace_back(*sea.file);
-  if (options.flags.survey.has_value()) files.emplace_back(*options.flags.survey);
+  std::vector<std::filesystem::path> files = FilesOf(options.flags, settings);
+  if (!options.source.file.empty()) files.push_back(options.source.file);
   const auto annotate = [&](const annotate::Job& job,
                             annotate::FileProgress& progress) -> absl::StatusOr<annotate::AnnotatedFile> {
     ASSIGN_OR_RETURN(annotate::AnnotatedCsv csv,

@@ -285,9 +285,9 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
   }
   if (options.style.standard_errors) annotate::Note(answerer.ErrorNote());
   LasFiles files(options, settings, annotation, kind, source, jobs.size());
-  std::vector<std::string> read = annotate::FilesOf(annotation.plan);
-  if (sea.file.has_value()) read.push_back(*sea.file);
-  if (options.flags.survey.has_value()) read.push_back(*options.flags.survey);
+  std::vector<std::filesystem::path> read = FilesOf(options.flags, settings);
+  for (const std::string& file : annotate::FilesOf(annotation.plan)) read.emplace_back(file);
+  if (!options.source.file.empty()) read.push_back(options.source.file);
   nlohmann::ordered_json parameters = Parameters(annotation, sea, options.format);
   parameters["sea_index"] = annotate::IndexOrUsual(settings.water);
   const absl::Status status = annotate::AnnotateFiles(
@@ -296,7 +296,7 @@ absl::Status RunLas(const LasOptions& options, const CLI::App& command) {
        .records = "points",
        .record = "chosen point",
        .parameters = annotate::JsonBox(std::move(parameters)),
-       .files = {read.begin(), read.end()},
+       .files = std::move(read),
        .resume = options.files.resume,
        .existing = options.existing,
        .json = options.files.json,

@@ -15,12 +15,13 @@ namespace {
 
 template <typename Number>
 void CheckNumber(const std::string& flag, const std::string& text, std::optional<Number> value, Sign sign) {
-  const std::string remedy =
-      absl::StrCat("give ", sign == Sign::kNotNegative ? "a number of at least 0" : "a finite number");
+  const std::string remedy = absl::StrCat("give a ", sign == Sign::kAny           ? "finite number"
+                                                     : sign == Sign::kNotNegative ? "number of at least 0"
+                                                                                  : "number above 0");
   if (!value.has_value() || !std::isfinite(*value))
     throw CLI::ValidationError(flag, absl::StrCat("'", text, "' is not a finite number; ", remedy));
-  if (sign == Sign::kNotNegative && *value < 0)
-    throw CLI::ValidationError(flag, absl::StrCat(text, " is negative; ", remedy));
+  if (sign != Sign::kAny && *value < 0) throw CLI::ValidationError(flag, absl::StrCat(text, " is negative; ", remedy));
+  if (sign == Sign::kPositive && *value == 0) throw CLI::ValidationError(flag, absl::StrCat(text, " is 0; ", remedy));
 }
 
 // Validators of CLI11 answer with what is wrong, or with an empty text.
@@ -132,12 +133,15 @@ nlohmann::ordered_json Parameters(const annotate::AnswerStyle& style) {
 
 void AddInput(CLI::App& command, annotate::PulseInput input, annotate::FixedInputs& fixed) {
   const bool is_direction = input == annotate::PulseInput::kBeamAzimuth || input == annotate::PulseInput::kAzimuth;
+  const Sign sign = is_direction                               ? Sign::kAny
+                    : input == annotate::PulseInput::kAltitude ? Sign::kPositive
+                                                               : Sign::kNotNegative;
   command
       .add_option_function<std::string>(
           annotate::FlagName(input),
-          [input, is_direction, &fixed](const std::string& text) {
+          [input, sign, &fixed](const std::string& text) {
             const std::optional<float> value = formats::ParseFloat(text);
-            CheckNumber(annotate::FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative);
+            CheckNumber(annotate::FlagName(input), text, value, sign);
             fixed[input] = value;
           },
           kInputHelp[Index(input)])

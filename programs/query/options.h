@@ -52,7 +52,7 @@ void AddTriple(CLI::App& command, const std::string& flag, const std::string& ty
                std::optional<std::array<double, 3>>& value);
 
 // Whether numbers below zero make sense.
-enum class Sign { kAny, kNotNegative };
+enum class Sign { kAny, kNotNegative, kPositive };
 
 // A finite number.
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,

@@ -184,8 +184,13 @@ absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveySetti
 
 std::vector<std::filesystem::path> FilesOf(const SurveyFlags& flags, const SurveySettings& settings) {
   std::vector<std::filesystem::path> files;
-  for (const std::optional<std::string>& file : {flags.survey, settings.sea.file, settings.sensor.name})
-    if (file.has_value()) files.emplace_back(*file);  // A sensor that is no file has no such name.
+  for (const std::optional<std::string>& file : {flags.survey, settings.sea.file})
+    if (file.has_value()) files.emplace_back(*file);
+  std::vector<std::optional<std::string>> sensors = {settings.sensor.name};
+  for (const config::ChannelSettings& channel : settings.sensor.channels) sensors.push_back(channel.name);
+  for (const std::optional<std::string>& sensor : sensors)
+    if (std::error_code error; sensor.has_value() && std::filesystem::exists(*sensor, error))
+      files.emplace_back(*sensor);
   return files;
 }
 

@@ -1,5 +1,7 @@
 #include "quality/grids/netcdf_grid.h"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -46,6 +48,8 @@ std::string UnitName(double metres) {
 
 NetcdfGrid::NetcdfGrid(const std::filesystem::path& path, GridFrame frame, std::size_t tile, std::string_view title)
     : path_(path), frame_(std::move(frame)), tile_(tile) {
+  // HDF5 crashes where it closes at exit a file that could not be written.
+  [[maybe_unused]] static const herr_t without_closing_at_exit = H5dont_atexit();
   open_ = Check(nc_create(path.c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_));
   Text(NC_GLOBAL, "Conventions", "CF-1.8");
   Text(NC_GLOBAL, "title", title);
@@ -58,7 +62,7 @@ NetcdfGrid::NetcdfGrid(const std::filesystem::path& path, GridFrame frame, std::
 }
 
 NetcdfGrid::~NetcdfGrid() {
-  if (open_) nc_abort(file_);
+  if (open_ && ok()) nc_abort(file_);  // It crashes after a failure.
 }
 
 int NetcdfGrid::Variable(const char* name, nc_type type, const std::vector<int>& dimensions) {

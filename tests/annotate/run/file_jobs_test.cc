@@ -149,6 +149,17 @@ TEST_F(SummaryFile, RecognizesACompleteOutput) {
   EXPECT_EQ(folder_.file_count(), 3u);
 }
 
+// The output of another process appears after this one looked for it: by a rename that finds the name free.
+TEST_F(SummaryFile, OfAnotherProcessStays) {
+  absl::StatusOr<OutputFile> output = OutputFile::Create(job_.output, Existing::kKeep);
+  ASSERT_TRUE(output.ok());
+  ASSERT_TRUE(Write().ok());
+  const std::string summary = ReadFile(SummaryPath(job_.output));
+  EXPECT_TRUE(absl::IsAlreadyExists(CommitWithSummary(*std::move(output), job_, "another", Existing::kKeep)));
+  EXPECT_EQ(ReadFile(SummaryPath(job_.output)), summary);
+  EXPECT_EQ(folder_.file_count(), 3u);
+}
+
 TEST_F(SummaryFile, HasTheSameBytesInEveryFolder) {
   ASSERT_TRUE(Write().ok());
   const std::string text = ReadFile(folder_ / "out.las.json");

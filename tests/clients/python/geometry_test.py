@@ -63,6 +63,13 @@ class Footprint(unittest.TestCase):
         np.testing.assert_array_equal(geometry.footprint([400, 500], 2), [400 * (2 * 1e-3), 500 * (2 * 1e-3)])
         self.assertEqual(geometry.footprint(400, divergence_mrad=1, aperture=0.25), 0.65)
 
+    def test_is_not_known_of_masked_numbers(self):
+        masked = np.ma.masked_equal([425.0, -9999.0], -9999.0)
+        for numbers in (geometry.footprint(masked, 1), geometry.footprint(1, masked), geometry.footprint(1, 1, masked),
+                        geometry.azimuth_from_downwind(masked, 0), geometry.azimuth_from_downwind(0, masked),
+                        geometry.azimuth_on_sea(masked, 0), geometry.azimuth_on_sea(0, masked)):
+            np.testing.assert_array_equal(np.isnan(numbers), [False, True])
+
 
 class Azimuth(unittest.TestCase):
     def test_is_zero_for_a_beam_that_travels_with_the_wind(self):

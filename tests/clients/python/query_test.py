@@ -94,6 +94,8 @@ class Queries(unittest.TestCase):
         self.assertEqual(self.query(depth=depth).to_xarray().thu.dims, ("pulse",))
         self.assertEqual(self.query(depth=[]).to_xarray().thu.shape, (0,))
         self.assertEqual(self.query().to_xarray().thu.dims, ())
+        one = self.query(depth=[8.0]).to_xarray(("depth",))
+        self.assertEqual((one.depth.values, one.wind_speed.dims), ([8], ()))
         for dims, hint in ((("depth",), "dims has 1 names: the answer has 2 dimensions"),
                            (("depth", "incidence"), "incidence varies along .*: it cannot index the dimension")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):

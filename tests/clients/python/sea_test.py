@@ -103,6 +103,20 @@ class Described(unittest.TestCase):
         self.assertEqual((state.wind_speed, state.wind_from), (6.5, 225 * math.pi / 180))
         self.assertEqual((state.water_depth, state.tail_rule, state.tail_from), (12, sea_pb2.TAIL_RULE_LEVEL, 0.9))
 
+    def test_of_masked_numbers_knows_none_there(self):
+        f, energy, r2 = [0.1, 0.2, 0.3], [1.0, 2.0, 1.0], [0.5, 0.5, 0.5]
+        masked, missing = np.ma.masked_equal([30.0, 30.0, 999.0], 999.0), [30, 30, np.nan]
+        self.assertEqual(albtpu.Sea.spectrum(f, energy, r2=r2, alpha2=masked).message(),
+                         albtpu.Sea.spectrum(f, energy, r2=r2, alpha2=missing).message())
+        densities = albtpu.Sea.spectrum(f, np.ma.masked_equal(energy, 2.0)).message().frequency_spectrum.densities
+        np.testing.assert_array_equal(densities, [1, np.nan, 1])
+
+    def test_takes_the_numbers_that_are_given(self):
+        waves = albtpu.Sea.spectrum([0.1, 0.2], [1, 2], trusted_up_to=0).message().frequency_spectrum
+        self.assertEqual(waves.trusted_up_to, 0)  # Refused by the server.
+        with self.assertRaisesRegex(albtpu.ArgumentError, "frequencies has the shape"):
+            albtpu.Sea.spectrum([], [])
+
     def test_calm_has_no_wind_and_no_waves(self):
         state = albtpu.Sea.calm().message()
         self.assertTrue(state.HasField("wind_speed"))

@@ -55,6 +55,13 @@ class Pages(Written):
         self.assertEqual(self.page.read_bytes(), before)
         self.assertEqual(self.names(), ["report.html"])
 
+    def test_are_of_a_folder_that_has_a_report(self):
+        for folder in (self.folder, self.folder / "absent"):
+            result = subprocess.run([sys.executable, "-m", "albtpu.report", folder], capture_output=True, text=True,
+                                    check=False)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"{folder}: no report.json or plan.json", result.stderr)
+
     def test_leave_nothing_on_a_full_disk(self):
         with full_disk(), self.assertRaises(OSError):
             write_document(self.page, "First", "<p>Words</p>")

@@ -4,11 +4,12 @@ file, or there is one clear refusal, or a note says what was repaired; never ano
 import json
 import math
 import os
+import pathlib
 
 import numpy as np
 
 import programs
-from false_file import BOUNDS, FLIGHT, OVERLAP, SYNTHETIC, WITHHELD, FalseFiles, Points, geo_keys
+from false_file import BOUNDS, FLIGHT, OVERLAP, SURVEY, SYNTHETIC, WITHHELD, FalseFiles, Points, geo_keys
 from las_file import LasFile
 from programs import query
 from simulated_survey import SimulatedSurvey
@@ -248,10 +249,23 @@ class Outputs(FalseFiles):
         survey.write_bytes(self.toml_file.read_bytes())
         common = ("--survey", survey, "--table", self.quick, "--trajectory", trajectory, "--trajectory-errors", errors,
                   "--water-level", self.survey.water_level, "--overwrite")
+        table, sensor, points = self.folder / "table.h5", self.folder / "sensor.toml", self.folder / "points.csv"
+        table.write_bytes(pathlib.Path(self.quick).read_bytes())
+        sensor.write_text('title = "Mine"\n' + "".join(
+            f'[{name}]\nvalue = {value}\nunit = "{unit}"\nsource = "mine"\n'
+            for name, value, unit in (("scan", 0.02, "degree"), ("bottom_range", 0.1, "m"), ("divergence", 1, "mrad"))))
+        own = self.write("own.toml", SURVEY.replace("riegl-vq-880-g", str(sensor)))
+        points.write_text("depth,incidence,altitude\n8,12,400\n")
         before = {path.name: path.read_bytes() for path in self.folder.iterdir()}
         for path in (trajectory, errors, survey):
             self.assert_fails(query("las", source, path, *common), 1, f"{path.name}: is read by this run")
             self.assert_fails(query("las", source, "--csv", path, *common), 1, f"{path.name}: is read by this run")
+        beams = ("--trajectory", trajectory, "--water-level", self.survey.water_level)
+        for path in (table, sensor):
+            for command, *given in (("las", source, path, *beams),
+                                    ("csv", points, path, "--surface-located", "level", "--footprint", 0.5)):
+                self.assert_fails(query(command, *given, "--survey", own, "--table", table, "--overwrite"), 1,
+                                  f"{path.name}: is read by this run")
         self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, before)
 
     def test_are_never_a_second_input(self):

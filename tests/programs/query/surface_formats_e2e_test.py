@@ -1,6 +1,7 @@
 """albtpu-query surface as GeoTIFF and BAG, opened by GDAL's own tools, by HDF5 and as XML."""
 
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -235,25 +236,32 @@ class Formats(programs.Test):
                           "netcdf, geotiff, bag")
         self.assertFalse((self.folder / "new").exists())
 
+    def assert_leaves_nothing(self, room, *command):
+        """On a file system of so many bytes, where the command is to write `new`."""
+        disk = self.folder / "disk"
+        disk.mkdir(exist_ok=True)
+        script = ('mount -t tmpfs -o size="$1" tmpfs "$2" || exit 99; disk="$2"; shift 2; "$@" --output "$disk/new"; '
+                  'code=$?; find "$disk" >&3; exit $code')
+        with open(self.folder / "left", "w") as left:
+            result = subprocess.run(["unshare", "--mount", "bash", "-c", script, "bash", str(room // 4096 * 4096), disk,
+                                     programs.PATHS["query"], *map(str, command)], capture_output=True, text=True,
+                                    preexec_fn=lambda: os.dup2(left.fileno(), 3), pass_fds=(3,))
+        if result.returncode == 99 or "unshare" in result.stderr:
+            self.skipTest("no file system of a given size can be mounted")
+        self.assert_fails(result, 1, "cannot be written")
+        self.assertEqual((self.folder / "left").read_text(), f"{disk}\n")
+
     def test_leave_nothing_on_a_full_disk(self):
-        part, disk = self.folder / "all.part", self.folder / "disk"
+        part = self.folder / "all.part"
         query("surface", annotated, "--partial", part, "--cell", CELL, check=0)
-        disk.mkdir()
         for name in ("geotiff", "bag"):
             file = made / {"geotiff": "surface.tif", "bag": "surface.bag"}[name]
             for share in (0.2, 0.9):
                 room = (made / "surface.nc").stat().st_size + int(share * file.stat().st_size)
-                script = ('mount -t tmpfs -o size="$1" tmpfs "$2" || exit 99; '
-                          '"$3" surface merge "$4" --output "$2/new" --format "$5"; code=$?; find "$2" >&3; exit $code')
-                with open(self.folder / "left", "w") as left:
-                    result = subprocess.run(
-                        ["unshare", "--mount", "bash", "-c", script, "bash", str(room // 4096 * 4096), disk,
-                         programs.PATHS["query"], part, name], capture_output=True, text=True,
-                        preexec_fn=lambda: __import__("os").dup2(left.fileno(), 3), pass_fds=(3,))
-                if result.returncode == 99 or "unshare" in result.stderr:
-                    self.skipTest("no file system of a given size can be mounted")
-                self.assert_fails(result, 1, "cannot be written")
-                self.assertEqual((self.folder / "left").read_text(), f"{disk}\n")
+                self.assert_leaves_nothing(room, "surface", "merge", part, "--format", name)
+        for room in (4096, 12288, 20480, 32768, 61440):
+            self.assert_leaves_nothing(room, "surface", "merge", part)
+            self.assert_leaves_nothing(room, "report", annotated, "--no-page")
 
 
 if __name__ == "__main__":

@@ -218,10 +218,11 @@ source = 'its data sheet'
             np.testing.assert_array_equal(replaced.field(begin + 8 * i, "<f8"),
                                           plain.field(begin + 4 * i, "<f4").astype(float), name)
 
-    def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n"):
+    def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n", table=True):
         path, out = self.folder / "pulses.csv", self.folder / "totals.csv"
         path.write_text(rows)
-        result = query("csv", path, out, "--survey", self.toml(text), "--table", self.table, "--overwrite", *flags)
+        source = ("--table", self.table) if table else ()
+        result = query("csv", path, out, "--survey", self.toml(text), *source, "--overwrite", *flags)
         return result, [line.split(",") for line in out.read_text().splitlines()] if out.exists() else None
 
     def test_csv_takes_the_divergence_of_the_sensor(self):
@@ -243,6 +244,34 @@ source = 'its data sheet'
         # A beam straight ahead stands for it: roll and pitch are equally uncertain, so that heights hardly change.
         np.testing.assert_allclose(float(first["tvu_air"]), float(second["tvu_air"]), rtol=1e-4)
         self.assertNotEqual(second["covariance_NE"], "")
+
+    def test_csv_without_a_direction_knows_none_of_the_sea(self):
+        rows = "incidence,beam_azimuth,depth,altitude\n20,,10,400\n"
+        text = SENSOR + DECIDED + SIGMA + "[surface]\nlocated = 'level'\n"
+        for given in (rows, rows.replace("20,,", "20,").replace("beam_azimuth,", "")):
+            over_waves, by_wind = set(), set()
+            for direction in (0, 45, 90):
+                waves = ("--hs", 0.6, "--tp", 3.2, "--waves-from", direction)
+                _, lines = self.csv(given, *waves, text=text, table=False)
+                over_waves.add(tuple(lines[1][-5:-3]))
+                _, lines = self.csv(given, "--wind-speed", 6.5, "--wind-from", direction, text=text)
+                by_wind.add(tuple(lines[1][-5:-3]))
+            self.assertEqual((len(over_waves), len(by_wind)), (1, 1), (over_waves, by_wind))
+
+    def test_csv_says_which_pulses_have_numbers_of_the_aircraft_that_are_none(self):
+        rows = ("nan,0,1", "0,0,1", "-5,0,1", "1e9,0,1", "400,nan,1", "400,-2e6,1", "400,1,inf", "400,1,1")
+        result, lines = self.csv("depth,incidence,footprint,beam_azimuth,altitude,roll,velocity_north\n" +
+                                 "".join(f"10,20,0.5,90,{row}\n" for row in rows), "--details")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("7 INVALID", result.stderr)
+        for line in lines[1:-1]:
+            self.assertEqual(line[-1], "INVALID")
+            self.assertEqual(set(line[7:-1]), {""})
+        self.assertEqual(lines[-1][-1], "INTERPOLATED")
+
+    def test_no_aircraft_flies_on_the_water(self):
+        for command in (("las", "a.las", "b.las"), ("csv", "a.csv", "b.csv"), ("pulse",)):
+            self.assert_fails(query(*command, "--altitude", 0), 2, "--altitude: 0 is 0; give a number above 0")
 
     def test_csv_has_a_flag_or_a_column(self):
         by_wind = SENSOR + DECIDED + SIGMA + "[sea]\nwind_speed = 6.5\n[surface]\nlocated = 'level'\n"

@@ -190,7 +190,7 @@ class Sea:
             state.frequency_spectrum.CopyFrom(sea_pb2.FrequencySpectrum(
                 frequencies=spectrum.frequencies, densities=spectrum.densities,
                 cosines=sum(spectrum.cosines, ()), sines=sum(spectrum.sines, ()),
-                trusted_up_to=spectrum.trusted_up_to or spectrum.frequencies[-1],
+                trusted_up_to=spectrum.frequencies[-1] if spectrum.trusted_up_to is None else spectrum.trusted_up_to,
                 record_length=spectrum.record_length))
         elif self.waves:
             state.components.components.extend(

@@ -121,7 +121,7 @@ class Service(UncertaintySource):
                 question.cells.add(side=side, orientation=read_number("orientation", orientation))
         else:
             apart = np.asarray(dx, dtype=float)
-            if apart.shape[-1:] != (2,) or apart.ndim > 2:
+            if apart.shape[-1:] != (2,) or apart.ndim > 2 or apart.size == 0:
                 raise ArgumentError(f"dx has the shape {apart.shape} (expected two numbers, or an array of such "
                                     "pairs): give x and y of each")
             pairs, later = np.atleast_2d(apart), np.asarray(dt, dtype=float).ravel()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import read_optional
+from .arguments import read_column, read_optional
 from .errors import ArgumentError
 from .schema import Doubles
 
@@ -63,11 +63,8 @@ def buoy_spectrum(frequencies: ArrayLike, energy: ArrayLike, r2: ArrayLike | Non
 
 
 def _column(name: str, values: ArrayLike) -> list[float]:
-    try:
-        array = np.asarray(values, np.float64)
-    except (TypeError, ValueError):
-        raise ArgumentError(f"{name} is {values!r}: it should be numbers") from None
-    if array.ndim != 1:
+    array = read_column(name, values)
+    if array.ndim != 1 or array.size == 0:
         raise ArgumentError(f"{name} has the shape {array.shape}: it should be a sequence of numbers")
     return [float(value) for value in array]
 

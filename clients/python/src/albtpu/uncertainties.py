@@ -220,7 +220,9 @@ def order_names(orders: Numbers) -> NDArray[np.object_]:
 
 def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[Any, ...]:
     """The coordinate `axis` over the dimensions along which it is not merely broadcast."""
-    varies = [stride != 0 or array.size == 0 for stride in array.strides]
+    # NumPy gives an axis of one element the stride 0, too.
+    varies = [stride != 0 or array.size == 0 or (length == 1 and dim == axis)
+              for dim, length, stride in zip(dims, array.shape, array.strides)]
     over = tuple(dim for dim, along in zip(dims, varies) if along)
     if axis in dims and over != (axis,):
         raise ArgumentError(f"{axis} varies along {', '.join(over) or 'no dimension'}: it cannot index the "

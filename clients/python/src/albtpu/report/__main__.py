@@ -12,11 +12,13 @@ def main() -> int:
         print("python3 -m albtpu.report: give one folder with report.json or plan.json", file=sys.stderr)
         return 2
     folder = pathlib.Path(sys.argv[1])
-    if (folder / "plan.json").exists():
-        write_plan(folder)
-    if (folder / "report.json").exists():
-        write_page(folder)
-    return 0
+    pages = {"plan.json": write_plan, "report.json": write_page}
+    found = [write for name, write in pages.items() if (folder / name).exists()]
+    if not found:
+        print(f"{folder}: no report.json or plan.json; give the folder of a report", file=sys.stderr)
+    for write in found:
+        write(folder)
+    return 0 if found else 1
 
 
 if __name__ == "__main__":
