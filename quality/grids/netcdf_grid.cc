@@ -1,7 +1,5 @@
 #include "quality/grids/netcdf_grid.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "tables/file/hdf5_exit.h"
 #include "tables/version.h"
 
 namespace albtpu::quality {
@@ -48,8 +47,7 @@ std::string UnitName(double metres) {
 
 NetcdfGrid::NetcdfGrid(const std::filesystem::path& path, GridFrame frame, std::size_t tile, std::string_view title)
     : path_(path), frame_(std::move(frame)), tile_(tile) {
-  // HDF5 crashes where it closes at exit a file that could not be written.
-  [[maybe_unused]] static const herr_t without_closing_at_exit = H5dont_atexit();
+  hdf5::CloseNothingAtExit();
   open_ = Check(nc_create(path.c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_));
   Text(NC_GLOBAL, "Conventions", "CF-1.8");
   Text(NC_GLOBAL, "title", title);

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "status/status_macros.h"
+#include "tables/file/hdf5_exit.h"
 #include "tables/format.h"
 
 namespace albtpu::hdf5 {
@@ -102,8 +103,10 @@ absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const
 // HDF5's exit handler is turned off. We close everything that we open, so that it would find only what HDF5 1.10
 // lost track of in damaged files: parts of object headers that it never frees, for which it prints "infinite loop
 // closing library", and files whose closing failed, which it has freed but would close again by their identifiers.
+void CloseNothingAtExit() { [[maybe_unused]] static const herr_t without_exit_handler = H5dont_atexit(); }
+
 Session::Session() : lock_(ProcessLock()) {
-  [[maybe_unused]] static const herr_t without_exit_handler = H5dont_atexit();
+  CloseNothingAtExit();
   H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

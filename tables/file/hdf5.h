@@ -17,8 +17,7 @@
 namespace albtpu::hdf5 {
 
 // While a session exists, no other thread of the process calls HDF5 through this layer, and HDF5 prints nothing to
-// standard error. Neither does it at the end of the program, when it would report the objects that it lost track of
-// in damaged files.
+// standard error, nor at the end of the program (hdf5_exit.h).
 class Session {
  public:
   Session();

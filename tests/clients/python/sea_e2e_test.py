@@ -66,7 +66,8 @@ class Seas(Served):
         np.testing.assert_allclose(both.vertical[0], both.vertical[1], atol=1e-6)
         series = CROSSED.correlation(self.service, (0, 0), [0, 0.1, 0.5], **along)
         self.assertTrue((np.diff(series.horizontal) < 0).all(), series)
-        for wrong in (dict(), dict(dx=(1, 2, 3)), dict(dx=np.zeros((0, 2))), dict(dx=(1, 0), cell=1), dict(dx=[(1, 0), (2, 0)], dt=[1, 2, 3])):
+        for wrong in (dict(), dict(dx=(1, 2, 3)), dict(dx=np.zeros((0, 2))), dict(dx=(1, 0), cell=1),
+                      dict(dx=[(1, 0), (2, 0)], dt=[1, 2, 3])):
             with self.assertRaises(albtpu.ArgumentError):
                 CROSSED.correlation(self.service, **wrong, **along)
         with self.assertRaisesRegex(albtpu.ServiceError, r"footprint is 0 m \(expected 0.05 to 10\)"):

@@ -61,7 +61,7 @@ TEST(BinnedSpectrumByWavenumber, KeepsItsVariance) {
   }
 }
 
-// Swell in one bin of 1 mHz, which is narrower than the step of 5 %: at any of its frequencies the variance is kept, and
+// Swell in one bin of 1 mHz, narrower than the step of 5 %: at any of its frequencies the variance is kept, and
 // so is the second harmonic.
 TEST(BinnedSpectrumByWavenumber, KeepsTheVarianceOfSwellBetweenItsWavenumbers) {
   for (double swell = 0.06; swell < 0.09; swell += 0.00037) {
