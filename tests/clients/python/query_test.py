@@ -9,6 +9,7 @@ import unittest
 import warnings
 
 import numpy as np
+import xarray
 
 import albtpu
 from albtpu import AXES, BUDGET_QUANTITIES, QUANTITIES, budget, schema, sea, water
@@ -79,6 +80,18 @@ class Queries(unittest.TestCase):
         self.assertEqual(list(units.values()), ["m", "m", "degree", "m", "", ""])
         self.assertIn("of shape (4,), 2sigma, table synthetic 1: ", repr(answer))
         self.assertIn("2 INTERPOLATED", repr(answer))
+
+    def test_refuse_arrays_of_xarray_that_numpy_would_pair_by_position(self):
+        def array(*dims):
+            return xarray.DataArray(np.full([3] * len(dims), 5.0), dims=dims)
+
+        for wind, depth in ((array("time"), array("pulse")), (array("x", "y"), array("y", "x")),
+                            (array("time", "pulse"), array("time"))):
+            with self.assertRaisesRegex(albtpu.ArgumentError, "the dimensions differ: wind_speed .* depth .*broadcast"):
+                self.query(wind_speed=wind, depth=depth)
+        for wind, depth in ((array("y", "x"), array("x")), (array("x"), 5), (array(), array("x")),
+                            (array("x"), [5] * 3)):
+            self.assertEqual(self.query(wind_speed=wind, depth=depth).thu.shape[-1], 3)
 
     def test_convert_to_an_xarray_dataset(self):
         depth = np.linspace(0, 20, 3)

@@ -95,8 +95,16 @@ def read_column(name: str, values: ArrayLike | None, units: str = "") -> NDArray
     return np.asarray(array)
 
 
-def common_shape(arrays: Mapping[str, NDArray[Any]]) -> tuple[int, ...]:
-    """The shape to which all arrays broadcast."""
+def common_shape(arrays: Mapping[str, NDArray[Any]], given: Mapping[str, Any]) -> tuple[int, ...]:
+    """The shape to which all arrays broadcast.
+
+    The dimensions of those that were given as arrays of xarray must agree: they would be paired by their position.
+    """
+    dims = {name: array.dims for name, array in given.items() if isinstance(getattr(array, "dims", None), tuple)}
+    longest = max(dims.values(), key=len, default=())
+    if any(of_array != longest[len(longest) - len(of_array):] for of_array in dims.values()):
+        stated = ", ".join(f"{name} {' x '.join(map(str, of_array))}" for name, of_array in dims.items() if of_array)
+        raise ArgumentError(f"the dimensions differ: {stated}; give them by xarray.broadcast")
     try:
         return np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:

@@ -68,7 +68,7 @@ def beams(*, east: ArrayLike, north: ArrayLike, height: ArrayLike, depth: ArrayL
     arrays = {name: _doubles(name, values) for name, values in given.items()}
     if np.any(np.abs(arrays["convergence"]) > 180):
         raise ArgumentError("convergence is beyond 180 degrees: it should be that of the grid, in degrees")
-    shape = common_shape(arrays)
+    shape = common_shape(arrays, given)
     x, y, above, below, grid = (np.broadcast_to(array, shape).reshape(-1) for array in arrays.values())
     found = beams_in_radians(x, y, above, below, grid * np.pi / 180, float(index))
     incidence, azimuth, slant_range, water_path = (column.reshape(shape) for column in found)

@@ -70,7 +70,7 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
         raise ArgumentError("wind_speed is missing: give it in m/s, or the sea")
     arrays = {name: read_column(name, values, AXES[name].units if name in AXES else units[name])
               for name, values in pulses.items() if values is not None or name not in optional}
-    shape = common_shape(arrays)
+    shape = common_shape(arrays, pulses)
     # reshape(-1) copies a broadcast array, which takes the least memory in single precision.
     flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
             else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()
