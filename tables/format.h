@@ -20,6 +20,9 @@ inline constexpr std::string_view kTableKind = "table_kind";
 inline constexpr std::array<std::string_view, 8> kReservedAttributes = {
     kConventions, kId, kVersion, kTitle, kCampaign, kContentDigest, kCoverage, kTableKind};
 
+// Free, but what it states matters: of the water for which the table was computed.
+inline constexpr std::string_view kRefractiveIndex = "refractive_index";
+
 inline constexpr std::string_view kConventionsValue = "CF-1.10";
 inline constexpr std::string_view kCoverageValue = "2 sigma";
 // The kind of the files that have no attribute `table_kind`. They never have one.

@@ -60,6 +60,10 @@ absl::Status CheckAttribute(std::string_view name, const AttributeValue& value) 
     return Invalid(name, "has an invalid name: use letters, digits and underscores, and do not begin with a digit");
   for (std::string_view reserved : format::kReservedAttributes)
     if (name == reserved) return Invalid(name, "is reserved: it is written from the contents of the table");
+  if (name == format::kRefractiveIndex) {
+    const double* const index = std::get_if<double>(&value);
+    if (index == nullptr || !(*index >= 1 && *index <= 2)) return Invalid(name, "should be a real number from 1 to 2");
+  }
   const std::string* text = std::get_if<std::string>(&value);
   return text == nullptr ? absl::OkStatus() : CheckText(name, *text);
 }

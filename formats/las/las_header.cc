@@ -26,6 +26,7 @@ constexpr int kOldCompressedFlag = 0x40;
 // Bits of the global encoding.
 constexpr std::uint16_t kAdjustedGpsTime = 0x1;
 constexpr std::uint16_t kWaveformInside = 0x2;
+constexpr std::uint16_t kWaveformOutside = 0x4;
 constexpr std::uint16_t kCrsIsWkt = 0x10;
 constexpr std::uint16_t kHasTimeOffset = 0x40;
 
@@ -138,6 +139,18 @@ absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std:
   return absl::OkStatus();
 }
 
+// Not all writers of waveforms set the bit that says where they are.
+void FindWaveforms(std::string_view bytes, std::uint16_t global_encoding, std::uint64_t file_size, LasHeader& header) {
+  if (header.version_minor < 3) return;
+  const auto start = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
+  const int format = header.point_format;
+  const bool has_waves = format == 4 || format == 5 || format == 9 || format == 10;
+  const std::uint64_t least = header.compressed ? header.offset_to_points : header.end_of_points();
+  const bool may_be_inside = has_waves && (global_encoding & kWaveformOutside) == 0 && start >= least &&
+                             start > header.offset_to_points && start < file_size;
+  if ((global_encoding & kWaveformInside) != 0 || may_be_inside) header.start_of_waveform_packet = start;
+}
+
 // The header must state everything that follows the points: points beyond its count would be lost.
 absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
   const std::uint64_t end_of_points = header.compressed ? header.offset_to_points : header.end_of_points();
@@ -200,8 +213,6 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   const std::uint16_t global_encoding =
       header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
   RETURN_IF_ERROR(ReadTimes(name, bytes, global_encoding, header));
-  if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0)
-    header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
   if (header.version_minor >= 4) {
     header.crs_is_wkt = (global_encoding & kCrsIsWkt) != 0;
     header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
@@ -214,6 +225,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   }
   RETURN_IF_ERROR(CheckRecords(name, header));
   RETURN_IF_ERROR(CheckOffsets(name, header, file_size));
+  FindWaveforms(bytes, global_encoding, file_size, header);
   RETURN_IF_ERROR(CheckAfterPoints(name, header, file_size));
   return header;
 }

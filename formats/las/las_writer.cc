@@ -165,6 +165,14 @@ absl::Status LasWriter::EndPoints() {
 
 absl::Status LasWriter::End(std::uint64_t tail_begin, std::uint64_t tail_end) {
   RETURN_IF_ERROR(EndPoints());
+  // A lost table of chunks or padding of LAZ would pass for further points behind those of LAS.
+  const LasHeader& from = reader_.header();
+  if (!head_.record.has_value() && from.compressed) {
+    std::uint64_t named = tail_end;
+    for (const std::uint64_t start : {from.start_of_evlrs, from.start_of_waveform_packet})
+      if (start != 0) named = std::min(named, start);
+    tail_begin = std::max(tail_begin, named);
+  }
   std::string header = head_.bytes.substr(0, reader_.header().header_size);
   MoveTailStarts(reader_, tail_begin, output_.size(), header);
   RETURN_IF_ERROR(output_.WriteAt(0, header));

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,11 +20,10 @@
 #include "sea/response/closed_form.h"
 #include "sea/table/sea_table.h"
 #include "sea/water_index.h"
+#include "tables/format.h"
 
 namespace albtpu {
 namespace {
-
-constexpr const char* kIndexAttribute = "refractive_index";
 
 // Snell's law on a sea, for one incidence and index: x along the beam, y across it.
 struct Snell {
@@ -289,7 +289,7 @@ class Scaling {
 
 bool StatesIndex(const UncertaintyTable& table) {
   const auto& attributes = table.provenance().attributes;
-  const auto found = attributes.find(kIndexAttribute);
+  const auto found = attributes.find(std::string(format::kRefractiveIndex));
   if (found == attributes.end()) return false;
   const double* const index = std::get_if<double>(&found->second);
   return index != nullptr && *index >= 1.01 && *index <= 2;
@@ -297,7 +297,7 @@ bool StatesIndex(const UncertaintyTable& table) {
 
 double IndexOfTable(const UncertaintyTable& table) {
   if (!StatesIndex(table)) return kRefractiveIndex;
-  return std::get<double>(table.provenance().attributes.at(kIndexAttribute));
+  return std::get<double>(table.provenance().attributes.at(std::string(format::kRefractiveIndex)));
 }
 
 UncertaintyTable AtIndex(UncertaintyTable table, double index) {
@@ -306,7 +306,7 @@ UncertaintyTable AtIndex(UncertaintyTable table, double index) {
   const TableSchema& schema = table.schema();
   UncertaintyTable::Axes axes = table.axes();
   Provenance provenance = table.provenance();
-  provenance.attributes[kIndexAttribute] = index;
+  provenance.attributes[std::string(format::kRefractiveIndex)] = index;
   UncertaintyTable::Variables variables = std::move(table).ReleaseVariables();
   Scaling(axes, own, index, variables).Scale();
   return UncertaintyTable::Create(schema, std::move(axes), std::move(variables), std::move(provenance)).value();

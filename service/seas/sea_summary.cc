@@ -2,7 +2,9 @@
 
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_split.h"
 #include "sea/table/sea_attributes.h"
@@ -10,12 +12,16 @@
 namespace albtpu {
 namespace {
 
-// The value of an attribute that has the type of `absent`; else `absent`.
+// The value of an attribute that has the type of `absent`, or is a list of one such number; else `absent`.
 template <typename Value>
 Value Attribute(const UncertaintyTable& table, std::string_view name, Value absent) {
   const auto& attributes = table.provenance().attributes;
   const auto found = attributes.find(std::string(name));
   if (found == attributes.end()) return absent;
+  if constexpr (std::is_same_v<Value, double>) {
+    const auto* const list = std::get_if<std::vector<double>>(&found->second);
+    if (list != nullptr && list->size() == 1) return list->front();
+  }
   const auto* const value = std::get_if<Value>(&found->second);
   return value == nullptr ? absent : *value;
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "absl/strings/str_format.h"
@@ -154,12 +155,19 @@ absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& na
   const H5S_class_t extent = H5Sget_simple_extent_type(space);
   const H5T_class_t kind = H5Tget_class(type);
   const bool is_null = extent == H5S_NULL;
-  const bool is_scalar = extent == H5S_SCALAR;
+  // netCDF-4 writes an integer, and some texts, as a list of one. Of real numbers there are lists.
+  const bool is_scalar =
+      extent == H5S_SCALAR || (kind != H5T_FLOAT && extent == H5S_SIMPLE && H5Sget_simple_extent_npoints(space) == 1);
 
   if (kind == H5T_STRING && is_null) return std::string();
   if (kind == H5T_STRING && is_scalar) {
     return H5Tis_variable_str(type) > 0 ? ReadVariableText(attribute, type, name)
                                         : ReadFixedText(attribute, type, name);
+  }
+  if (kind == H5T_INTEGER && is_scalar && H5Tget_sign(type) == H5T_SGN_NONE) {
+    std::uint64_t number = 0;
+    if (H5Aread(attribute, H5T_NATIVE_UINT64, &number) >= 0 && number > std::numeric_limits<std::int64_t>::max())
+      return absl::InvalidArgumentError(absl::StrFormat("attribute '%s' is %d: it should be below 2^63", name, number));
   }
   if (kind == H5T_INTEGER && is_scalar) return ReadNumber<std::int64_t>(attribute, H5T_NATIVE_INT64, name);
   if (kind == H5T_FLOAT && is_scalar) return ReadNumber<double>(attribute, H5T_NATIVE_DOUBLE, name);

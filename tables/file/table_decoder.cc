@@ -141,6 +141,8 @@ absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const Table::Ax
   if (H5Lexists(file, error_name.c_str(), H5P_DEFAULT) <= 0) return variable;
   ASSIGN_OR_RETURN(const FloatDataset errors, OpenDataset(file, "variable", error_name));
   ASSIGN_OR_RETURN(std::vector<float> standard_errors, ReadValues(errors, axes, quantity));
+  ASSIGN_OR_RETURN(const Scale error_scale, ReadScale(errors, "variable"));
+  if (error_scale != Scale::kLinear) return About("variable", error_name, "should have interpolation 'linear'");
   variable.standard_errors = std::move(standard_errors);
   return variable;
 }
@@ -158,6 +160,8 @@ absl::StatusOr<Provenance> ReadProvenance(hid_t file) {
   for (const std::string& name : names) {
     if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) continue;
     ASSIGN_OR_RETURN(AttributeValue value, hdf5::ReadAttribute(file, name));
+    const auto* const list = std::get_if<std::vector<double>>(&value);
+    if (name == format::kRefractiveIndex && list != nullptr && list->size() == 1) value = double{list->front()};
     provenance.attributes[name] = std::move(value);
   }
   return provenance;

@@ -120,6 +120,18 @@ TEST_F(LazAnnotation, GivesTheSameBytesAsLasInEveryVersionAndFormat) {
   }
 }
 
+// Behind the points of LAS it would pass for more of them.
+TEST_F(LazAnnotation, LeavesOutWhatNoHeaderNames) {
+  LasSpec spec = Spec(4, 6);
+  spec.waveform_packet.clear();
+  spec.evlrs.clear();
+  const std::string laz = BuildLaz(spec, 300), las_to_las = Annotate(BuildLas(spec));
+  EXPECT_TRUE(Annotate(laz + std::string(4096, '\0'), formats::LasKind::kLas) == las_to_las);
+  std::string lost = laz;  // The writer did not go back to state where its chunk table is, nor at the end.
+  Store(~std::uint64_t{0}, lost.data() + Load<std::uint32_t>(lost, 96));
+  EXPECT_TRUE(Annotate(lost, formats::LasKind::kLas) == las_to_las);
+}
+
 TEST_F(LazAnnotation, SearchesThePulsesAcrossChunks) {
   annotation_.plan.water_classes = {kSurface};
   LasSpec spec = Spec(4, 6, 40'000);

@@ -124,6 +124,22 @@ TEST(LasHeader, RejectsOverlappingOffsets) {
   EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 0)), HasSubstr("records of 0 bytes"));
 }
 
+TEST(LasHeader, FindsWaveformsWhoseBitIsNotSet) {
+  for (const auto& [version, format] : {std::pair(3, 4), std::pair(4, 9)}) {
+    LasSpec spec = Spec(version, format);
+    spec.waveform_packet = "waveforms longer than a record of points, of 60 bytes and the extra bytes behind them";
+    const std::string file = BuildLas(spec);
+    const std::uint64_t start = Parse(file)->start_of_waveform_packet;
+    ASSERT_GT(start, 0u);
+    const auto encoding = laz::Load<std::uint16_t>(file, las_field::kGlobalEncoding);
+    const auto without = static_cast<std::uint16_t>(encoding & ~0x2);
+    EXPECT_EQ(Parse(With(file, las_field::kGlobalEncoding, without))->start_of_waveform_packet, start);
+    // In another file the number means nothing in this one.
+    const std::string outside = With(file, las_field::kGlobalEncoding, static_cast<std::uint16_t>(without | 0x4));
+    EXPECT_THAT(ErrorOf(outside), HasSubstr("more points, follow them"));
+  }
+}
+
 TEST(LasHeader, RejectsEvlrsThatAreNotAfterThePoints) {
   LasSpec spec = Spec();
   spec.evlrs.push_back({"someone", 1, "data"});

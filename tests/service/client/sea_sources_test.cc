@@ -6,10 +6,12 @@
 
 #include "sea/table/sea_table.h"
 #include "service/client/wire.h"
+#include "service/seas/sea_summary.h"
 #include "service/server/calls/sea_request.h"
 #include "tests/service/client/column_memory.h"
 #include "tests/service/client/running_server.h"
 #include "tests/service/known_seas.h"
+#include "tests/tables/synthetic_table.h"
 
 namespace albtpu::client {
 namespace {
@@ -78,6 +80,14 @@ TEST(SeaSources, OpenSeasFromSeveralThreads) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_NE(digests[0], digests[1]);
   for (std::size_t i = 2; i < digests.size(); ++i) EXPECT_EQ(digests[i], digests[i % 2]);
+}
+
+// As netCDF-4 writes them.
+TEST(SeaSummary, TakesNumbersInListsOfOne) {
+  albtpu::testing::TableParts parts = albtpu::testing::PartsOf(albtpu::testing::SyntheticSea());
+  parts.provenance.attributes["x_azimuth"] = std::vector{30.0};
+  EXPECT_EQ(SummaryOfSea(*UncertaintyTable::Create(kOneSea, parts.axes, parts.variables, parts.provenance))->x_azimuth,
+            30);
 }
 
 TEST(SeaWire, KeepsEveryBit) {

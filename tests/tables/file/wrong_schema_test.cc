@@ -114,19 +114,34 @@ TEST(WrongSchema, IsFoundInAttributes) {
       {"thu", "interpolation", std::string("cubic"),
        "variable 'thu' has interpolation 'cubic': it should be 'linear' or 'log'"},
       {"depth", "interpolation", std::string("log"), HasSubstr("nodes on a log scale must be positive")},
+      {"thu_standard_error", "interpolation", std::string("log"),
+       "variable 'thu_standard_error' should have interpolation 'linear'"},
+      {"/", "refractive_index", std::string("1.34"),
+       HasSubstr("'refractive_index' should be a real number from 1 to 2")},
+      {"/", "refractive_index", std::int64_t{1}, HasSubstr("should be a real number from 1 to 2")},
+      {"/", "refractive_index", 0.0, HasSubstr("should be a real number from 1 to 2")},
+      {"/", "refractive_index", std::nan(""), HasSubstr("should be a real number from 1 to 2")},
+      {"/", "refractive_index", std::vector{1.34, 1.34}, HasSubstr("should be a real number from 1 to 2")},
       {"/", "coverage", std::string("95 %"), "attribute 'coverage' is '95 %': it should be '2 sigma'"},
       {"/", "id", std::string("A Name"), HasSubstr("attribute 'id' is 'A Name'")}};
   for (const Case& c : cases)
     ExpectProblems({{[&](hid_t file) { SetAttribute(file, c.object, c.name, c.value); }, c.problem}});
   for (const char* name : {"id", "version", "title", "campaign", "content_digest", "coverage"})
     ExpectProblems({{[&](hid_t file) { H5Adelete(file, name); }, "attribute '" + std::string(name) + "' is missing"}});
-  ExpectProblems({{[](hid_t file) {
-                     const hsize_t shape[] = {2, 2};
-                     const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
-                     const Handle attribute(H5Acreate2(file, "matrix", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                                            H5Aclose);
-                   },
-                   HasSubstr("attribute 'matrix' is of another kind")}});
+  ExpectProblems(
+      {{[](hid_t file) {
+          const hsize_t shape[] = {2, 2};
+          const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
+          const Handle attribute(H5Acreate2(file, "matrix", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        },
+        HasSubstr("attribute 'matrix' is of another kind")},
+       {[](hid_t file) {
+          const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+          const Handle attribute(H5Acreate2(file, "big", H5T_STD_U64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+          const std::uint64_t number = std::uint64_t{1} << 63;
+          H5Awrite(attribute, H5T_NATIVE_UINT64, &number);
+        },
+        HasSubstr("attribute 'big' is 9223372036854775808: it should be below 2^63")}});
 }
 
 TEST(WrongSchema, IsNotFoundInWhatReadersIgnore) {
@@ -151,6 +166,31 @@ TEST(WrongSchema, IsNotFoundInOtherTypesOfTextAndNumber) {
   const absl::StatusOr<UncertaintyTable> table = DecodeTable(file);
   EXPECT_EQ(table->provenance().attributes.at("source"), AttributeValue(std::string("elsewhere")));
   EXPECT_EQ(table->provenance().attributes.at("short"), AttributeValue(std::int64_t{7}));
+}
+
+// As netCDF-4 writes attributes.
+TEST(WrongSchema, IsNotFoundInListsOfOne) {
+  std::string file = Forge([](hid_t f) {
+    const hsize_t one = 1;
+    const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose);
+    const auto write = [&](const char* name, hid_t type, const void* value) {
+      H5Adelete(f, name);
+      const Handle attribute(H5Acreate2(f, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+      EXPECT_GE(H5Awrite(attribute, type, value), 0);
+    };
+    const double index = 1.34;
+    write("refractive_index", H5T_NATIVE_DOUBLE, &index);
+    const std::int64_t seed = 5;
+    write("seed", H5T_NATIVE_INT64, &seed);
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, H5T_VARIABLE);
+    const char* text = "elsewhere";
+    write("source", type, &text);
+  });
+  const absl::StatusOr<UncertaintyTable> table = DecodeTable(file);
+  EXPECT_EQ(table->provenance().attributes.at("refractive_index"), AttributeValue(1.34));
+  EXPECT_EQ(table->provenance().attributes.at("seed"), AttributeValue(std::int64_t{5}));
+  EXPECT_EQ(table->provenance().attributes.at("source"), AttributeValue(std::string("elsewhere")));
 }
 
 }  // namespace

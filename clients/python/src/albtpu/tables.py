@@ -46,7 +46,8 @@ class SeaSummary(NamedTuple):
     def of_attributes(cls, attributes: dict[str, AttributeValue]) -> SeaSummary:
         """From the attributes of the table of a sea."""
         def number(name: str, absent: float = 0.0) -> float:
-            return float(attributes.get(name, absent))  # type: ignore[arg-type]
+            value: Any = attributes.get(name, absent)
+            return float(value[0] if isinstance(value, list) and len(value) == 1 else value)
 
         return cls(number("x_azimuth"), number("significant_wave_height"), number("wind_speed_10m"),
                    number("water_depth", float("inf")), number("tail_from"), number("share_measured"),
