@@ -158,9 +158,11 @@ void BeamGeometry::FromTrack(const SurveyPoints& points, BeamScratch& scratch, P
 void BeamGeometry::FromAngles(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const {
   const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
   const auto* constant = std::get_if<ConstantIncidence>(&plan_.source);
-  const std::optional<double>& altitude = scan != nullptr ? scan->altitude : constant->altitude;
+  const double altitude = (scan != nullptr ? scan->altitude : constant->altitude).value_or(kNan);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double incidence = scan != nullptr ? std::abs(points.scan_angles[i]) : constant->incidence;
+    const double over = altitude - scratch.above[i];
+    // A sensor that is not above the point has no beam to it, as with a track.
+    const double incidence = over <= 0 ? kNan : scan != nullptr ? std::abs(points.scan_angles[i]) : constant->incidence;
     beams.incidence[i] = static_cast<float>(incidence);
     std::optional<double> direction;
     if (scan == nullptr)
@@ -172,8 +174,7 @@ void BeamGeometry::FromAngles(const SurveyPoints& points, const BeamScratch& scr
       const double downwind = *plan_.wind_from + 180;
       beams.azimuth[i] = static_cast<float>(*direction - downwind);
     }
-    const double slant_range =
-        altitude.has_value() ? (*altitude - scratch.above[i]) / std::cos(RadiansOfDegrees(incidence)) : kNan;
+    const double slant_range = over / std::cos(RadiansOfDegrees(incidence));
     beams.slant_range[i] = static_cast<float>(slant_range);
     beams.footprint[i] = static_cast<float>(FootprintOf(plan_, slant_range));
   }

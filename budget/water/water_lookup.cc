@@ -26,16 +26,20 @@ Looked WaterAtDepth::At(double incidence) const {
 WaterLookup::WaterLookup(const WaterColumnTable& table, const WaterReceiver& receiver, const DrawnWater& draw)
     : receiver_(receiver),
       draw_(draw),
+      min_view_(table.Range(WaterAxis::kFieldOfView).first),
+      min_pulse_(table.Range(WaterAxis::kPulseLength).first),
       min_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
       last_(table.Range(WaterAxis::kOpticalDepth).second),
       water_(table.Of(draw.fraction, draw.ratio)) {}
 
 WaterAtDepth WaterLookup::At(double depth) const {
   const double tau = draw_.attenuation * depth;
+  // At the largest depth a ratio may be rounded to just outside the table.
   std::optional<WaterOverIncidence> over = water_.OverIncidence(
       {.optical_depth = std::min(tau, last_),
-       .field_of_view = receiver_.field_of_view / depth,
-       .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
+       .field_of_view = std::max(receiver_.field_of_view / depth, min_view_),
+       .pulse_length =
+           std::max(PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index), min_pulse_)});
   assert(over.has_value());
   WaterAtDepth there;
   there.water_ = *std::move(over);

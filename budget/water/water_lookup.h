@@ -39,7 +39,7 @@ class WaterLookup {
  private:
   WaterReceiver receiver_;
   DrawnWater draw_;
-  double min_ratio_, last_;
+  double min_view_, min_pulse_, min_ratio_, last_;
   OneWater water_;
 };
 

@@ -34,6 +34,14 @@ double XAzimuth(const SeaDescription& description, double wind_speed, double tai
   return axis.value_or(0);
 }
 
+// Whether even the shortest described waves are faster than those that the wind raises: a fully developed sea's have a
+// phase speed of the wind's over 0.84. The limit is our choice.
+bool IsSwellAlone(const FrequencySpectrum& waves, double wind_speed) {
+  constexpr double kOldestWindSea = 0.7;
+  const std::optional<double> peak = waves.shortest_peak();
+  return peak.has_value() && 2 * std::numbers::pi * *peak * wind_speed / kGravity < kOldestWindSea;
+}
+
 // Scales S(k) by a function of k.
 template <typename Weight>
 HarmonicSpectrum Weighted(HarmonicSpectrum spectrum, const Weight& weight) {
@@ -86,6 +94,7 @@ DescribedSea Describe(const SeaDescription& description) {
   const TailLevel level = LevelAtCutoff(*description.waves, *wind, sea.water_depth, sea.tail_from);
   sea.q = level.q;
   sea.assumed.level_held = level.held;
+  sea.assumed.wind_sea_missing = level.held && level.q < 1 && IsSwellAlone(*description.waves, sea.wind_speed_10m);
   sea.assumed.level_unknown = level.compared == 0;
   HarmonicSpectrum tail = Weighted(WindWaves(*wind, k), [&](double at) {
     return weight(at) * std::pow(sea.q, LevelPower(description.tail, at, sea.cutoff));

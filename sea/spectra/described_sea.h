@@ -30,8 +30,9 @@ struct SeaAssumptions {
   bool wind_direction_from_waves = false;
   bool wind_direction_unknown = false;  // the waves are isotropic, and so are those of the wind
   bool tail_from_of_waves = false;
-  bool level_held = false;       // q lay outside 0.5 to 2
-  bool level_unknown = false;    // no energy to compare at the cut-off: q is 1
+  bool level_held = false;  // q lay outside 0.5 to 2
+  bool wind_sea_missing = false;  // the waves are swell alone, below half of the wind's at the cut-off
+  bool level_unknown = false;  // no energy to compare at the cut-off: q is 1
   bool axes_from_north = false;  // of harmonics of the whole sea, which count from the wind's direction, if it is given
 };
 

@@ -37,6 +37,9 @@ class FrequencySpectrum {
   // changes within less than such a step.
   virtual DirectionalEnergy Between(double /*below*/, double f, double /*above*/) const { return (*this)(f); }
 
+  // The peak [Hz] of the shortest waves that are described by a few numbers; absent where E is known by frequency.
+  virtual std::optional<double> shortest_peak() const { return std::nullopt; }
+
   // Beyond it the spectrum is 0; infinity if it has no end.
   virtual double highest_frequency() const = 0;
 

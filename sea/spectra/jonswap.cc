@@ -92,6 +92,13 @@ double JonswapSpectrum::significant_wave_height() const {
 
 double JonswapSpectrum::leading_axis() const { return waves_.front().travels_towards; }
 
-std::optional<double> JonswapSpectrum::ShortWaveAxis(double) const { return OfShortestPeriod(waves_).travels_towards; }
+std::optional<double> JonswapSpectrum::shortest_peak() const { return 1 / OfShortestPeriod(waves_).peak_period; }
+
+std::optional<double> JonswapSpectrum::ShortWaveAxis(double) const {
+  const JonswapWaves& shortest = OfShortestPeriod(waves_);
+  const double s = shortest.spread ? Cosine2sOfSpread(*shortest.spread) : MitsuyasuS(1);
+  if (SymmetricEnergy(1, Cosine2sHarmonics(s), 0).IsIsotropic()) return std::nullopt;
+  return shortest.travels_towards;
+}
 
 }  // namespace albtpu

@@ -34,6 +34,7 @@ class JonswapSpectrum final : public FrequencySpectrum {
                            double depth = std::numeric_limits<double>::infinity());
 
   DirectionalEnergy operator()(double f) const override;
+  std::optional<double> shortest_peak() const override;
   double highest_frequency() const override { return std::numeric_limits<double>::infinity(); }
   // 100 frequencies, equidistant in log f.
   std::vector<double> ComparedFrequencies(double lowest, double highest) const override;

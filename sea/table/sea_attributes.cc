@@ -44,6 +44,8 @@ std::vector<std::string> Sentences(const SeaAssumptions& assumed) {
   add_if(assumed.level_held,
          "at the cut-off the waves are more than twice the wind's or less than half: the "
          "level of the tail is held at that");
+  add_if(assumed.wind_sea_missing,
+         "such waves, as of swell alone, leave out what this wind raises below the cut-off: give its waves, too");
   add_if(assumed.level_unknown, "there is no energy at the cut-off: the tail is the wind's");
   return sentences;
 }

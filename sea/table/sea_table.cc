@@ -202,7 +202,8 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, s
             Variable& variable = *variables[Index(quantity)];
             const Estimate& estimate = estimates[Index(quantity)];
             variable.values.push_back(static_cast<float>(estimate.value));
-            if (errors) variable.standard_errors.push_back(static_cast<float>(estimate.error));
+            // Rounding may leave an error of nothing below 0.
+            if (errors) variable.standard_errors.push_back(static_cast<float>(estimate.error < 0 ? 0 : estimate.error));
           }
         }
       }

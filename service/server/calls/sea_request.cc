@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "sea/files/sea_csv.h"
 #include "service/server/calls/water_request.h"
 #include "service/server/ground/errors.h"
@@ -239,10 +240,11 @@ Sha256Digest KeyOf(const v1::SeaState& state, double index) {
 
 namespace {
 
-Sha256Digest KeyOf(const ServedTable& table, double index) {
+// By the file: the digest of its content leaves out the attributes, of which answers may depend.
+Sha256Digest KeyOf(const TableCatalog::Entry& table, double index) {
   Sha256 sha;
-  sha.Update(
-      absl::StrCat(absl::Hex(std::bit_cast<std::uint64_t>(index)), " table ", table.name, " ", table.table.digest()));
+  sha.Update(absl::StrCat(absl::Hex(std::bit_cast<std::uint64_t>(index)), " table ", table.name, " ",
+                          table.table.digest(), " ", absl::StrJoin(table.identity, " ")));
   return sha.Finish();
 }
 

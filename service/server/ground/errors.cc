@@ -46,7 +46,7 @@ grpc::Status WithDetails(const absl::Status& status) {
 void FieldViolations::Add(std::string_view field, std::string_view description) {
   google::rpc::BadRequest::FieldViolation& violation = *request_.add_field_violations();
   violation.set_field(std::string(field));
-  violation.set_description(std::string(description));
+  violation.set_description(Shortened({description.data(), description.size()}));
 }
 
 absl::Status FieldViolations::ToStatus() const {

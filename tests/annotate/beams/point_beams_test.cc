@@ -113,6 +113,19 @@ TEST(PointBeams, OfAConeHaveOneIncidence) {
   EXPECT_NEAR(beams.footprint[1], 0.65, 1e-6);
 }
 
+TEST(PointBeams, AreNotKnownOfPointsThatAreNoLowerThanTheSensor) {
+  BeamPlan plan = AcrossTrack();
+  plan.source = ConstantIncidence{.incidence = 60, .beam_azimuth = 10, .altitude = 200};
+  plan.footprint = DivergingBeam{.divergence = 1, .aperture = 0.25};
+  plan.dry_points = true;
+  for (const auto& [z, known] : {std::pair(198, true), std::pair(500, false)}) {
+    const PointBeams beams = BeamsOf(plan, PointsOf({static_cast<double>(z)}, {0}));
+    EXPECT_EQ(std::isfinite(beams.incidence[0]), known);
+    EXPECT_EQ(std::isfinite(beams.slant_range[0]), known);
+    EXPECT_EQ(std::isfinite(beams.footprint[0]), known);
+  }
+}
+
 TEST(PointBeams, ConvertOnlyHeightsFromFeet) {
   BeamPlan plan = AcrossTrack();
   plan.water_level = 10;

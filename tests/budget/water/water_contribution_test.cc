@@ -227,6 +227,20 @@ TEST(WaterContribution, KnowsItsDomain) {
   EXPECT_LE(Contribution(keyhole, {}, Coastal(0.06)).greatest_depth(), 20.001);
 }
 
+// The ratios of field of view or pulse to the largest depth may be rounded to just outside the table: the lookup of
+// each of these once had no answer.
+TEST(WaterContribution, ReachesItsLargestDepthWhateverLimitsIt) {
+  const WaterOptics clear = *OpticsOf({.jerlov = "I"});
+  for (int i = 1; i <= 12; ++i) {
+    WaterReceiver receiver = kNarrow;
+    receiver.field_of_view = 1.05 * i;
+    EXPECT_TRUE(WaterContribution::Create(Shipped(), clear, receiver, {}).ok()) << receiver.field_of_view;
+    receiver.field_of_view = 20;
+    receiver.pulse_length = 1 + 0.05 * i;
+    EXPECT_TRUE(WaterContribution::Create(Shipped(), clear, receiver, {}).ok()) << receiver.pulse_length;
+  }
+}
+
 // 7.0 cm of a pulse of 1.5 ns and 23 cm of one of 5 ns, over the root of the photons, seen straight down.
 TEST(WaterContribution, CountsPhotons) {
   EXPECT_NEAR(Usual(kNarrow).PhotonNoise(100, 1, 1), 0.0070, 2e-4);

@@ -158,6 +158,29 @@ TEST(DescribedSea, IsIsotropicWhereNothingHasADirection) {
   EXPECT_GT(Resampled(given.spectrum, {50}).a[0][0], 0.05);
 }
 
+TEST(DescribedSea, SaysWhereSwellAloneLeavesOutTheSeaOfTheWind) {
+  const auto missing = [](std::vector<JonswapWaves> waves) {
+    return Describe({.waves = std::make_shared<JonswapSpectrum>(waves), .wind_speed_10m = 8, .wind_from = 0})
+        .assumed.wind_sea_missing;
+  };
+  const JonswapWaves swell{.significant_wave_height = 1, .peak_period = 12},
+      own{.significant_wave_height = 1.3, .peak_period = 5};
+  EXPECT_TRUE(missing({swell}));
+  EXPECT_FALSE(missing({own}));
+  EXPECT_FALSE(missing({swell, own}));
+  EXPECT_FALSE(Describe({.waves = MeasuredWindSea(8, 0.3), .wind_speed_10m = 8}).assumed.wind_sea_missing);
+}
+
+// A spread of sqrt(2) is that of no direction.
+TEST(DescribedSea, HasIsotropicWavesOfTheWindWhereItsOwnHaveNoDirection) {
+  const JonswapWaves waves{.significant_wave_height = 1, .peak_period = 5, .spread = std::numbers::sqrt2};
+  const DescribedSea sea =
+      Describe({.waves = std::make_shared<JonswapSpectrum>(std::vector{waves}), .wind_speed_10m = 8});
+  EXPECT_TRUE(sea.assumed.wind_direction_unknown);
+  for (const std::vector<double>& harmonic : sea.spectrum.a)
+    for (const double mean : harmonic) EXPECT_NEAR(mean, 0, 1e-12);
+}
+
 TEST(DescribedSea, IsWithoutEnergyToCompareAboveTheLastBin) {
   const DescribedSea sea = Describe({.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .tail_from = 1});
   EXPECT_TRUE(sea.assumed.level_unknown);
