@@ -167,7 +167,9 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
        "Short waves by FFT on a periodic grid, longer ones as plane waves; "
        "waves shorter than the grid by the mean of refraction over their slopes. "
        "Ranges are the least and the greatest over winds, fetches and footprints."},
-      {"estimator", std::string(Name(campaign.effort.estimator))},
+      // A point source is always traced plainly.
+      {"estimator",
+       std::string(Name(std::isinf(campaign.source_height) ? campaign.effort.estimator : Estimator::kPlain))},
       {"rounding",
        absl::StrCat("Values to a power of two, the largest not above a quarter of their standard error, and to ",
                     kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,

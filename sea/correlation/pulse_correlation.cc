@@ -1,5 +1,6 @@
 #include "sea/correlation/pulse_correlation.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -8,10 +9,16 @@
 namespace albtpu {
 
 PulseCorrelation CorrelationOf(const SharedWaves& shared, const SharedWaves& pulse) {
-  const auto ratio = [](double part, double whole) { return whole > 0 ? part / whole : 0; };
+  const auto ratio = [](double part, double whole) { return whole > 0 ? std::clamp(part / whole, -1.0, 1.0) : 0; };
+  const Eigen::Matrix2d& slopes = pulse.footprint.slopes;
+  // Along the crests of waves of one direction the sums of their harmonics leave up to 2e-4 of the slopes' variance.
+  constexpr double kNone = 1e-3;
+  const auto of_slopes = [&](int i) {
+    return slopes(i, i) > kNone * slopes.trace() ? ratio(shared.footprint.slopes(i, i), slopes(i, i)) : 0;
+  };
   const Eigen::Matrix3d errors = shared.errors(), own = pulse.errors();
-  return {.slope_x = ratio(shared.footprint.slopes(0, 0), pulse.footprint.slopes(0, 0)),
-          .slope_y = ratio(shared.footprint.slopes(1, 1), pulse.footprint.slopes(1, 1)),
+  return {.slope_x = of_slopes(0),
+          .slope_y = of_slopes(1),
           .horizontal = ratio(errors(0, 0) + errors(1, 1), own(0, 0) + own(1, 1)),
           .vertical = ratio(errors(2, 2), own(2, 2)),
           .vertical_first = ratio(shared.first_order(2, 2), pulse.first_order(2, 2)),

@@ -70,6 +70,16 @@ TEST(TableMaker, AnswersFromACalmOn) {
   EXPECT_EQ(std::get<std::vector<double>>(provenance.attributes.at("realizations")), (std::vector<double>{40, 40}));
 }
 
+TEST(TableMaker, StatesHowItTraced) {
+  const auto estimator = [](const UncertaintyTable& table) {
+    return std::get<std::string>(table.provenance().attributes.at("estimator"));
+  };
+  EXPECT_EQ(estimator(TwoSeasMade().table), "control_variate");
+  std::string text = TwoSeas().text;
+  text.insert(text.find("[effort]"), "[beam]\nsource_height = 400\n");
+  EXPECT_EQ(estimator(*Make(*ParseCampaign(text))), "plain");
+}
+
 TEST(TableMaker, MakesTheSameTableOnOneThread) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(Make(TwoSeas())->digest(), TwoSeasMade().table.digest());

@@ -8,6 +8,7 @@
 #include "sea/correlation/correlated_pulses.h"
 #include "sea/response/sea_response.h"
 #include "sea/spectra/described_sea.h"
+#include "sea/spectra/jonswap.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {
@@ -130,6 +131,22 @@ TEST(BeamCorrelation, FallsWithTheSizeOfTheCell) {
     last = found.vertical;
   }
   EXPECT_LT(last, 0.01);
+}
+
+// Along their crests waves of one direction have no slope, and what rounding leaves of it has no correlation.
+TEST(BeamCorrelation, OfLongCrestsIsOneAtMost) {
+  for (const double spread : {0.0, 0.001, 0.01, 0.1}) {
+    const auto waves = std::make_shared<JonswapSpectrum>(
+        std::vector{JonswapWaves{.significant_wave_height = 1, .peak_period = 6, .spread = spread}});
+    const DescribedSea described = Describe({.waves = waves, .wind_speed_10m = 0, .tail = TailRule::kNone});
+    const WaveCorrelation sea(described.spectrum);
+    const BeamCorrelation beam(sea, {.incidence = 0.17, .footprint = 1}, kRefractiveIndex);
+    for (const SharedWaves& shared : {beam.Between({10, 0}, 0), beam.InCell({.side = 5})}) {
+      const PulseCorrelation found = CorrelationOf(shared, beam.pulse());
+      EXPECT_LE(std::abs(found.slope_x), 1) << spread;
+      EXPECT_LE(std::abs(found.slope_y), spread < 0.02 ? 0 : 0.9) << spread;
+    }
+  }
 }
 
 TEST(BeamCorrelation, IsNothingInACalm) {
