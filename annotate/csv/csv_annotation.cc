@@ -98,8 +98,10 @@ class BlockWork {
     const PulseBatch& pulses = chunk.pulses[has_azimuth];
     auto& [answers, aircraft, totals] = chunk.halves[has_azimuth];
     RETURN_IF_ERROR(AnswerPulses(source_, style_.query(), pulses, selection_, answers));
-    if (total_ != nullptr) RefuseInvalid(aircraft, pulses.size, answers);
-    if (total_ != nullptr) AddWater(total_->plan.water, pulses, answers, totals.water);
+    if (total_ != nullptr) {
+      RefuseInvalid(aircraft, pulses.size, answers);
+      AddWater(total_->plan.water, pulses, answers, totals.water);
+    }
     if (pulses.size == 0) return absl::OkStatus();
     chunk.summary.Add(pulses, answers);
     if (total_ == nullptr) return absl::OkStatus();
@@ -118,7 +120,7 @@ class BlockWork {
     return absl::OkStatus();
   }
 
-  // As a service answers budgets.
+  // Pulses whose numbers of the aircraft are not valid have no number, as in the answers of a service.
   static void RefuseInvalid(const CsvAircraftBatch& aircraft, std::size_t size, AnswerBatch& answers) {
     BudgetInputs inputs{.size = size};
     for (const BudgetInput input : kAircraftInputs) inputs[input] = aircraft.columns[input];
@@ -133,7 +135,7 @@ class BlockWork {
     }
   }
 
-  // Where the direction of a beam is not known, the error of the sea is the same in all directions.
+  // Where the direction of a beam is not known, the error of the sea is taken as the same in all directions.
   void ForgetAxes(const CsvAircraftBatch& aircraft, AnswerBatch& answers) const {
     const std::vector<bool>& undirected = aircraft.undirected;
     if (std::ranges::find(undirected, true) == undirected.end()) return;

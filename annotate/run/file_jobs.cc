@@ -271,7 +271,7 @@ absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::str
   if (status.ok()) {
     status = output.Commit();
     if (!status.ok()) fs::remove(summary_path, error);
-  }  // Else another process may have written the same output: the summary is of that one.
+  }  // Else the summary may be that of another process, which has written the same output.
   if (!status.ok() && new_csv) fs::remove(job.csv, error);
   return status;
 }

@@ -25,8 +25,8 @@ class BinnedSpectrum final : public FrequencySpectrum {
   double width(std::size_t i) const;
 
   DirectionalEnergy operator()(double f) const override;
-  // Where centres are closer than `f` and `above`: the mean with weights that rise from `below` to f and fall to
-  // `above`, over what is between the first and the last centre.
+  // A weighted mean where the centres are closer together than f and `above`. The weights rise from `below` to f and
+  // fall to `above`. Only frequencies between the first and the last centre count.
   DirectionalEnergy Between(double below, double f, double above) const override;
   double highest_frequency() const override { return centres_->back(); }
   // The centres of bins with energy: instruments round little energy to 0.

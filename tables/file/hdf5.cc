@@ -155,7 +155,7 @@ absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& na
   const H5S_class_t extent = H5Sget_simple_extent_type(space);
   const H5T_class_t kind = H5Tget_class(type);
   const bool is_null = extent == H5S_NULL;
-  // netCDF-4 writes an integer, and some texts, as a list of one. Of real numbers there are lists.
+  // netCDF-4 writes integers and some texts as lists of one. A list of real numbers stays a list.
   const bool is_scalar =
       extent == H5S_SCALAR || (kind != H5T_FLOAT && extent == H5S_SIMPLE && H5Sget_simple_extent_npoints(space) == 1);
 

@@ -3,8 +3,8 @@
 
 namespace albtpu::hdf5 {
 
-// At the end of the program HDF5 closes what is still open: after a failed write it crashes there, and it reports the
-// objects that it lost track of in damaged files. After this call, before any other one of HDF5, it closes nothing.
+// Keeps HDF5 from closing files when the program ends, where it may crash if a write has failed. Call it before all
+// other functions of HDF5.
 void CloseNothingAtExit();
 
 }  // namespace albtpu::hdf5
