@@ -96,7 +96,7 @@ class Run {
       }
     }
     RETURN_IF_ERROR(CheckWritesNoInput(job));
-    RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, run_.existing));
+    RETURN_IF_ERROR(MakeRoomForSummary(job, run_.existing));
     std::error_code ignored;  // If this fails, creating the output reports why.
     if (job.in_subfolder) fs::create_directories(job.output.parent_path(), ignored);
     if (job.in_subfolder && !job.csv.empty()) fs::create_directories(job.csv.parent_path(), ignored);

@@ -248,20 +248,26 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
       absl::StrCat(existing_file.string(), ": already exists; choose another name, or add --overwrite"));
 }
 
+absl::Status MakeRoomForSummary(const Job& job, Existing existing) {
+  RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, existing));
+  std::error_code error;
+  if (existing == Existing::kKeep) fs::remove(SummaryPath(job.output), error);
+  return absl::OkStatus();
+}
+
 absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary, Existing existing,
                                std::optional<OutputFile> csv) {
   const fs::path summary_path = SummaryPath(job.output);
   RETURN_IF_ERROR(CheckSummaryCanBeWritten(job, existing));
-  std::error_code error;
-  const bool replaces = existing == Existing::kReplace || fs::exists(summary_path, error);
-  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, replaces ? Existing::kReplace : existing));
+  ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(summary_path, existing));
   RETURN_IF_ERROR(output.Sync());
   if (csv.has_value()) RETURN_IF_ERROR(csv->Sync());
   RETURN_IF_ERROR(file.Write(summary));
   RETURN_IF_ERROR(file.Sync());
+  std::error_code error;
   const bool new_csv = csv.has_value() && !fs::exists(job.csv, error);
   if (csv.has_value()) RETURN_IF_ERROR(csv->Commit());
-  if (fs::exists(job.output, error)) {
+  if (existing == Existing::kReplace && fs::exists(job.output, error)) {
     // The old summary goes first: if the program is killed here, no summary describes the wrong output.
     fs::remove(summary_path, error);
     RETURN_IF_ERROR(output.Commit());

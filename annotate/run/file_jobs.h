@@ -104,6 +104,9 @@ nlohmann::ordered_json ReadAnswers(const Job& job);
 // AlreadyExists when a file that is to be kept has the name of the output or of its summary.
 absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing);
 
+// The same before the output is made, and removes a summary that a killed run left without its output.
+absl::Status MakeRoomForSummary(const Job& job, Existing existing);
+
 // Gives the output and the summary their names, both or neither: a summary never lies beside an output that it does
 // not describe. `existing` applies to both.
 // `csv` gets its name before them.
