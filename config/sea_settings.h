@@ -93,7 +93,7 @@ inline constexpr std::array<Key<SeaSettings>, 11> kSeaKeys = {{
 }};
 inline constexpr std::array<Key<WaveSettings>, 6> kWaveKeys = {{
     {{"hs", "--hs", Number{0, 30, "m"}, "", "Significant wave height, 4 sqrt(m0)"}, &WaveSettings::hs},
-    {{"tp", "--tp", Number{0.5, 40, "s"}, "", "Period of the spectral peak"}, &WaveSettings::tp},
+    {{"tp", "--tp", Number{kShortestPeak, kLongestPeak, "s"}, "", "Period of the spectral peak"}, &WaveSettings::tp},
     {{"gamma", "--gamma", Number{1, 20, "1"}, "3.3", "Peak enhancement of JONSWAP"}, &WaveSettings::gamma},
     {{"waves_from", "--waves-from", Number{-360, 360, "degree"}, "",
       "Where the waves come from, clockwise from true north"},

@@ -193,7 +193,8 @@ std::optional<SensorMotion> CourseMotions::At(double time) const {
   if (first == last || outcomes[1] != TrackOutcome::kKnown) return std::nullopt;
   const SensorPosition &from = positions[first], &to = positions[last];
   const double seconds = times[last] - times[first];
-  const double x = (to.x - from.x) * from.metres_per_x / seconds, y = (to.y - from.y) * from.metres_per_y / seconds;
+  const double x = (to.x - from.x) * from.metres_per_x / seconds;
+  const double y = ((to.y - from.y) * from.metres_per_y + (to.x - from.x) * from.north_per_x) / seconds;
   // True azimuth = grid azimuth + convergence.
   const double c = std::cos(from.convergence), s = std::sin(from.convergence);
   SensorMotion motion;

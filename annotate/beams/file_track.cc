@@ -55,6 +55,8 @@ std::optional<LocalFrame> FrameAround(const formats::MapPosition& middle, const 
                       .metres_per_x = metric->metres_per_x,
                       .metres_per_y = metric->metres_per_y,
                       .metres_per_z = metres_per_z,
+                      .north_per_x = metric->north_per_x,
+                      .turn = map.turn(),
                       .convergence = metric->convergence};
   const auto slope_to = [&](double x, double y) {
     const std::optional<formats::MapMetric> there = metric_at(x, y);
@@ -129,11 +131,13 @@ void FittedTrack::PositionsAt(std::span<const double> times, std::span<SensorPos
     if (formats::IsNoTime(times[i])) outcomes[i] = TrackOutcome::kOutside;
     if (outcomes[i] != TrackOutcome::kKnown) continue;
     SensorPosition& position = positions[i];
-    position.convergence = frame_.ConvergenceAt(position.x, position.y);
-    position.x = frame_.origin_x + position.x / frame_.metres_per_x;
-    position.y = frame_.origin_y + position.y / frame_.metres_per_y;
+    position.convergence = frame_.ConvergenceAt({position.x, position.y});
+    const formats::MapPosition on_map = frame_.MapOf(position.x, position.y);
+    position.x = on_map.x;
+    position.y = on_map.y;
     position.metres_per_x = frame_.metres_per_x;
     position.metres_per_y = frame_.metres_per_y;
+    position.north_per_x = frame_.north_per_x;
   }
 }
 

@@ -71,7 +71,7 @@ void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& s
         scan != nullptr ? scan->altitude : std::get<ConstantIncidence>(plan_.source).altitude;
     for (std::size_t i = 0; i < count; ++i) {
       altitudes[i] = static_cast<float>(altitude.value_or(kNan) - scratch.above[i]);
-      beams.convergence[i] = static_cast<float>(frame_.ConvergenceAt(frame_.X(points.x[i]), frame_.Y(points.y[i])));
+      beams.convergence[i] = static_cast<float>(frame_.ConvergenceAt(frame_.At(points.x[i], points.y[i])));
     }
     if (scan != nullptr && scan->flight_direction.has_value())
       aircraft[BudgetInput::kHeading].assign(count, static_cast<float>(*scan->flight_direction));
@@ -123,8 +123,9 @@ void BeamGeometry::FromTrack(const SurveyPoints& points, BeamScratch& scratch, P
     column->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const SensorPosition& sensor = scratch.positions[i];
-    scratch.east[i] = (points.x[i] - sensor.x) * sensor.metres_per_x;
-    scratch.north[i] = (points.y[i] - sensor.y) * sensor.metres_per_y;
+    const double dx = frame_.Difference(points.x[i], sensor.x);
+    scratch.east[i] = dx * sensor.metres_per_x;
+    scratch.north[i] = (points.y[i] - sensor.y) * sensor.metres_per_y + dx * sensor.north_per_x;
     scratch.height[i] = sensor.z - scratch.heights[i];
     scratch.convergence[i] = sensor.convergence;
   }

@@ -26,7 +26,7 @@ constexpr std::size_t kMetricStep = 16;
 struct ProjectedTrack::Row {
   double time;
   double x, y, z;
-  float metres_per_x, metres_per_y, convergence;
+  float metres_per_x, metres_per_y, north_per_x, convergence;
 };
 
 struct ProjectedTrack::Block {
@@ -52,6 +52,8 @@ ProjectedTrack::ProjectedTrack(formats::TrajectoryTimeline timeline, std::shared
   const std::vector<formats::TimelineRun>& runs = timeline_.runs();
   starts_again_ = timeline_.points().form == formats::PointTimeForm::kWeekSeconds &&
                   runs.back().span().last >= formats::kSecondsPerWeek;
+  const formats::TrajectoryRecord first = runs.front().trajectory->Record(runs.front().begin);
+  first_x_ = frame_->Project({first.latitude, first.longitude}).x;
   std::size_t count = 0;
   for (const formats::TimelineRun& run : runs) count += (run.end - run.begin - 1 + kBlock - 1) / kBlock;
   blocks_ = std::make_unique<Block[]>(count);
@@ -105,8 +107,18 @@ SensorPosition ProjectedTrack::PositionOf(const formats::TrajectoryRecord& recor
   const formats::GeographicPosition sensor = SensorOf(record, height);
   const formats::MapPosition position = frame_->Project(sensor);
   const formats::MapMetric metric = frame_->MetricAt(sensor);
-  return {position.x,         position.y, height - options_.geoid_separation, metric.metres_per_x, metric.metres_per_y,
-          metric.convergence, 0};
+  return {.x = Continuous(position.x),
+          .y = position.y,
+          .z = height - options_.geoid_separation,
+          .metres_per_x = metric.metres_per_x,
+          .metres_per_y = metric.metres_per_y,
+          .north_per_x = metric.north_per_x,
+          .convergence = metric.convergence};
+}
+
+double ProjectedTrack::Continuous(double x) const {
+  const double turn = frame_->turn();
+  return turn > 0 ? first_x_ + std::remainder(x - first_x_, turn) : x;
 }
 
 std::vector<ProjectedTrack::Row> ProjectedTrack::Project(const Block& block) const {
@@ -123,7 +135,7 @@ std::vector<ProjectedTrack::Row> ProjectedTrack::Project(const Block& block) con
   std::vector<formats::MapPosition> positions(count);
   frame_->Project(sensors, positions);
   for (std::size_t i = 0; i < count; ++i) {
-    rows[i].x = positions[i].x;
+    rows[i].x = Continuous(positions[i].x);
     rows[i].y = positions[i].y;
   }
   formats::MapMetric first = frame_->MetricAt(sensors[0]);
@@ -135,6 +147,7 @@ std::vector<ProjectedTrack::Row> ProjectedTrack::Project(const Block& block) con
       const double fraction = (rows[j].time - rows[i].time) / (rows[end].time - rows[i].time);
       rows[j].metres_per_x = static_cast<float>(std::lerp(first.metres_per_x, last.metres_per_x, fraction));
       rows[j].metres_per_y = static_cast<float>(std::lerp(first.metres_per_y, last.metres_per_y, fraction));
+      rows[j].north_per_x = static_cast<float>(std::lerp(first.north_per_x, last.north_per_x, fraction));
       rows[j].convergence = static_cast<float>(std::lerp(first.convergence, last.convergence, fraction));
     }
     first = last;
@@ -167,6 +180,7 @@ class ProjectedTrack::Cursor {
     position.z = between(first.z, second.z);
     position.metres_per_x = between(first.metres_per_x, second.metres_per_x);
     position.metres_per_y = between(first.metres_per_y, second.metres_per_y);
+    position.north_per_x = between(first.north_per_x, second.north_per_x);
     position.convergence = between(first.convergence, second.convergence);
     position.incidence_sigma = 0;
     // Outside the domain of the projection there is no position.

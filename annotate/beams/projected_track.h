@@ -61,12 +61,15 @@ class ProjectedTrack : public SensorTrack {
                  const ProjectedTrackOptions& options);
   const std::vector<Row>& RowsOf(std::size_t block) const;
   std::vector<Row> Project(const Block& block) const;
+  // `x`, or where longitudes repeat that within half a turn of the first record, so that no step leaps over 180 degrees.
+  double Continuous(double x) const;
   formats::GeographicPosition SensorOf(const formats::TrajectoryRecord& record, double& height) const;
 
   formats::TrajectoryTimeline timeline_;
   std::shared_ptr<const formats::MapFrame> frame_;
   ProjectedTrackOptions options_;
   bool starts_again_ = false;   // Points of the next week have times that started again from 0.
+  double first_x_ = 0;          // Of the first record.
   std::vector<double> begins_;  // The time from which each block holds, increasing.
   std::unique_ptr<Block[]> blocks_;
 };

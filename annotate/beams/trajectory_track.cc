@@ -34,7 +34,7 @@ TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame,
     track.PositionsAt(shifted, sensors, outcomes);
     for (std::size_t i = 0; i < times.size(); ++i)
       if (outcomes[i] == TrackOutcome::kKnown)
-        positions[i] = {frame.X(sensors[i].x), frame.Y(sensors[i].y), sensors[i].z};
+        positions[i] << frame.At(sensors[i].x, sensors[i].y), sensors[i].z;
       else
         positions[i].setConstant(std::numeric_limits<double>::quiet_NaN());
   };

@@ -54,8 +54,9 @@ std::vector<double> HeightsAtUpper(std::span<const ReturnPair> pairs, const Wate
   ForEachPart(pairs.size(), [&](std::size_t /*part*/, std::size_t begin, std::size_t end) {
     SurveyPoints upper;
     for (const ReturnPair& pair : pairs.subspan(begin, end - begin)) {
-      upper.x.push_back(frame.origin_x + pair.upper.x() / frame.metres_per_x);
-      upper.y.push_back(frame.origin_y + pair.upper.y() / frame.metres_per_y);
+      const formats::MapPosition on_map = frame.MapOf(pair.upper.x(), pair.upper.y());
+      upper.x.push_back(on_map.x);
+      upper.y.push_back(on_map.y);
       upper.z.push_back(pair.upper.z() / frame.metres_per_z);
       upper.times.push_back(pair.time);
     }
@@ -113,9 +114,10 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
       continue;
     }
     std::optional<double> local;
-    if (nearby.has_value())
-      local = nearby->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
-                               points.times.empty() ? 0 : seconds * points.times[i]);
+    if (nearby.has_value()) {
+      const Eigen::Vector2d at = frame.At(points.x[i], points.y[i]);
+      local = nearby->HeightAt(at.x(), at.y(), points.times.empty() ? 0 : seconds * points.times[i]);
+    }
     if (local.has_value()) {
       heights[i] = *local;
       count(SurfaceFrom::kLocal);

@@ -94,6 +94,12 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   }
   if (place.map == nullptr) return place;
   place.remark = crs.remark;
+  // Points on both sides of 180 degrees of longitude: the middle of their box is on the other side of the earth.
+  const formats::LasHeader& header = reader.header();
+  if (header.point_count > 0 && header.greatest[0] - header.least[0] > place.map->turn() / 2 && place.map->turn() > 0) {
+    ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
+    middle.x = formats::LasPointFields(header).X(record);
+  }
   const std::optional<LocalFrame> frame = FrameAround(middle, *place.map, metres_per_z);
   if (!frame.has_value()) {
     if (!plan.has_track()) return place;

@@ -19,6 +19,7 @@ struct SensorPosition {
   double x = 0, y = 0;                        // In the horizontal unit of the points: metres, feet or degrees.
   double z = 0;                               // m, in the vertical datum of the points.
   double metres_per_x = 1, metres_per_y = 1;  // True metres; the scale of a map projection is divided out.
+  double north_per_x = 0;      // m to grid north in a unit of x; 0 where x and y are perpendicular on the ground.
   double convergence = 0;      // rad; the true azimuth of grid north: true azimuth = grid azimuth + convergence.
   double incidence_sigma = 0;  // rad; standard deviation of incidences that this position causes; 0: not known.
 };

@@ -21,6 +21,8 @@ constexpr double kLargestAngularUnit = 0.018;
 // m, between a position on the map and the projection of its inverse: PROJ iterates to 1e-4 m or better.
 constexpr double kLargestDeparture = 0.01;
 
+constexpr double kLeastSkew = 1e-7;  // rad. Less is the error of the differences for a projection that has none.
+
 constexpr double kStep = 1e-5;  // rad, half the distance of the differences that MetricAt takes: 64 m.
 
 absl::StatusOr<ProjCrs> ReadUsable(ProjContext& context, const std::string& text) {
@@ -304,12 +306,13 @@ std::optional<GeographicPosition> MapFrame::GeographicAt(const MapPosition& posi
 
 // With x_E the change of x in a metre to the east and so on, a step (E, N) on the ground is the step
 //     (x, y) = ((x_E, x_N), (y_E, y_N)) (E, N)
-// on the map. The columns of the inverse are the steps on the ground for a unit of x and of y: their lengths are the
-// metres in a unit, and the direction of the second is grid north, clockwise from true north.
+// on the map. The columns of the inverse are the steps on the ground for a unit of x and of y. The second has the
+// length of metres_per_y and the direction of grid north, clockwise from true north. The first, on the axes of the
+// second, is (metres_per_x, north_per_x): the product of the lengths across, the determinant, is that of the inverse.
 MapMetric MapFrame::MetricAt(const GeographicPosition& position) const {
   const double meridian = ellipsoid_.MeridianRadius(position.latitude);
   const double parallel = ellipsoid_.PrimeVerticalRadius(position.latitude) * std::cos(position.latitude);
-  if (is_geographic()) return {parallel * unit_, meridian * unit_, 0};
+  if (is_geographic()) return {parallel * unit_, meridian * unit_};
   const std::array from = {GeographicPosition{position.latitude, position.longitude - kStep},
                            GeographicPosition{position.latitude, position.longitude + kStep},
                            GeographicPosition{position.latitude - kStep, position.longitude},
@@ -320,8 +323,15 @@ MapMetric MapFrame::MetricAt(const GeographicPosition& position) const {
   const double x_east = (to[1].x - to[0].x) / east, y_east = (to[1].y - to[0].y) / east;
   const double x_north = (to[3].x - to[2].x) / north, y_north = (to[3].y - to[2].y) / north;
   const double determinant = x_east * y_north - x_north * y_east;
-  return {std::hypot(y_north, y_east) / std::abs(determinant), std::hypot(x_north, x_east) / std::abs(determinant),
-          std::atan2(-x_north / determinant, x_east / determinant)};
+  MapMetric metric = {.metres_per_x = std::hypot(y_north, y_east) / std::abs(determinant),
+                      .metres_per_y = std::hypot(x_north, x_east) / std::abs(determinant),
+                      .convergence = std::atan2(-x_north / determinant, x_east / determinant)};
+  const double north_per_x = -(x_east * y_east + x_north * y_north) / (determinant * determinant * metric.metres_per_y);
+  if (std::abs(north_per_x) > kLeastSkew * metric.metres_per_x) {
+    metric.north_per_x = north_per_x;
+    metric.metres_per_x = 1 / (std::abs(determinant) * metric.metres_per_y);
+  }
+  return metric;
 }
 
 }  // namespace albtpu::formats

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,9 +43,12 @@ struct MapPosition {
   double x = 0, y = 0;  // East and north, in the unit of the points.
 };
 
-// Converts differences of coordinates into metres and true directions, as SensorPosition.
+// Converts differences of coordinates into metres and true directions: a step (dx, dy) on the map is
+//     metres_per_x dx to grid east,  metres_per_y dy + north_per_x dx to grid north
+// on the ground. Grid north is the direction of y, and grid east is perpendicular to it.
 struct MapMetric {
   double metres_per_x = 1, metres_per_y = 1;
+  double north_per_x = 0;  // 0 of a conformal projection, such as UTM: x and y are perpendicular on the ground.
   double convergence = 0;  // rad; true azimuth = grid azimuth + convergence.
 };
 
@@ -70,6 +74,8 @@ class MapFrame {
   bool is_transverse_mercator() const { return is_transverse_mercator_; }
   // Metres, or for geographic coordinates radians, in a unit of x and y.
   double unit() const { return unit_; }
+  // 360 degrees in the unit of x, after which longitudes repeat; 0 on a map.
+  double turn() const { return is_geographic() ? 2 * std::numbers::pi / unit_ : 0; }
   std::optional<double> metres_per_height_unit() const { return metres_per_height_unit_; }  // nullopt: not stated.
   const Ellipsoid& ellipsoid() const { return ellipsoid_; }
 
@@ -81,8 +87,7 @@ class MapFrame {
   std::optional<GeographicPosition> GeographicAt(const MapPosition& position) const;
 
   // From differences of the projection over 64 m, right to 1e-9. For a conformal projection metres_per_x and
-  // metres_per_y are unit / scale. For others the convergence is that of grid north, and the grid axes are taken as
-  // perpendicular on the ground.
+  // metres_per_y are unit / scale.
   MapMetric MetricAt(const GeographicPosition& position) const;
 
  private:

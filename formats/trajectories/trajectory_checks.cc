@@ -39,11 +39,15 @@ std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeli
   return samples;
 }
 
-// Minimum distance in m of projected positions from the box; infinite where none can be projected.
-double MinDistance(const std::vector<MapPosition>& positions, const MapMetric& metric, const PointExtent& extent) {
+// Minimum distance in m of projected positions from the box; infinite where none can be projected. `turn` is that of
+// the frame.
+double MinDistance(const std::vector<MapPosition>& positions, double turn, const MapMetric& metric,
+                   const PointExtent& extent) {
+  const double middle = (extent.x_min + extent.x_max) / 2;
   double least = HUGE_VAL;
   for (const MapPosition& position : positions) {
-    const double x = std::max({extent.x_min - position.x, 0.0, position.x - extent.x_max});
+    const double along = turn > 0 ? middle + std::remainder(position.x - middle, turn) : position.x;
+    const double x = std::max({extent.x_min - along, 0.0, along - extent.x_max});
     const double y = std::max({extent.y_min - position.y, 0.0, position.y - extent.y_max});
     const double distance = std::hypot(x * metric.metres_per_x, y * metric.metres_per_y);
     if (distance < least) least = distance;
@@ -134,7 +138,7 @@ double DistanceAfter(const Change& change, const std::vector<GeographicPosition>
   std::vector<MapPosition> projected(positions.size());
   frame.Project(positions, projected);
   for (MapPosition& position : projected) position = change.after(position);
-  return MinDistance(projected, metric, extent);
+  return MinDistance(projected, frame.turn(), metric, extent);
 }
 
 }  // namespace
@@ -145,8 +149,8 @@ absl::Status CheckNearPoints(const std::string& las, const TrajectoryTimeline& t
   std::vector<MapPosition> projected(samples.size());
   frame.Project(samples, projected);
   const MapMetric metric =
-      frame.is_geographic() ? frame.MetricAt(samples.front()) : MapMetric{frame.unit(), frame.unit(), 0};
-  const double distance = MinDistance(projected, metric, extent);
+      frame.is_geographic() ? frame.MetricAt(samples.front()) : MapMetric{frame.unit(), frame.unit()};
+  const double distance = MinDistance(projected, frame.turn(), metric, extent);
   if (distance <= kFarthestFromPoints) return absl::OkStatus();
   double least = kFarthestFromPoints;
   std::string cause;

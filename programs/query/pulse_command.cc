@@ -70,7 +70,9 @@ absl::Status PrintTotal(const PulseOptions& options, annotate::PulseTotal& total
   }
   ASSIGN_OR_RETURN(nlohmann::ordered_json json, annotate::TotalJson(total, source));
   json.update(answerer.SeaJson());
-  std::cout << (options.json ? json.dump(2) + "\n" : annotate::TotalText(json) + answerer.SeaText());
+  const std::string sea = answerer.SeaText();
+  std::cout << (options.json ? json.dump(2) : annotate::TotalText(json) + sea)
+            << (options.json || !sea.empty() ? "\n" : "");
   return FlushStandardOutput();
 }
 

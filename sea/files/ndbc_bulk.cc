@@ -129,12 +129,12 @@ class NdbcBulkReader {
 
   absl::Status AddWaves(const std::vector<std::string_view>& words, const WaveColumns& columns, bool swell,
                         std::vector<JonswapWaves>& components) {
-    const auto height = Value(words, columns.height, 99), period = Value(words, columns.period, kLongestPeak);
+    const auto height = Value(words, columns.height, 99), period = Value(words, columns.period, 99);
     const auto direction = Direction(words, columns.direction);
     for (const absl::Status& status : {height.status(), period.status(), direction.status()})
       if (!status.ok()) return status;
     if (!*height) return absl::OkStatus();
-    if (!*period || **period == 0) {
+    if (!*period || **period == 0 || **period > kLongestPeak) {
       without_period_ += **height > 0;
       highest_without_period_ = std::max(highest_without_period_, **height);
       return absl::OkStatus();
@@ -203,7 +203,8 @@ class NdbcBulkReader {
     if (wind_speed_ != kNone) say("winds are taken as measured ", anemometer_height_, " m above the water");
     if (without_waves_ > 0) say(without_waves_, " records have no waves and are left out");
     if (without_period_ > 0) {
-      say(without_period_, " heights of waves, up to ", highest_without_period_, " m, have no period and are left out");
+      say(without_period_, " heights of waves, up to ", highest_without_period_, " m, have no period, or one above ",
+          kLongestPeak, " s, and are left out");
     }
     if (without_direction_ > 0) say(without_direction_, " wave heights have no direction and are taken as isotropic");
   }

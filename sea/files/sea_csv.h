@@ -42,9 +42,8 @@ inline constexpr double kLowestWavenumber = 1e-6, kHighestWavenumber = 1e6;  // 
 inline constexpr double kMaxDensity = 1e12;
 // Rounding, in sums and in decimals, may make a harmonic longer than the energy that it belongs to, by this part of it.
 inline constexpr double kHarmonicRounding = 1e-6;
-inline constexpr double kShortestPeak = 0.5, kLongestPeak = 99;  // s, of waves with a height and a period
-inline constexpr double kDeepestWater = 2e4;                     // m
-inline constexpr double kStrongestWind = 150;                    // m/s
+inline constexpr double kDeepestWater = 2e4;   // m
+inline constexpr double kStrongestWind = 150;  // m/s
 
 // Text that may be compressed by gzip.
 

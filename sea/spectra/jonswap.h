@@ -17,11 +17,15 @@ namespace albtpu {
 // factor of depth, here that of Kitaigorodskii et al. (1975).
 struct JonswapWaves {
   double significant_wave_height = 0;  // hs, m, from 0
-  double peak_period = 0;              // 1 / fp, s, above 0
+  double peak_period = 0;              // 1 / fp, s, kShortestPeak to kLongestPeak
   double gamma = 3.3;                  // from 1; swell 5 to 10
   double travels_towards = 0;          // compass direction, rad
   std::optional<double> spread = {};   // rad, as Cosine2sOfSpread() has it; absent: MitsuyasuS()
 };
+
+// s. Of waves longer than the longest, seas (SeaWavenumbers) would lose height: 2 % at 25 s if gamma is 1, and 1 % of
+// swell, but 10 % at 30 s.
+inline constexpr double kShortestPeak = 0.5, kLongestPeak = 25;
 
 // Our choice for swell of which only height, period and direction are known: narrow in frequency and in direction.
 inline constexpr double kSwellGamma = 7;

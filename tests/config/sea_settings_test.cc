@@ -173,7 +173,7 @@ TEST(Swell, IsNoOtherText) {
 TEST(WaveSettings, NameWhatIsMissingAsTheUserDoes) {
   WaveSettings waves;
   waves.hs = 1;
-  EXPECT_EQ(ProblemOf(waves, true), "--tp is missing; give a number from 0.5 to 40 s");
+  EXPECT_EQ(ProblemOf(waves, true), "--tp is missing; give a number from 0.5 to 25 s");
   waves.tp = 6;
   EXPECT_EQ(ProblemOf(waves, false), "waves_from is missing; give a number from -360 to 360 degree");
   waves.waves_from = 200;

@@ -85,7 +85,8 @@ Geodetic AreaChart::At(double east, double north, double height) const {
 }
 
 Eigen::Vector2d AreaChart::EastNorth(const Geodetic& point) const {
-  return {(point.longitude - longitude_) * metres_per_longitude_, (point.latitude - latitude_) * metres_per_latitude_};
+  return {std::remainder(point.longitude - longitude_, 2 * std::numbers::pi) * metres_per_longitude_,
+          (point.latitude - latitude_) * metres_per_latitude_};
 }
 
 Eigen::Matrix3d AircraftState::BodyAxes() const {

@@ -1,6 +1,7 @@
 #include "tests/flights/map_grid.h"
 
 #include <cassert>
+#include <cmath>
 
 #include "tests/flights/ellipsoid.h"
 
@@ -54,6 +55,20 @@ MapGrid FloridaEastFeet() {
                           unit + R"(,AXIS["Gravity-related height",UP],AUTHORITY["EPSG","6360"]])"};
 }
 
+MapGrid LaeaEurope() {
+  const std::string unit = R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]])";
+  return {.projection = Projection("+proj=laea +lat_0=52 +lon_0=10 +x_0=4321000 +y_0=3210000 +ellps=GRS80"),
+          .epsg = 3035,
+          .wkt = R"wkt(PROJCS["ETRS89-extended / LAEA Europe",GEOGCS["ETRS89",)wkt"
+                 R"(DATUM["European_Terrestrial_Reference_System_1989",SPHEROID["GRS 1980",6378137,298.257222101]],)"
+                 R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],)"
+                 R"(PROJECTION["Lambert_Azimuthal_Equal_Area"],PARAMETER["latitude_of_center",52],)"
+                 R"(PARAMETER["longitude_of_center",10],PARAMETER["false_easting",4321000],)"
+                 R"(PARAMETER["false_northing",3210000],)" +
+                 unit + R"(,AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG","3035"]])",
+          .vertical_wkt = UtmNorth(17).vertical_wkt};
+}
+
 MapGrid Geographic() {
   return {.epsg = 4326,
           .wkt = R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
@@ -64,7 +79,10 @@ MapGrid Geographic() {
 }  // namespace
 
 GridPoint MapGrid::At(double latitude, double longitude) const {
-  if (projection == nullptr) return {.x = longitude / kDegree, .y = latitude / kDegree};
+  if (projection == nullptr) {
+    const double degrees = std::remainder(longitude / kDegree, 360);
+    return {.x = from_zero && degrees < 0 ? degrees + 360 : degrees, .y = latitude / kDegree};
+  }
   const PJ_COORD place = proj_coord(longitude, latitude, 0, 0);
   const PJ_COORD point = proj_trans(projection.get(), PJ_FWD, place);
   const PJ_FACTORS factors = proj_factors(projection.get(), place);
@@ -81,6 +99,12 @@ std::optional<MapGrid> FindMapGrid(std::string_view name) {
   for (const int zone : {16, 17, 18})
     if (name == "utm" + std::to_string(zone) + "n") return UtmNorth(zone);
   if (name == "geographic") return Geographic();
+  if (name == "geographic-360") {
+    MapGrid grid = Geographic();
+    grid.from_zero = true;
+    return grid;
+  }
+  if (name == "laea-europe") return LaeaEurope();
   if (name == "florida-east-ft") return FloridaEastFeet();
   return std::nullopt;
 }

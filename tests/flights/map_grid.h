@@ -19,6 +19,7 @@ struct GridPoint {
 
 struct MapGrid {
   std::shared_ptr<PJ> projection = {};  // PROJ's, in metres. None: longitude and latitude in degrees.
+  bool from_zero = false;               // Longitudes are 0 to 360 degrees, not -180 to 180.
   double metres_per_unit = 1;           // Of projected coordinates, and of all heights.
   int epsg = 0;                         // Of the horizontal coordinates.
   int linear_unit = 9001;               // EPSG code of the unit.
@@ -31,7 +32,8 @@ struct MapGrid {
   std::string LasWkt(bool orthometric) const;
 };
 
-// "utm16n", "utm17n", "utm18n": metres, WGS 84. "geographic": degrees, WGS 84. "florida-east-ft": EPSG 2236, US survey
+// "utm16n", "utm17n", "utm18n": metres, WGS 84. "geographic", "geographic-360": degrees, WGS 84. "laea-europe": EPSG
+// 3035, metres, whose x and y are not perpendicular on the ground. "florida-east-ft": EPSG 2236, US survey
 // feet, NAD 83, whose coordinates are taken as equal to those of WGS 84: 1-2 m in reality, of points and trajectory
 // alike.
 std::optional<MapGrid> FindMapGrid(std::string_view name);

@@ -41,7 +41,8 @@ void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
       ->check(CLI::IsMember({"palmer", "cone", "ellipse", "raster"}));
   app.add_option("--seed", survey.seed, "Of the motion of the aircraft, of the waves and of the noise");
   app.add_option("--grid", survey.grid, "Coordinate system")
-      ->check(CLI::IsMember({"utm16n", "utm17n", "utm18n", "florida-east-ft", "geographic"}));
+      ->check(CLI::IsMember(
+          {"utm16n", "utm17n", "utm18n", "florida-east-ft", "laea-europe", "geographic", "geographic-360"}));
   app.add_option("--origin", degrees.origin, "LATITUDE,LONGITUDE where the survey begins [degree]")
       ->delimiter(',')
       ->expected(2);

@@ -70,13 +70,15 @@ LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& 
   else
     spec.vlrs.push_back({"LASF_Projection", 2112, grid.LasWkt(orthometric) + '\0'});
   // Offsets are round numbers. Degrees need a finer resolution than heights, but a record of the builder has one for
-  // all; at 1e-8, heights reach 21 m from their offset.
+  // all; at 1e-8, heights reach 21 m from their offset. At 1e-7, longitudes reach 215 degrees.
   const bool degrees = grid.projection == nullptr;
   const GridPoint origin = grid.At(survey.options.latitude, survey.options.longitude);
   const double round = degrees ? 1 : 10000;
-  if (degrees) spec.scale = 1e-8;
+  const bool at_antimeridian = degrees && !grid.from_zero && std::abs(origin.x) > 179;
+  if (degrees) spec.scale = at_antimeridian ? 1e-7 : 1e-8;
   const double mean_height = std::round(survey.options.water_level - options.geoid_separation - 7);
-  spec.offset = {round * std::floor(origin.x / round), round * std::floor(origin.y / round), degrees ? mean_height : 0};
+  spec.offset = {at_antimeridian ? 0 : round * std::floor(origin.x / round), round * std::floor(origin.y / round),
+                 degrees ? mean_height : 0};
   const auto steps = [&](double value, std::size_t axis) {
     return static_cast<std::int32_t>(std::lround((value - spec.offset[axis]) / spec.scale));
   };
@@ -142,7 +144,7 @@ std::string SbetFile(const SimulatedSurvey& survey, const TrajectoryOptions& opt
         options.wander - (position.longitude - survey.options.longitude) * std::sin(survey.options.latitude);
     const double north = state.velocity.x(), east = state.velocity.y();
     Append(bytes,
-           {time, position.latitude, position.longitude, position.height,
+           {time, position.latitude, std::remainder(position.longitude, 2 * std::numbers::pi), position.height,
             north * std::cos(alpha) - east * std::sin(alpha), -north * std::sin(alpha) - east * std::cos(alpha),
             state.velocity.z(), state.roll, state.pitch, Wrapped(state.heading + alpha), alpha, 0, 0, 0, 0, 0, 0});
   });
@@ -166,10 +168,10 @@ std::string AsciiTrajectory(const SimulatedSurvey& survey, const TrajectoryOptio
     const GridPoint point = grid.projection != nullptr ? grid.At(position.latitude, position.longitude) : GridPoint{};
     char line[400];
     std::snprintf(line, sizeof line, "%.6f %.12f %.12f %.5f %.5f %.5f %.7f %.7f %.7f %.3f %.3f %.3f %.5f %.5f %.5f\n",
-                  time, position.longitude / kDegree, position.latitude / kDegree, point.x * grid.metres_per_unit,
-                  point.y * grid.metres_per_unit, position.height, state.roll / kDegree, state.pitch / kDegree,
-                  Wrapped(state.heading) / kDegree, kPositionSigma, kPositionSigma, kHeightSigma, kRollSigma / kDegree,
-                  kRollSigma / kDegree, kHeadingSigma / kDegree);
+                  time, std::remainder(position.longitude / kDegree, 360), position.latitude / kDegree,
+                  point.x * grid.metres_per_unit, point.y * grid.metres_per_unit, position.height, state.roll / kDegree,
+                  state.pitch / kDegree, Wrapped(state.heading) / kDegree, kPositionSigma, kPositionSigma, kHeightSigma,
+                  kRollSigma / kDegree, kRollSigma / kDegree, kHeadingSigma / kDegree);
     text += line;
   });
   return text;

@@ -46,8 +46,9 @@ void ExpectPositionsInUnitsOf(const LocalFrame& frame) {
     // Two roundings of a coordinate of the size of the origin, in metres.
     const double rounding =
         1e-15 * std::max(std::abs(frame.origin_x) * frame.metres_per_x, std::abs(frame.origin_y) * frame.metres_per_y);
-    EXPECT_NEAR(frame.X(position.x), local.positions[i].x, rounding);
-    EXPECT_NEAR(frame.Y(position.y), local.positions[i].y, rounding);
+    const Eigen::Vector2d at = frame.At(position.x, position.y);
+    EXPECT_NEAR(at.x(), local.positions[i].x, rounding);
+    EXPECT_NEAR(at.y(), local.positions[i].y, rounding);
     EXPECT_EQ(position.z, local.positions[i].z);  // Metres.
     EXPECT_EQ(position.metres_per_x, frame.metres_per_x);
     EXPECT_EQ(position.metres_per_y, frame.metres_per_y);
@@ -56,7 +57,7 @@ void ExpectPositionsInUnitsOf(const LocalFrame& frame) {
 }
 
 TEST(FittedTrack, HasThePositionsOfTheFileInMetresFeetAndDegrees) {
-  for (const char* crs : {"EPSG:32617", "EPSG:2236", "EPSG:4269"}) {
+  for (const char* crs : {"EPSG:32617", "EPSG:2236", "EPSG:5070", "EPSG:4269"}) {
     SCOPED_TRACE(crs);
     const auto map = Map(crs);
     ExpectPositionsInUnitsOf(FrameAt(*map, 26, -80.4));
@@ -82,8 +83,9 @@ TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
       const SensorPosition position = Ask(track, {1005}).positions[0];
       const std::optional<formats::GeographicPosition> at = map->GeographicAt({position.x, position.y});
       ASSERT_TRUE(at.has_value());
-      const double east = frame.X(position.x), north = frame.Y(position.y);
-      const double mixed = std::abs(east * north) / std::pow(kEarthRadius * std::cos(26.2 * kDegree), 2);
+      const Eigen::Vector2d from_origin = frame.At(position.x, position.y);
+      const double mixed =
+          std::abs(from_origin.x() * from_origin.y()) / std::pow(kEarthRadius * std::cos(26.2 * kDegree), 2);
       // The other second derivatives, of w tan(latitude) sec^2(latitude) and less, over both axes; the differences
       // over 1 km leave 1 km x 15 km of the same, and MetricAt is right to 1e-9.
       const double rest =

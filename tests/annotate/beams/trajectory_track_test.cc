@@ -54,7 +54,7 @@ class TrackFromFilesTest : public ::testing::Test {
       const double time = 20 + 60.0 * i / count;
       const SbetRow row = RowAt(flight_, time);
       const formats::MapPosition at = file_.map->Project({row[kLatitude], row[kLongitude]});
-      const Eigen::Vector3d sensor(file_.frame.X(at.x), file_.frame.Y(at.y), row[kHeight]);
+      const Eigen::Vector3d sensor = file_.frame.At(at.x, at.y, row[kHeight]);
       const double azimuth = 2.4 * i;  // Directions are spread evenly.
       const double incidence = 20 * kDegree;
       const Eigen::Vector3d direction(std::sin(incidence) * std::sin(azimuth), std::sin(incidence) * std::cos(azimuth),

@@ -59,7 +59,8 @@ void ExpectTrueDirections(const MapFrame& frame, const GeographicPosition& posit
     const double north = 50 * std::cos(azimuth) / meridian, east = 50 * std::sin(azimuth) / parallel;
     const MapPosition ahead = frame.Project({position.latitude + north, position.longitude + east});
     const MapPosition behind = frame.Project({position.latitude - north, position.longitude - east});
-    const double x = (ahead.x - behind.x) * metric.metres_per_x, y = (ahead.y - behind.y) * metric.metres_per_y;
+    const double x = (ahead.x - behind.x) * metric.metres_per_x;
+    const double y = (ahead.y - behind.y) * metric.metres_per_y + (ahead.x - behind.x) * metric.north_per_x;
     // Third derivatives: (50 m / R)^2 = 6e-11 of it, times 10 for tangents; rounding: 1e-9 m of 100 m.
     EXPECT_NEAR(std::hypot(x, y), 100, 1e-6);
     EXPECT_NEAR(std::remainder(std::atan2(x, y) + metric.convergence - azimuth, 2 * std::numbers::pi), 0, 1e-8)
@@ -104,17 +105,39 @@ TEST(MapFrame, HasTheConvergenceAndScaleOfTheSeries) {
 }
 
 TEST(MapFrame, KeepsTrueDirectionsAndLengths) {
-  for (const char* crs :
-       {"EPSG:32617", "EPSG:26917", "EPSG:2236", "EPSG:2154", "EPSG:28992", "EPSG:4269", "EPSG:3413"}) {
+  for (const char* crs : {"EPSG:32617", "EPSG:26917", "EPSG:2236", "EPSG:2154", "EPSG:28992", "EPSG:4269", "EPSG:3413",
+                          "EPSG:3035", "EPSG:5070"}) {
     const auto frame = UserFrame(crs);
     const std::string name = crs;
     const GeographicPosition position = name == "EPSG:2154"    ? At(48, -4.5)
                                         : name == "EPSG:28992" ? At(53, 4.8)
                                         : name == "EPSG:3413"  ? At(71, -156)
+                                        : name == "EPSG:3035"  ? At(34.6, 33.1)
                                                                : At(26, -83.9);
     SCOPED_TRACE(crs);
     ExpectTrueDirections(*frame, position);
   }
+}
+
+// Snyder (1987), section 24: an equal-area azimuthal projection stretches lengths across the radius from its centre by
+// 1 / cos(c / 2), c away from it, and shortens those along it as much; here on a sphere. A unit of y, at the angle
+// `theta` from the radius, is hypot(cos(theta) k, sin(theta) / k) m long, with k = 1 / cos(c / 2), and so on.
+TEST(MapFrame, HasTheSkewOfAnEqualAreaProjection) {
+  const auto frame = UserFrame("+proj=laea +lat_0=0 +lon_0=0 +R=6371000 +type=crs");
+  const MapMetric metric = frame->MetricAt(At(0, 40));
+  const double k = 1 / std::cos(20 * kDegree);
+  EXPECT_NEAR(metric.metres_per_x, k, 1e-8);  // Along the radius.
+  EXPECT_NEAR(metric.metres_per_y, 1 / k, 1e-8);
+  EXPECT_EQ(metric.north_per_x, 0);
+  const MapPosition at = {3e6, 3e6};
+  const GeographicPosition position = frame->GeographicAt(at).value();
+  const MapMetric skew = frame->MetricAt(position);
+  const double half = std::asin(std::hypot(at.x, at.y) / (2 * 6371000)), k2 = std::pow(1 / std::cos(half), 2);
+  // Of unit vectors to x and y, each with the half of a square along the radius and half across.
+  const double length = std::sqrt((k2 + 1 / k2) / 2), inner = (k2 - 1 / k2) / 2;
+  EXPECT_NEAR(skew.metres_per_y, length, 1e-8);
+  EXPECT_NEAR(skew.north_per_x, inner / length, 1e-8);
+  EXPECT_NEAR(skew.metres_per_x, 1 / length, 1e-8);  // Areas are kept.
 }
 
 TEST(MapFrame, TurnsGridNorthByThreeDegreesAtTheEdgeOfAZone) {

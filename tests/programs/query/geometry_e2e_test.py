@@ -26,6 +26,13 @@ SURVEYS = {
     "raster in feet": (["--scanner", "raster", "--seed", 5, "--grid", "florida-east-ft", "--time", "week",
                         "--origin", "25.2,-80.4", "--altitude", 500], ["--units", "us-ft"]),
     "palmer in degrees": (["--seed", 7, "--grid", "geographic", "--geoid-separation", -28, "--course", 75], []),
+    "palmer in degrees to 360": (["--seed", 8, "--grid", "geographic-360", "--course", 260], []),
+    # Two seconds before 180 degrees of longitude.
+    "palmer over the antimeridian": (["--seed", 9, "--grid", "geographic", "--origin", "-16.8,179.999", "--course", 80],
+                                     []),
+    # Grid north is 12 degrees off, and the axes are 1.8 degrees off perpendicular.
+    "ellipse on a map of equal areas": (["--scanner", "ellipse", "--seed", 10, "--grid", "laea-europe", "--origin",
+                                         "34.6,33.1", "--course", 140], []),
     "ellipse, shuffled": (["--scanner", "ellipse", "--seed", 6, "--point-format", 7, "--shuffle", "--course", 359.9,
                            "--lines", 2, "--seconds", 15, "--no-source-id", "--lever-arm", "-2,1.5,3",
                            "--geoid-separation", -28], ["--lever-arm", "-2,1.5,3"]),

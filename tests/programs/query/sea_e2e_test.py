@@ -54,6 +54,10 @@ class SeaTest(sea_states.Test):
         text = query("pulse", *PULSE, "--hs", 0.6, "--tp", 3.2, "--waves-from", 230, check=0).stdout
         self.assertIn("assumed: the wind speed is derived", text)
         self.assertIn("derived from the waves", text)
+        total = query("pulse", *PULSE, "--hs", 0.6, "--tp", 3.2, "--waves-from", 230, "--sensor", "riegl-vq-880-g",
+                      "--surface-located", "level", "--datum-sigma", 0, "--water-column", "none", "--altitude", 400,
+                      check=0).stdout
+        self.assertRegex(total, r"(?s)assumed: the wind speed is derived.*[^\n]\n\Z")
         isotropic, complete = self.folder / "isotropic.csv", self.folder / "complete.csv"
         isotropic.write_text("f,E\n0.1,1\n0.2,1\n0.3,0.2\n0.4,0.1\n")
         complete.write_text("k,S,a2,b2\n0.1,1,0.5,0\n0.2,1,0.5,0\n")

@@ -116,6 +116,11 @@ TEST(NdbcMeteorology, DoesNotTakeWavesWithoutAPeriodForNone) {
   ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_EQ(series->records.size(), 1u);
   EXPECT_THAT(series->assumed, Contains(HasSubstr("1 heights of waves, up to 2.5 m, have no period")));
+  const auto too_long = ReadNdbcBulk(columns + "2026 07 31 12 00  90  8.0  9.0   0.4 33.33  5.90 191 1021.2    MM\n" +
+                                     "2026 07 31 11 00  90  8.0  9.0   1.2    25   6.6 191 1021.2    MM\n");
+  ASSERT_TRUE(too_long.ok()) << too_long.status();
+  EXPECT_EQ(too_long->records.size(), 1u);
+  EXPECT_THAT(too_long->assumed, Contains(HasSubstr("or one above 25 s")));
   EXPECT_THAT(series->assumed, Not(Contains(HasSubstr("have no waves"))));
 }
 
