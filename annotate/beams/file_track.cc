@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -37,36 +36,7 @@ std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<con
   return TrackStatistics{.middle = *track.At((longest.start + longest.end) / 2), .sigma = Median(std::move(sigmas))};
 }
 
-constexpr double kStep = 1000;  // m, over which the slope of the convergence is taken.
-
 }  // namespace
-
-std::optional<LocalFrame> FrameAround(const formats::MapPosition& middle, const formats::MapFrame& map,
-                                      double metres_per_z) {
-  const auto metric_at = [&](double x, double y) -> std::optional<formats::MapMetric> {
-    const std::optional<formats::GeographicPosition> position = map.GeographicAt({x, y});
-    if (!position.has_value()) return std::nullopt;
-    return map.MetricAt(*position);
-  };
-  const std::optional<formats::MapMetric> metric = metric_at(middle.x, middle.y);
-  if (!metric.has_value()) return std::nullopt;
-  LocalFrame frame = {.origin_x = middle.x,
-                      .origin_y = middle.y,
-                      .metres_per_x = metric->metres_per_x,
-                      .metres_per_y = metric->metres_per_y,
-                      .metres_per_z = metres_per_z,
-                      .north_per_x = metric->north_per_x,
-                      .turn = map.turn(),
-                      .convergence = metric->convergence};
-  const auto slope_to = [&](double x, double y) {
-    const std::optional<formats::MapMetric> there = metric_at(x, y);
-    if (!there.has_value()) return 0.0;
-    return std::remainder(there->convergence - metric->convergence, 2 * std::numbers::pi) / kStep;
-  };
-  frame.convergence_slope = {slope_to(middle.x + kStep / frame.metres_per_x, middle.y),
-                             slope_to(middle.x, middle.y + kStep / frame.metres_per_y)};
-  return frame;
-}
 
 TrackedFile ByClock(const TrackedFile& stated, const formats::PointClock& clock) {
   TrackedFile file = stated;

@@ -52,8 +52,8 @@ double AcrossTrackAzimuth(double flight_direction, double scan_angle);
 class BeamGeometry {
  public:
   // `track` may be null if the plan needs none or there are no points; so may `motions`.
-  BeamGeometry(const BeamPlan& plan, const LocalFrame& frame, const WaterHeights& water, const SensorTrack* track,
-               const SensorMotions* motions = nullptr)
+  BeamGeometry(const BeamPlan& plan, const formats::LocalFrame& frame, const WaterHeights& water,
+               const SensorTrack* track, const SensorMotions* motions = nullptr)
       : plan_(plan), frame_(frame), water_(water), track_(track), motions_(motions) {}
 
   // The beams of `points`, each of which depends on its point alone.
@@ -66,7 +66,7 @@ class BeamGeometry {
   void FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const;
 
   const BeamPlan& plan_;
-  LocalFrame frame_;
+  formats::LocalFrame frame_;
   WaterHeights water_;
   const SensorTrack* track_;
   const SensorMotions* motions_;

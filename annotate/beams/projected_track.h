@@ -61,7 +61,7 @@ class ProjectedTrack : public SensorTrack {
                  const ProjectedTrackOptions& options);
   const std::vector<Row>& RowsOf(std::size_t block) const;
   std::vector<Row> Project(const Block& block) const;
-  // `x`, or where longitudes repeat that within half a turn of the first record, so that no step leaps over 180 degrees.
+  // `x`, or where longitudes repeat that within half a turn of the first record: no step leaps over 180 degrees.
   double Continuous(double x) const;
   formats::GeographicPosition SensorOf(const formats::TrajectoryRecord& record, double& height) const;
 

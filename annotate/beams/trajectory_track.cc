@@ -25,7 +25,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // Positions of `track` in the local frame, `shift` [s] after the given times.
-TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame, double shift = 0) {
+TrackPositions LocalPositions(const SensorTrack& track, const formats::LocalFrame& frame, double shift = 0) {
   return [&track, &frame, shift](std::span<const double> times, std::span<Eigen::Vector3d> positions) {
     std::vector<double> shifted(times.begin(), times.end());
     for (double& time : shifted) time += shift;

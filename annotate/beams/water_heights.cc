@@ -49,7 +49,7 @@ void ForEachPart(std::size_t count, const Function& function) {
 
 // The height of the water at the upper return of each pair.
 std::vector<double> HeightsAtUpper(std::span<const ReturnPair> pairs, const WaterHeights& water,
-                                   const LocalFrame& frame) {
+                                   const formats::LocalFrame& frame) {
   std::vector<double> heights(pairs.size());
   ForEachPart(pairs.size(), [&](std::size_t /*part*/, std::size_t begin, std::size_t end) {
     SurveyPoints upper;
@@ -94,7 +94,7 @@ std::string SurfaceCounts::Text() const {
                       (*this)[SurfaceFrom::kLevel]);
 }
 
-void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
+void WaterHeights::At(const SurveyPoints& points, const formats::LocalFrame& frame, std::vector<double>& heights,
                       SurfaceCounts& counts) const {
   heights.assign(points.size(), level.has_value() ? frame.Z(*level) : kNoHeight);
   if (levels != nullptr) {
@@ -127,8 +127,8 @@ void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::
   }
 }
 
-std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
-                                double index) {
+std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water,
+                                const formats::LocalFrame& frame, double index) {
   const std::vector<double> heights = HeightsAtUpper(pairs, water, frame);
   const double trough = DeepestTrough(pairs, heights);
   std::vector<std::vector<AirRay>> parts((pairs.size() + kPairsOfPart - 1) / kPairsOfPart);

@@ -65,7 +65,7 @@ struct WaterHeights {
 
   // Fills `heights` with the surface at each point, m in the vertical datum of the points; NaN where none is known. Dry
   // points are not counted.
-  void At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
+  void At(const SurveyPoints& points, const formats::LocalFrame& frame, std::vector<double>& heights,
           SurfaceCounts& counts) const;
 };
 
@@ -80,7 +80,7 @@ inline constexpr double kHighestCrest = 2;
 // An upper return that is not of the bottom may come from a trough of the waves. It lies on the way in air, and its
 // direction to the bottom is wrong by as much as refraction turns the beam. Where returns come from crests as well, at
 // most kHighestCrest above the surface, only those count that lie deeper than troughs of the same waves.
-std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water, const LocalFrame& frame,
-                                double index);
+std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water,
+                                const formats::LocalFrame& frame, double index);
 
 }  // namespace albtpu::annotate

@@ -64,8 +64,8 @@ constexpr double kLongestTimeStep = 0.2, kNotedTimeStep = 0.01;
 constexpr double kRoundedBounds = 1;  // m; programs round the bounds of a header.
 
 // "x 0 to 8 instead of 3 to 8": the bounds of the header that are not those of the points. Empty without points.
-std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box& box, const LocalFrame& frame) {
-  const std::array<double, 3> metres = {frame.metres_per_x, frame.metres_per_y, frame.metres_per_z};
+std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box& box, const LasPlace& place) {
+  const std::array<double, 3> metres = {place.frame.metres_per_x, place.frame.metres_per_y, place.frame.metres_per_z};
   std::string wrong;
   for (std::size_t axis = 0; axis < metres.size() && header.point_count > 0; ++axis) {
     const auto is_off = [&](double stated, double found) {
@@ -80,8 +80,8 @@ std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box&
 
 // "x": the axis whose bounds are those of the points with another offset or another scale, so that one of the three is
 // wrong, and nothing says which. Empty if there is none.
-std::string ContradictedAxis(const formats::LasHeader& header, const LasPrescan::Box& box, const LocalFrame& frame) {
-  const std::array<double, 3> metres = {frame.metres_per_x, frame.metres_per_y, frame.metres_per_z};
+std::string ContradictedAxis(const formats::LasHeader& header, const LasPrescan::Box& box, const LasPlace& place) {
+  const std::array<double, 3> metres = {place.frame.metres_per_x, place.frame.metres_per_y, place.frame.metres_per_z};
   for (std::size_t axis = 0; axis < metres.size() && header.point_count > 0; ++axis) {
     const double least = header.least[axis] - header.offset[axis], found_least = box.least[axis] - header.offset[axis];
     const double greatest = header.greatest[axis] - header.offset[axis];
@@ -275,15 +275,15 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   place_ = *std::move(place);
   if (plan.has_track() || !plan.water_classes.empty() || plan.water_level_file.has_value() || GoesByTime(annotation)) {
     RETURN_IF_ERROR(Scan(reader, annotation));
-    if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_.frame); !axis.empty()) {
+    if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_); !axis.empty()) {
       return absl::FailedPreconditionError(absl::StrCat(
           reader.name(),
           ": the bounds in its header are those of its points with another offset or scale "
           "of ",
-          axis, ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_.frame),
+          axis, ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_),
           "); correct the header, or its bounds alone if the points are right"));
     }
-    if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_.frame); !wrong.empty()) {
+    if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_); !wrong.empty()) {
       notes_.push_back(absl::StrCat("the header states bounds that the points do not have (", wrong,
                                     "); those of the points are used"));
       const std::array<double, 3>&least = prescan_.all.least, &greatest = prescan_.all.greatest;

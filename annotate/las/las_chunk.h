@@ -66,7 +66,7 @@ struct LasAnnotation {
 struct LasTerrain {
   const TerrainPlanes* planes = nullptr;  // Null: uncertainties are those of the points themselves.
   bool is_classified = false;             // As LasPrescan::terrain_is_classified.
-  LocalFrame frame = {};
+  formats::LocalFrame frame = {};
 };
 
 // The settings of all chunks of a file.

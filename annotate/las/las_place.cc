@@ -100,7 +100,7 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
     ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
     middle.x = formats::LasPointFields(header).X(record);
   }
-  const std::optional<LocalFrame> frame = FrameAround(middle, *place.map, metres_per_z);
+  const std::optional<formats::LocalFrame> frame = formats::FrameAround(middle, *place.map, metres_per_z);
   if (!frame.has_value()) {
     if (!plan.has_track()) return place;
     return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": its points lie where its coordinate system, ",

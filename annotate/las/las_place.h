@@ -14,7 +14,7 @@
 namespace albtpu::annotate {
 
 struct LasPlace {
-  LocalFrame frame;                              // Around the middle of the file.
+  formats::LocalFrame frame;                     // Around the middle of the file.
   std::shared_ptr<const formats::MapFrame> map;  // Null if the coordinate system is not known and need not be.
   std::string remark;                            // For the user, about the coordinate system; may be empty.
 };

@@ -68,7 +68,7 @@ struct Part {
 
 class PrescanWork {
  public:
-  PrescanWork(const formats::LasReader& reader, const LocalFrame& frame, const LasPrescanOptions& options)
+  PrescanWork(const formats::LasReader& reader, const formats::LocalFrame& frame, const LasPrescanOptions& options)
       : fields_(reader.header()),
         length_(reader.header().record_length),
         frame_(frame),
@@ -250,7 +250,7 @@ class PrescanWork {
 
   formats::LasPointFields fields_;
   std::size_t length_;
-  LocalFrame frame_;
+  formats::LocalFrame frame_;
   bool use_withheld_;
   double seconds_;
   bool pairs_;
@@ -276,7 +276,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
 
 }  // namespace
 
-absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const LocalFrame& frame,
+absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const formats::LocalFrame& frame,
                                    const LasPrescanOptions& options) {
   const std::uint64_t max_records = std::max<std::uint64_t>(kPrescanChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;

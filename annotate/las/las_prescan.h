@@ -70,7 +70,7 @@ struct LasPrescan {
 };
 
 // Memory does not grow with the number of points. The result does not depend on the number of threads.
-absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const LocalFrame& frame,
+absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const formats::LocalFrame& frame,
                                    const LasPrescanOptions& options);
 
 }  // namespace albtpu::annotate

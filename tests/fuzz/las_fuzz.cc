@@ -108,7 +108,7 @@ void CheckVlrs(std::string_view before, const std::vector<VlrEntry>& old_entries
 
 // A track from whatever pairs of returns the file has, known or not, has finite positions.
 void CheckFittedTrack(const LasPrescan& prescan, const WaterHeights& water) {
-  const std::vector<AirRay> rays = RaysOfPairs(prescan.pairs, water, LocalFrame(), kSeaWaterIndex);
+  const std::vector<AirRay> rays = RaysOfPairs(prescan.pairs, water, formats::LocalFrame(), kSeaWaterIndex);
   const RayTrack track = FitTrack(rays);
   std::vector<double> times;
   for (const AirRay& ray : rays) times.push_back(ray.time);
@@ -127,7 +127,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   static client::LocalSource source("", testing::SyntheticTable());
   static const FlyingSensor sensor;
   const LasHeader& header = reader.header();
-  const absl::StatusOr<LasPrescan> prescan = Prescan(reader, LocalFrame(),
+  const absl::StatusOr<LasPrescan> prescan = Prescan(reader, formats::LocalFrame(),
                                                      {.classes = *annotation.classes,
                                                       .water_classes = annotation.plan.water_classes,
                                                       .pairs = true,
@@ -136,7 +136,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   const WaterHeights water = {.surface = prescan->surface.has_value() ? &*prescan->surface : nullptr,
                               .level = annotation.plan.water_level};
   CheckFittedTrack(*prescan, water);
-  const std::vector<BeamGeometry> beams = {{annotation.plan, LocalFrame(), water, &sensor}};
+  const std::vector<BeamGeometry> beams = {{annotation.plan, formats::LocalFrame(), water, &sensor}};
   LasChunkWork::Chunk chunk((AnswerStyle()));
   chunk.records = file.substr(header.offset_to_points, header.point_count * header.record_length);
   chunk.own = header.point_count;

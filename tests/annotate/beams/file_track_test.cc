@@ -46,7 +46,7 @@ TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from "), HasSubstr("directions are from grid north")));
   const auto map = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
   file.map = *map;
-  file.frame = *FrameAround({400000, 3e6}, **map, 1);
+  file.frame = *formats::FrameAround({400000, 3e6}, **map, 1);
   found = FromReturns(file);
   EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from ")));
   const auto [positions, outcomes] = Ask(*found->track, {1010});
@@ -85,18 +85,6 @@ TEST(TrackFromReturns, RefusesTooFewRays) {
   file.rays.resize(10);
   EXPECT_THAT(std::string(FromReturns(file).status().message()),
               HasSubstr("(10 pulses with two returns under water are too few"));
-}
-
-TEST(LocalFrame, TurnsEachAxisIntoMetresFromTheOrigin) {
-  const LocalFrame frame = {
-      .origin_x = 1000, .origin_y = 2000, .metres_per_x = 0.25, .metres_per_y = 0.5, .metres_per_z = 0.125};
-  EXPECT_EQ(frame.At(1000, 2000, 0), Eigen::Vector3d::Zero());
-  EXPECT_EQ(frame.At(1004, 1998, 16), Eigen::Vector3d(1, -1, 2));
-}
-
-TEST(LocalFrame, KeepsHeightsInTheirDatum) {
-  const LocalFrame frame = {.origin_x = 1000, .origin_y = 2000};
-  EXPECT_EQ(frame.Z(-23.5), -23.5);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::shared_ptr<const formats::MapFrame> Map(const std::string& crs) {
 }
 
 // The frame around a position, as that of a file is made.
-LocalFrame FrameAt(const formats::MapFrame& map, double latitude, double longitude) {
-  return *FrameAround(map.Project({latitude * kDegree, longitude * kDegree}), map, 1);
+formats::LocalFrame FrameAt(const formats::MapFrame& map, double latitude, double longitude) {
+  return *formats::FrameAround(map.Project({latitude * kDegree, longitude * kDegree}), map, 1);
 }
 
 // A track of 15 s that begins at (east, north) [m] of the local frame.
@@ -36,7 +36,7 @@ RayTrack TrackAt(double east, double north) {
 }
 
 // Every position is that of the track of the rays, in the unit of the file.
-void ExpectPositionsInUnitsOf(const LocalFrame& frame) {
+void ExpectPositionsInUnitsOf(const formats::LocalFrame& frame) {
   const FittedTrack track(TrackAt(300, -200), frame);
   const std::vector<double> times = {1001, 1005, 1014};
   const TrackAnswer local = Ask(track.track(), times), answer = Ask(track, times);
@@ -65,7 +65,7 @@ TEST(FittedTrack, HasThePositionsOfTheFileInMetresFeetAndDegrees) {
 }
 
 TEST(FittedTrack, TakesGridNorthForTrueNorthWithoutAMap) {
-  const LocalFrame frame = {.origin_x = 500000, .origin_y = 3e6};
+  const formats::LocalFrame frame = {.origin_x = 500000, .origin_y = 3e6};
   ExpectPositionsInUnitsOf(frame);
   const FittedTrack track(TrackAt(0, 0), frame);
   EXPECT_EQ(Ask(track, {1005}).positions[0].convergence, 0);
@@ -77,7 +77,7 @@ TEST(FittedTrack, TakesGridNorthForTrueNorthWithoutAMap) {
 TEST(FittedTrack, HasAConvergenceThatIsLinearOverTheFile) {
   for (const char* crs : {"EPSG:32617", "EPSG:2236"}) {
     const auto map = Map(crs);
-    const LocalFrame frame = FrameAt(*map, 26, -80.4);
+    const formats::LocalFrame frame = FrameAt(*map, 26, -80.4);
     for (const double distance : {0.0, 10600.0}) {  // Of the track from the origin, in each direction.
       const FittedTrack track(TrackAt(distance, distance), frame);
       const SensorPosition position = Ask(track, {1005}).positions[0];

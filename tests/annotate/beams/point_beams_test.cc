@@ -25,7 +25,7 @@ SurveyPoints PointsOf(std::vector<double> z, std::vector<double> scan_angles) {
 }
 
 PointBeams BeamsOf(const BeamPlan& plan, const SurveyPoints& points, const SensorTrack* track = nullptr) {
-  LocalFrame frame;
+  formats::LocalFrame frame;
   frame.metres_per_z = plan.metres_per_unit.value_or(1);
   BeamScratch scratch;
   PointBeams beams;
@@ -72,7 +72,8 @@ TEST(PointBeams, PointsCrosswindWhenTheWindBlowsAlongTheFlight) {
 TEST(PointBeams, KnowTheConvergenceOfTheirGridWithoutATrack) {
   BeamPlan plan = AcrossTrack({.flight_direction = 0, .altitude = 400});
   plan.any_aircraft = true;
-  const LocalFrame frame = {.origin_x = 10, .metres_per_x = 2, .convergence = 0.02, .convergence_slope = {1e-4, 1e-5}};
+  const formats::LocalFrame frame = {
+      .origin_x = 10, .metres_per_x = 2, .convergence = 0.02, .convergence_slope = {1e-4, 1e-5}};
   SurveyPoints points = PointsOf({-1, -1}, {15, 15});
   points.x = {10, 110};
   points.y = {0, 1000};

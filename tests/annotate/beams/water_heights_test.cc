@@ -44,7 +44,7 @@ struct Answer {
   std::vector<double> heights;
   SurfaceCounts counts;
 };
-Answer Ask(const WaterHeights& water, const SurveyPoints& points, const LocalFrame& frame = {}) {
+Answer Ask(const WaterHeights& water, const SurveyPoints& points, const formats::LocalFrame& frame = {}) {
   Answer answer;
   answer.heights = {99, 99, 99, 99, 99, 99, 99};  // What is left of another use does not matter.
   water.At(points, frame, answer.heights, answer.counts);
@@ -97,7 +97,7 @@ TEST(WaterHeights, NeedNoTimesWhereTheFileHasNone) {
 
 // A survey in feet, on the map and in height: the local surface is in the local frame, in metres, all else in feet.
 TEST(WaterHeights, AreMetresWhereThePointsAreInFeet) {
-  const LocalFrame frame = {
+  const formats::LocalFrame frame = {
       .origin_x = 5000, .origin_y = 0, .metres_per_x = kFoot, .metres_per_y = kFoot, .metres_per_z = kFoot};
   const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
   SurveyPoints points = PointsAt({5000, 5000, 9000}, {0, 0, 0});
@@ -127,7 +127,8 @@ ReturnPair PairAt(double time, double x, double drop) {
   return {.time = time, .upper = {x, 0, -5}, .lower = {x + 1, 0, -5 - drop}};
 }
 
-std::vector<AirRay> RaysOver(double level, const std::vector<ReturnPair>& pairs, const LocalFrame& frame = {}) {
+std::vector<AirRay> RaysOver(double level, const std::vector<ReturnPair>& pairs,
+                             const formats::LocalFrame& frame = {}) {
   return RaysOfPairs(pairs, {.surface = nullptr, .levels = nullptr, .level = level}, frame, kIndex);
 }
 
@@ -200,7 +201,7 @@ TEST(PairRays, MeetTheWaterAtItsPlaceAndTime) {
 }
 
 TEST(PairRays, AreInMetresWhereThePointsAreInFeet) {
-  const LocalFrame feet = {
+  const formats::LocalFrame feet = {
       .origin_x = 2e6, .origin_y = 1e6, .metres_per_x = kFoot, .metres_per_y = kFoot, .metres_per_z = kFoot};
   const ReturnPair pair = PairAt(1, 30, 4);
   const std::vector<AirRay> rays = RaysOver(-10, {pair}, feet);

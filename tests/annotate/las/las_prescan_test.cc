@@ -23,7 +23,7 @@ const LasPrescanOptions kPairs = {.classes = {kBottom}, .water_classes = {}, .pa
 LasPrescan PrescanOf(const LasSpec& spec, const LasPrescanOptions& options) {
   const TemporaryFolder folder;
   const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
-  absl::StatusOr<LasPrescan> prescan = Prescan(*reader, LocalFrame(), options);
+  absl::StatusOr<LasPrescan> prescan = Prescan(*reader, formats::LocalFrame(), options);
   EXPECT_TRUE(prescan.ok());
   return *std::move(prescan);
 }

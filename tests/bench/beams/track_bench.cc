@@ -87,7 +87,7 @@ void Geometry(benchmark::State& state) {
   plan.footprint = DivergingBeam{.divergence = 1};
   plan.wind_from = 250;
   const WaterHeights water = {.level = 0.0};
-  const LocalFrame frame = {.origin_x = line.points.x[0], .origin_y = line.points.y[0]};
+  const formats::LocalFrame frame = {.origin_x = line.points.x[0], .origin_y = line.points.y[0]};
   const BeamGeometry geometry(plan, frame, water, line.track.get());
   std::vector<SurveyPoints> batches;
   for (std::size_t begin = 0; begin < kPulses; begin += kBatch) {

@@ -30,7 +30,7 @@ SURVEYS = {
     # Two seconds before 180 degrees of longitude.
     "palmer over the antimeridian": (["--seed", 9, "--grid", "geographic", "--origin", "-16.8,179.999", "--course", 80],
                                      []),
-    # Grid north is 12 degrees off, and the axes are 1.8 degrees off perpendicular.
+    # Grid north is 15 degrees off, and the axes are 2.4 degrees off perpendicular.
     "ellipse on a map of equal areas": (["--scanner", "ellipse", "--seed", 10, "--grid", "laea-europe", "--origin",
                                          "34.6,33.1", "--course", 140], []),
     "ellipse, shuffled": (["--scanner", "ellipse", "--seed", 6, "--point-format", 7, "--shuffle", "--course", 359.9,
