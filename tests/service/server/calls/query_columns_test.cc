@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <random>
 
@@ -136,6 +137,31 @@ TEST_F(QueryColumns, TreatsAnEmptyFetchAsAFullyDevelopedSea) {
   const std::string expected = Ask(Request(columns)).SerializeAsString();
   columns.clear_fetch();
   EXPECT_EQ(Ask(Request(columns)).SerializeAsString(), expected);
+}
+
+// The digest does not cover the index, so that the table that was scaled before the reload has the same one.
+TEST_F(QueryColumns, ScalesTheTableThatWasReloadedWithAnotherIndexAlone) {
+  constexpr double kAsked = 1.36;  // That of neither table.
+  v1::QueryOptions options;
+  options.set_table("survey");
+  options.set_refractive_index(kAsked);
+  const auto answer = [&] { return Ask(Request(WireColumns(1), options)); };
+  const v1::QueryColumnsResponse before = answer();
+  testing::TableParts parts = testing::PartsOf(survey_);
+  parts.provenance.attributes["refractive_index"] = 1.3;
+  const UncertaintyTable next = OrDie(parts.Create());
+  ASSERT_TRUE(WriteTable(next, folder_ / "survey.h5", Existing::kReplace).ok());
+  std::promise<bool> reloaded;
+  tables_->Reload([&](const LiveTables::ReloadResult& result) { reloaded.set_value(result.ok()); });
+  ASSERT_TRUE(reloaded.get_future().get());
+  const v1::QueryColumnsResponse after = answer();
+  EXPECT_EQ(after.table().digest(), before.table().digest());
+  const auto thu = [&](const UncertaintyTable& table) {
+    return Interpolate(AtIndex(table, kAsked), TablesPulse())[Quantity::kThu];
+  };
+  EXPECT_FLOAT_EQ(Floats(before.sea_surface().thu())[0], thu(survey_));
+  EXPECT_FLOAT_EQ(Floats(after.sea_surface().thu())[0], thu(next));
+  EXPECT_NE(thu(survey_), thu(next));
 }
 
 TEST_F(QueryColumns, KeepsTheLargestAnswerBelowTheDefaultLimitOfClients) {
