@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
@@ -11,7 +12,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Le;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 class InvalidQueries : public ServedTables {
  protected:
@@ -174,6 +177,11 @@ TEST_F(InvalidQueries, OfASeaAreRefusedByTheFieldOfTheSea) {
   request.mutable_sea()->set_wind_speed(5);
   request.mutable_options()->set_table("survey");
   ExpectRefused(request, "options.table", HasSubstr("options.table is 'survey'"));
+  request.mutable_options()->set_table(std::string(100000, 'x'));  // Metadata would not hold it.
+  ExpectRefused(request, "options.table",
+                AllOf(HasSubstr("options.table is 'xxx"), SizeIs(Le(kMaxErrorBytes + std::strlen("...")))));
+  request.clear_sea();
+  ExpectRefused(request, "", HasSubstr("xxx"), grpc::StatusCode::NOT_FOUND);
   ExpectRefused(v1::CompileSeaRequest(), "sea", HasSubstr("sea is missing"));
 }
 
