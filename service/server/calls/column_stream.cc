@@ -63,6 +63,7 @@ void ColumnStream::Proceed() {
   // Without the lock: once the call is finished, this object may no longer exist.
   if (!handle) return End(context_.IsCancelled() ? grpc::Status::CANCELLED : grpc::Status::OK);
   current_begin_ = CallRecord::Clock::now();
+  idle_watch_.Pause();
   StartRead(&next_);
   if (current_.Length() <= kMaxInlineBytes) return HandleRequest(nullptr);
   workers_.Run([this] { HandleRequest(nullptr); });
@@ -83,6 +84,7 @@ void ColumnStream::HandleRequest(std::shared_ptr<const ServedTable> compiled) {
   if (sources.wanted()) return AwaitTable(std::get<WantedTable>(*sources.wanted()));
   if (!status.ok()) return Fail(status);
   current_.Clear();
+  idle_watch_.Resume();
   StartWrite(&answer_);
 }
 

@@ -19,8 +19,9 @@ namespace albtpu::server {
 // Handles one request after the other. While an answer is computed and sent, the next request is received and waits: a
 // stream holds at most two requests and one answer, however slowly its caller reads.
 //
-// Without any activity for `max_idle` the call ends: with DEADLINE_EXCEEDED if the next request does not arrive, as
-// if cancelled if the caller does not read its answer.
+// When the server waits for the caller for `max_idle`, the call ends: with DEADLINE_EXCEEDED if the next request does
+// not arrive, as if cancelled if the caller does not read its answer. The time in which an answer waits for a worker or
+// is computed does not count.
 //
 // When the server is draining, the status follows the last answer after kTimeToReadAnswers.
 //

@@ -84,8 +84,8 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // `tables` and `recorders` must outlive the service. Streams without activity and unread answers end after
-  // `max_stream_idle`.
+  // `tables` and `recorders` must outlive the service. Streams whose callers are idle and unread answers end
+  // after `max_stream_idle`.
   UncertaintyService(const LiveTables& tables, const Recorders& recorders, std::chrono::seconds max_stream_idle)
       : tables_(tables),
         recorders_(recorders),

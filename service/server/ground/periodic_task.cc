@@ -26,7 +26,8 @@ PeriodicTask::~PeriodicTask() {
 struct IdleWatch::State {
   const std::chrono::milliseconds limit;
   std::function<void()> on_idle;
-  std::atomic<bool> active = true;          // Since the alarm was last set.
+  std::atomic<bool> active = true;  // Since the alarm was last set.
+  std::atomic<bool> paused = false;
   std::recursive_mutex mutex{};             // Recursive: `on_idle` may destroy the watch.
   bool ended = false;                       // Guarded by mutex.
   std::unique_ptr<grpc::Alarm> alarm = {};  // Guarded by mutex. A new one each time.
@@ -47,6 +48,14 @@ IdleWatch::~IdleWatch() {
 
 void IdleWatch::NoteActivity() { state_->active = true; }
 
+void IdleWatch::Pause() { state_->paused = true; }
+
+// In this order, against which the alarm looks: it sees one of the two.
+void IdleWatch::Resume() {
+  state_->active = true;
+  state_->paused = false;
+}
+
 void IdleWatch::SetAlarm(const std::shared_ptr<State>& state) {
   const std::lock_guard lock(state->mutex);
   state->active = false;
@@ -54,7 +63,7 @@ void IdleWatch::SetAlarm(const std::shared_ptr<State>& state) {
   alarm->Set(std::chrono::system_clock::now() + state->limit, [state](bool expired) {
     const std::lock_guard callback_lock(state->mutex);
     if (!expired || state->ended) return;
-    if (state->active) return SetAlarm(state);
+    if (state->paused || state->active) return SetAlarm(state);
     state->on_idle();
   });
   state->alarm.swap(alarm);

@@ -53,6 +53,10 @@ class IdleWatch {
 
   void NoteActivity();
 
+  // Between Pause() and Resume(), which is activity, nothing is noticed.
+  void Pause();
+  void Resume();
+
  private:
   struct State;
   static void SetAlarm(const std::shared_ptr<State>& state);

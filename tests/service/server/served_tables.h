@@ -73,9 +73,10 @@ class ServedTables : public ::testing::Test {
     stub_ = v1::UncertaintyService::NewStub(channel_);
   }
 
-  absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
+  absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address,
+                                                std::chrono::seconds max_stream_idle = kMaxStreamIdle) {
     return Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, metrics_.waters, log_},
-                         OrDie(ListenAddress::Parse(address)));
+                         OrDie(ListenAddress::Parse(address)), {}, max_stream_idle);
   }
 
   template <typename Method, typename Request, typename Response>

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <future>
+#include <latch>
+#include <optional>
 
 #include "service/client/wire.h"
 #include "service/server/ground/limits.h"
@@ -13,6 +15,30 @@ namespace albtpu::server {
 namespace {
 
 using ::testing::HasSubstr;
+
+// Holds all threads of the workers, as long requests of other callers would.
+class BusyWorkers {
+ public:
+  BusyWorkers() {
+    for (int i = 0; i < kThreads; ++i) {
+      arena_.enqueue([this] {
+        begun_.count_down();
+        free_.wait();
+        ended_.count_down();
+      });
+    }
+    begun_.wait();
+  }
+  ~BusyWorkers() {
+    free_.count_down();
+    ended_.wait();
+  }
+
+ private:
+  const int kThreads = tbb::info::default_concurrency();
+  tbb::task_arena arena_{kThreads, 0};
+  std::latch begun_{kThreads}, free_{1}, ended_{kThreads};
+};
 
 class StreamColumns : public ServedTables {
  protected:
@@ -130,6 +156,25 @@ TEST_F(StreamColumns, FreesEverythingWhenItsCallerCancels) {
   const auto begin = std::chrono::steady_clock::now();
   server_->Drain();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, kDrainTime / 2);
+}
+
+TEST_F(StreamColumns, IsIdleWhileItsCallerIsAndNotWhileTheServerIsBusy) {
+  server_ = OrDie(Start("127.0.0.1:0", std::chrono::seconds(1)));
+  channel_ = ChannelTo(server_->address());
+  stub_ = v1::UncertaintyService::NewStub(channel_);
+  std::optional<BusyWorkers> others(std::in_place);
+  const auto waiting = Open();
+  waiting->Write(Request(20000, 1));
+  // The time after which the server ends streams passes at least three times.
+  for (int i = 0; i < 3; ++i) {
+    grpc::ClientContext context;
+    EXPECT_EQ(stub_->StreamColumns(&context)->Finish().error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  }
+  others.reset();
+  v1::StreamColumnsResponse response;
+  ASSERT_TRUE(waiting->Read(&response)) << waiting->Finish().error_message();
+  EXPECT_EQ(response.answer().pulse_count(), 20000);
+  EXPECT_EQ(waiting->Finish().error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);  // Now it is its caller who is idle.
 }
 
 TEST_F(StreamColumns, IsRefusedWhenTooManyAreOpen) {
