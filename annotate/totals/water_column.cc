@@ -151,11 +151,16 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   if (settings.processed_with.has_value())
     numbers.push_back({"processed_with", absl::StrCat(*settings.processed_with), "[water]", false});
   if (settings.without_column()) {
-    if (settings.bias.has_value())
-      return formats::UsageError(
-          "[water] bias contradicts column = \"none\" (the share of the water is computed, or left out); "
-          "give one of "
-          "them");
+    const char* const given = settings.bias.has_value()                ? "bias"
+                              : settings.residual_fraction.has_value() ? "residual_fraction"
+                              : settings.calibration.has_value()       ? "calibration"
+                              : settings.photons.has_value()           ? "photons"
+                                                                       : nullptr;
+    if (given != nullptr) {
+      return formats::UsageError(absl::StrCat("[water] ", given,
+                                              " contradicts column = \"none\" (the share of the water is computed, or "
+                                              "left out); give one of them"));
+    }
     numbers.push_back({"water_column", "left out", "[water]", false});
     return Compile(nullptr, known, index);
   }

@@ -8,9 +8,13 @@
 #include "absl/strings/str_format.h"
 
 namespace albtpu {
-namespace {
 
-absl::Status CheckState(const KnownWater& water) {
+absl::Status CheckWater(const KnownWater& water) {
+  if (water.photons.has_value() && !water.bias.has_value()) {
+    return absl::InvalidArgumentError(
+        "photons have no effect without a bias treatment (their noise is part of the share that is left out); leave "
+        "them out, or give a treatment");
+  }
   if (water.temperature.has_value() != water.salinity.has_value())
     return absl::InvalidArgumentError("temperature and salinity go together (the index follows from both); give both");
   if (!water.processed_with.has_value() || water.index().has_value()) return absl::OkStatus();
@@ -18,15 +22,13 @@ absl::Status CheckState(const KnownWater& water) {
       "processed_with needs the index that the water has; give its temperature (degree C) and salinity");
 }
 
-}  // namespace
-
 std::optional<WaterIndex> KnownWater::index() const {
   if (!temperature.has_value() || !salinity.has_value()) return std::nullopt;
   return SeaWaterIndex(*temperature, *salinity);
 }
 
 absl::StatusOr<CompiledWater> CompileWater(const WaterColumnTable* table, const KnownWater& water) {
-  if (absl::Status status = CheckState(water); !status.ok()) return status;
+  if (absl::Status status = CheckWater(water); !status.ok()) return status;
   CompiledWater compiled{.photons = water.photons};
   if (water.processed_with.has_value()) {
     compiled.of_water = water.index();

@@ -26,7 +26,7 @@ struct KnownWater {
   double field_of_view = 0, pulse_length = 0;  // m, ns
   // What the processing did about scattering between surface and bottom. Absent: its share is left out.
   std::optional<BiasTreatment> bias = {};
-  std::optional<double> photons = {};         // counted in an echo
+  std::optional<double> photons = {};         // counted in an echo; with a bias treatment
   std::optional<double> temperature = {};     // degree C
   std::optional<double> salinity = {};        // 1; with the temperature
   std::optional<double> processed_with = {};  // the index that ranges were computed with; needs both above
@@ -70,9 +70,13 @@ struct CompiledWater {
   bool has_share() const { return share != nullptr || surface.has_value(); }
 };
 
+// InvalidArgument with what would be right: a state without one of its two numbers or missing for `processed_with`,
+// photons without a bias treatment.
+absl::Status CheckWater(const KnownWater& water);
+
 // `table` must not be null if the water has a bias treatment; half a second of one core. InvalidArgument with what
-// would be right: optics that contradict each other, what the table does not cover (water_contribution.h), a state
-// without one of its two numbers or missing for `processed_with`, a centroid that is to locate the surface.
+// would be right: as CheckWater, optics that contradict each other, what the table does not cover
+// (water_contribution.h), a centroid that is to locate the surface.
 absl::StatusOr<CompiledWater> CompileWater(const WaterColumnTable* table, const KnownWater& water);
 
 // Where each pulse's own return located the surface, a green laser finds it as much lower as chance has it: adds this

@@ -98,6 +98,7 @@ class ServerSource final : public UncertaintySource {
 
   absl::Status AnswerBudgetInWater(const BudgetOptions& options, const KnownWater& water, const BudgetPulses& pulses,
                                    const BudgetAnswers& answers, WaterSummary* summary) override {
+    RETURN_IF_ERROR(CheckWater(water));
     const albtpu::v1::WaterState state = ToWire(water);
     return AskBudget(options, &state, pulses, answers, summary);
   }

@@ -33,7 +33,10 @@ class WaterReader {
         Optional(state_.has_processed_with(), "processed_with", state_.processed_with(), kWaterIndexRange);
     water.green_surface = state_.green_surface();
     ReadIndexes(water);
-    if (!state_.without_column()) water.bias = Bias();
+    if (state_.without_column())
+      RefuseColumn();
+    else
+      water.bias = Bias();
     ReadReceiver(water);
     RETURN_IF_ERROR(violations_.ToStatus());
     if (water.bias.has_value() || water.green_surface) RETURN_IF_ERROR(CheckOptics(water.optics));
@@ -127,6 +130,17 @@ class WaterReader {
 
   void AddMissing(std::string_view field) {
     Add(field, "is missing (the bias of the water column depends on it); give it, or set water.without_column");
+  }
+
+  // What belongs to the part that is left out.
+  void RefuseColumn() {
+    const auto refuse = [this](std::string_view field, bool given) {
+      if (given) Add(field, "has no effect with water.without_column; leave out one of the two");
+    };
+    refuse("bias", state_.bias() != v1::BIAS_HANDLING_UNSPECIFIED);
+    refuse("residual_fraction", state_.has_residual_fraction());
+    refuse("calibration", state_.has_calibration());
+    refuse("photons", state_.has_photons());
   }
 
   std::optional<BiasTreatment> Bias() {

@@ -66,6 +66,9 @@ TEST_F(WaterColumnPlan, SaysWhatIsMissingOrContradictsItself) {
   EXPECT_THAT(ProblemOf(kReceiver + kNone + "kd = 0.1\n"), HasSubstr("kd_kind"));
   EXPECT_THAT(ProblemOf(kReceiver + kNone + kOptics + "secchi = 4\n"), HasSubstr("several ways"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + kNone + "column = \"none\"\n"), HasSubstr("contradicts"));
+  EXPECT_THAT(ProblemOf("residual_fraction = 0.1\ncolumn = \"none\"\n"), HasSubstr("residual_fraction contradicts"));
+  EXPECT_THAT(ProblemOf("calibration = {depth = 5}\ncolumn = \"none\"\n"), HasSubstr("calibration contradicts"));
+  EXPECT_THAT(ProblemOf("photons = 100\ncolumn = \"none\"\n"), HasSubstr("photons contradicts"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + "bias = \"vendor\"\n"), HasSubstr("needs residual_fraction"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + kNone + "residual_fraction = 0.1\n"), HasSubstr("has no effect"));
   EXPECT_THAT(ProblemOf(kReceiver + kOptics + "bias = \"calibrated\"\n"), HasSubstr("needs calibration"));

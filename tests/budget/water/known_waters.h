@@ -55,6 +55,7 @@ inline std::vector<KnownWater> WatersOfAllKinds() {
   cold.bias->handling = BiasHandling::kNone;
   waters.push_back(cold);
   cold.bias.reset();
+  cold.photons.reset();
   waters.push_back(cold);
   cold.green_surface = false;
   waters.push_back(cold);

@@ -105,6 +105,7 @@ TEST(KnownWater, SaysWhatCannotBeCompiled) {
   };
   EXPECT_THAT(problem({.temperature = 15}), HasSubstr("temperature and salinity go together"));
   EXPECT_THAT(problem({.processed_with = 1.33}), HasSubstr("needs the index that the water has"));
+  EXPECT_THAT(problem({.photons = 100}), HasSubstr("photons have no effect without a bias treatment"));
   EXPECT_THAT(problem({.green_surface = true}), HasSubstr("nothing says how clear the water is"));
   EXPECT_THAT(problem(testing::CoastalWater({.secchi = 60})), HasSubstr("clearer than pure water"));
   KnownWater centroid = testing::CoastalWater();

@@ -93,6 +93,8 @@ ARGUMENTS = {
         (Water, dict(jerlov="1c"), "jerlov is '1c'"),
         (Water, dict(secchi="deep"), "secchi is 'deep': it should be a number"),
         (Water, dict(calibration=5), "three numbers: depth, offset, sigma"),
+        *((Water, dict(without_column=True) | given, "has no effect with without_column") for given in (
+            dict(bias="none"), dict(residual_fraction=0.1), dict(calibration=(5, 0, 0)), dict(photons=100))),
         (SERVICE.query_budget, FLOWN | dict(water="murky"), "it should be an albtpu.Water"),
         (SERVICE.query_budget, FLOWN | dict(water=Water(secchi=5), aircraft=dict(water_noise=0.01)),
          r"water and aircraft\['water_noise'\] are both given")],

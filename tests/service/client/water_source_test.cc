@@ -157,6 +157,9 @@ TEST(WaterSource, RefusesWhatTheServerCannotCompile) {
   const absl::Status clear = status_of(with, CoastalWater({.secchi = 60}));
   EXPECT_TRUE(absl::IsInvalidArgument(clear)) << clear;
   EXPECT_THAT(clear.message(), HasSubstr("clearer than pure water"));
+  const absl::Status of_photons = status_of(without, {.photons = 100});
+  EXPECT_TRUE(absl::IsInvalidArgument(of_photons)) << of_photons;
+  EXPECT_THAT(of_photons.message(), HasSubstr("photons have no effect without a bias treatment"));
   const absl::Status local =
       LocalSource("", SyntheticTable())
           .AnswerBudgetInWater(UsualOptions(), CoastalWater(), pulses.columns(), answers.columns());

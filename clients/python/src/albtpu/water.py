@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .arguments import check_name, read_optional, read_vector
+from .errors import ArgumentError
 
 KD_KINDS = ("satellite490", "diffuse532", "system", "secchi", "jerlov")
 JERLOV_TYPES = ("I", "IA", "IB", "II", "III", "1C", "3C", "5C", "7C", "9C")
@@ -51,8 +52,8 @@ class Water:
     temperature, salinity: degrees C, 1: both or none. They give the refractive index where a query does not.
     processed_with: the index that ranges were computed with; None: the group index of the water.
     green_surface: a green laser located the surface by its returns.
-    without_column: leave out scattering between surface and bottom; detector, field_of_view, pulse_length and bias
-                 may then be missing.
+    without_column: leave out scattering between surface and bottom; detector, field_of_view and pulse_length may then
+                 be missing, and bias, residual_fraction, calibration and photons must be.
     """
 
     kd: float | None = None
@@ -83,6 +84,10 @@ class Water:
             if getattr(self, name) is not None:
                 check_name(name, getattr(self, name), words)
         self._numbers()
+        if self.without_column:
+            for name in ("bias", "residual_fraction", "calibration", "photons"):
+                if getattr(self, name) is not None:
+                    raise ArgumentError(f"{name} has no effect with without_column; leave out one of the two")
 
     def _numbers(self) -> dict[str, Any]:
         numbers: dict[str, Any] = {name: read_optional(name, getattr(self, name)) for name in _NUMBERS}

@@ -100,6 +100,16 @@ TEST(WaterRequest, NamesWhatContradictsItself) {
   state.mutable_calibration()->set_offset(11);
   EXPECT_THAT(PathsIn(state), ElementsAre("water.calibration.offset"));
   state = Coastal();
+  state.set_without_column(true);
+  EXPECT_THAT(PathsIn(state), ElementsAre("water.bias"));
+  state.clear_bias();
+  EXPECT_THAT(PathsIn(state), SizeIs(0));  // The receiver may be described.
+  state.set_residual_fraction(0.1);
+  state.mutable_calibration();
+  state.set_photons(100);
+  EXPECT_THAT(PathsIn(state), ElementsAre("water.residual_fraction", "water.calibration", "water.photons"));
+  EXPECT_THAT(ReadWater(state).status().message(), HasSubstr("has no effect with water.without_column"));
+  state = Coastal();
   state.set_detector(v1::ECHO_DETECTOR_CENTROID);
   state.set_green_surface(true);
   EXPECT_THAT(PathsIn(state), ElementsAre("water.green_surface"));
