@@ -48,7 +48,7 @@ class Table {
   const Provenance& provenance() const { return provenance_; }
 
   // SHA-256, 64 hexadecimal digits, over kind, id, axes, values, standard errors, units, scales and campaign; not
-  // over date, version, commit or other attributes. Two tables with the same digest give the same answers.
+  // over other attributes. Two tables with the same digest, `refractive_index` and `x_azimuth` give the same answers.
   // Computed when it is asked for, once for all copies of a table.
   const std::string& digest() const;
 

@@ -44,7 +44,7 @@ class UncertaintyTable {
   bool is_published() const { return provenance().campaign.empty(); }
 
   // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not over
-  // date, version, commit or other attributes. Two tables with the same digest give the same answers.
+  // other attributes. Two tables with the same digest, `refractive_index` and `x_azimuth` give the same answers.
   const std::string& digest() const { return table_.digest(); }
 
   const Table& table() const { return table_; }

@@ -17,7 +17,9 @@ class TableReference(NamedTuple):
     name: str  # Its name on the server: "survey", "survey/2". Of a file, the file name without ".h5".
     id: str  # Identifier that its maker gave it.
     version: str  # Version that its maker gave it.
-    digest: str  # SHA-256 of the content, 64 hexadecimal digits. Tables with the same digest give the same answers.
+    # SHA-256 of the content, 64 hexadecimal digits. Tables with the same digest give the same answers if their
+    # attributes refractive_index and x_azimuth are the same, too.
+    digest: str
 
     @classmethod
     def of(cls, message: Any) -> TableReference:
