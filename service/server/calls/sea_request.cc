@@ -240,11 +240,16 @@ Sha256Digest KeyOf(const v1::SeaState& state, double index) {
 
 namespace {
 
-// By the file: the digest of its content leaves out the attributes, of which answers may depend.
+// A table and its file: the digest of the contents leaves out version and attributes, which are in answers or count in
+// them.
+std::string Identify(const std::string& digest, const FileIdentity& identity) {
+  return absl::StrCat(digest, " ", absl::StrJoin(identity, " "));
+}
+
 Sha256Digest KeyOf(const TableCatalog::Entry& table, double index) {
   Sha256 sha;
   sha.Update(absl::StrCat(absl::Hex(std::bit_cast<std::uint64_t>(index)), " table ", table.name, " ",
-                          table.table.digest(), " ", absl::StrJoin(table.identity, " ")));
+                          Identify(table.table.digest(), table.identity)));
   return sha.Finish();
 }
 
@@ -281,7 +286,8 @@ absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea, 
 absl::StatusOr<const ServedWater*> AnswerSources::Find(const v1::WaterState& water, const KnownWater& known) {
   if (made_.water != nullptr) return made_.water.get();
   const std::shared_ptr<const TableCatalog::Water>& table = catalog_.water();
-  const Sha256Digest key = KeyOf(water, table == nullptr ? "" : table->table.table().digest());
+  const Sha256Digest key =
+      KeyOf(water, table == nullptr ? "" : Identify(table->table.table().digest(), table->identity));
   made_.water = waters_->Find(key);
   if (made_.water != nullptr) return made_.water.get();
   if (known.bias.has_value() && table == nullptr) {

@@ -191,11 +191,11 @@ class WaterReader {
 
 absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state) { return WaterReader(state).Read(); }
 
-Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table_digest) {
+Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table) {
   v1::WaterState known = state;
   known.DiscardUnknownFields();
   Sha256 sha;
-  sha.Update(absl::StrCat(std::string(table_digest), " water ", known.SerializeAsString()));
+  sha.Update(absl::StrCat(std::string(table), " water ", known.SerializeAsString()));
   return sha.Finish();
 }
 

@@ -14,8 +14,8 @@ namespace albtpu::server {
 // other, `water` alone.
 absl::StatusOr<KnownWater> ReadWater(const v1::WaterState& state);
 
-// SHA-256 over the fields of `state` that this server knows, and the digest of the table that computes it. Waters with
-// the same key are equal.
-Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table_digest);
+// SHA-256 over the fields of `state` that this server knows, and `table`, which identifies the table that computes it.
+// Waters with the same key are equal.
+Sha256Digest KeyOf(const v1::WaterState& state, std::string_view table);
 
 }  // namespace albtpu::server

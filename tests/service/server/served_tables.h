@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <future>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -112,6 +113,12 @@ class ServedTables : public ::testing::Test {
     const grpc::Status status = Call(method, request, response);
     EXPECT_TRUE(status.ok()) << status.error_message();
     return response;
+  }
+
+  void Reload() {
+    std::promise<bool> reloaded;
+    tables_->Reload([&](const LiveTables::ReloadResult& result) { reloaded.set_value(result.ok()); });
+    EXPECT_TRUE(reloaded.get_future().get());
   }
 
   grpc::Status ListTables(v1::ListTablesResponse& response) {

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <random>
 
@@ -151,9 +150,7 @@ TEST_F(QueryColumns, ScalesTheTableThatWasReloadedWithAnotherIndexAlone) {
   parts.provenance.attributes["refractive_index"] = 1.3;
   const UncertaintyTable next = OrDie(parts.Create());
   ASSERT_TRUE(WriteTable(next, folder_ / "survey.h5", Existing::kReplace).ok());
-  std::promise<bool> reloaded;
-  tables_->Reload([&](const LiveTables::ReloadResult& result) { reloaded.set_value(result.ok()); });
-  ASSERT_TRUE(reloaded.get_future().get());
+  Reload();
   const v1::QueryColumnsResponse after = answer();
   EXPECT_EQ(after.table().digest(), before.table().digest());
   const auto thu = [&](const UncertaintyTable& table) {

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class WaterQueries : public ServedTables {
  protected:
-  WaterQueries() : ServedTables(SHIPPED_WATER_TABLE) {}
+  explicit WaterQueries(const std::filesystem::path& water = SHIPPED_WATER_TABLE) : ServedTables(water) {}
 
   // One number for all pulses, as a person types them.
   static v1::QueryBudgetRequest Request(const KnownWater& water, const std::vector<float>& depths = {8}) {
@@ -36,6 +36,29 @@ class WaterQueries : public ServedTables {
     return request;
   }
 };
+
+struct WaterFile {
+  WaterFile() { EXPECT_TRUE(testing::WriteWaterTable("2", water_path_).ok()); }
+
+  const testing::TemporaryFolder water_folder_;
+  const std::filesystem::path water_path_ = water_folder_ / "water.h5";
+};
+
+class WaterQueriesFromAFile : protected WaterFile, public WaterQueries {
+ protected:
+  WaterQueriesFromAFile() : WaterQueries(water_path_) {}
+};
+
+TEST_F(WaterQueriesFromAFile, NameTheVersionThatWasReloaded) {
+  const v1::QueryBudgetRequest request = Request(testing::CoastalWater());
+  const v1::TableReference before = Ask(request).water().table();
+  EXPECT_EQ(before.version(), "2");
+  ASSERT_TRUE(testing::WriteWaterTable("3", water_path_).ok());
+  Reload();
+  const v1::TableReference after = Ask(request).water().table();
+  EXPECT_EQ(after.version(), "3");
+  EXPECT_EQ(after.digest(), before.digest());
+}
 
 TEST_F(WaterQueries, HaveTheShareOfTheWater) {
   v1::QueryBudgetRequest request = Request(testing::CoastalWater());

@@ -114,17 +114,8 @@ TEST_F(LiveTablesTest, StayWhenTheGivenDefaultIsMissing) {
 TEST_F(LiveTablesTest, LoadTheTableOfTheWaterAgain) {
   const testing::TemporaryFolder elsewhere;
   const std::filesystem::path path = elsewhere / "water.h5";
-  const auto put = [&](const std::string& version) {
-    const Table& shipped = testing::ShippedWaterTable()->table();
-    Provenance provenance = shipped.provenance();
-    provenance.version = version;
-    Table::Variables variables;
-    for (std::size_t q = 0; q < kWaterQuantityCount; ++q) variables.emplace_back(*shipped.variable(q));
-    const Table table = OrDie(Table::Create(kWaterColumn, shipped.axes(), std::move(variables), provenance));
-    ASSERT_TRUE(WriteTable(table, path, Existing::kReplace).ok());
-  };
   const auto version = [&] { return tables_->current()->water()->table.table().provenance().version; };
-  put("2");
+  ASSERT_TRUE(testing::WriteWaterTable("2", path).ok());
   TableCatalog catalog = OrDie(TableCatalog::Load(folder_.path(), ""));
   EXPECT_EQ(catalog.water(), nullptr);
   EXPECT_FALSE(catalog.AddWater(folder_ / "quick.h5").ok());
@@ -134,7 +125,7 @@ TEST_F(LiveTablesTest, LoadTheTableOfTheWaterAgain) {
   const auto before = tables_->current();
   EXPECT_EQ(Kinds(Reload()).size(), 2);  // Requests cannot name it, and clients of 0.1.0 do not expect it.
   EXPECT_EQ(tables_->current()->water(), before->water());
-  put("3");
+  ASSERT_TRUE(testing::WriteWaterTable("3", path).ok());
   ASSERT_TRUE(Reload().ok());
   EXPECT_EQ(version(), "3");
   std::ofstream(path) << "not a table";

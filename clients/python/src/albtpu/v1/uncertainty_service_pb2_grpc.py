@@ -130,9 +130,9 @@ class UncertaintyServiceServicer(object):
 
         Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that `QueryColumns`
         would return. The responses to the requests before it are sent first; the requests after it are not read. A caller
-        that half-closes gets its last responses and OK; a stream without requests ends with OK. A stream without activity
-        for one to two minutes ends: with DEADLINE_EXCEEDED if the next request does not arrive, with CANCELLED if
-        responses are not read.
+        that half-closes gets its last responses and OK; a stream without requests ends with OK. A stream whose caller
+        keeps the server waiting for one to two minutes ends: with DEADLINE_EXCEEDED if the next request does not arrive,
+        with CANCELLED if responses are not read.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
