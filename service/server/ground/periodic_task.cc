@@ -50,7 +50,7 @@ void IdleWatch::NoteActivity() { state_->active = true; }
 
 void IdleWatch::Pause() { state_->paused = true; }
 
-// In this order, against which the alarm looks: it sees one of the two.
+// The alarm reads them in the other order, so that it sees at least one.
 void IdleWatch::Resume() {
   state_->active = true;
   state_->paused = false;
