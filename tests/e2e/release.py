@@ -3,8 +3,8 @@
 Usage: release.py [--fuzz SECONDS] [--soak MINUTES] [--output TABLE.md] [GATE...]
 
 As root on Debian 12, in a clone without changes, with nothing else on the machine: some ten hours for all gates. A gate
-that passed on this commit is not run again; what it printed stays in build/release_gates/COMMIT. Exits with 1 if a
-gate failed or was not run.
+that passed on this commit is not run again, also if only TABLE.md says so, as after a change of the machine; what it
+printed stays in build/release_gates/COMMIT. Exits with 1 if a gate failed or was not run.
 """
 
 import argparse
@@ -69,11 +69,27 @@ def figures_of(log, patterns):
     return [line.strip() for line in lines if any(re.fullmatch(pattern, line.strip()) for pattern in patterns)]
 
 
-def table(commit, chosen, known, folder):
-    yield f"# Release of commit {commit}\n\nMade by `tests/e2e/release.py`, all on this commit and on one machine.\n"
+def title(commit):
+    return f"# Release of commit {commit}"
+
+
+def rows_of_passed(written, commit):
+    """The rows of the gates that passed, by the table that was written for this commit, if it was."""
+    lines = written.read_text().splitlines() if written.exists() else []
+    if not lines or lines[0] != title(commit):
+        return {}
+    rows = {line.split(" | ")[0].removeprefix("| "): line for line in lines if line.startswith("| ")}
+    return {name: row for name, row in rows.items() if row.split(" | ")[2] == "passed"}
+
+
+def table(commit, chosen, known, earlier, folder):
+    yield f"{title(commit)}\n\nMade by `tests/e2e/release.py`, all on this commit.\n"
     yield "| gate | command | result | minutes | figures |\n|---|---|---|---|---|"
     for name, (command, patterns) in chosen.items():
         shown = "bare root: `./quickstart.sh`, `./test.sh`" if command[0] == "mmdebstrap" else f"`{' '.join(command)}`"
+        if name in earlier and name not in known:
+            yield earlier[name]
+            continue
         if name not in known:
             yield f"| {name} | {shown} | not run | | |"
             continue
@@ -102,8 +118,9 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     kept = folder / "gates.json"
     known = json.loads(kept.read_text()) if kept.exists() else {}
-    to_run = [name for name in chosen
-              if (not options.gates or name in options.gates) and known.get(name, {}).get("code") != 0]
+    earlier = rows_of_passed(options.output, commit)
+    passed = {name for name in chosen if name in earlier or known.get(name, {}).get("code") == 0}
+    to_run = [name for name in chosen if (not options.gates or name in options.gates) and name not in passed]
     if any(name in USE_PROGRAMS for name in to_run) and run("build", ["bash", "-c", BUILD], folder)["code"] != 0:
         sys.exit(f"the programs could not be built; see {folder / 'build.log'}")
     for name in to_run:
@@ -112,9 +129,10 @@ def main():
         known[name] = run(name, command, folder)
         kept.write_text(json.dumps(known, indent=2) + "\n")
         print(f"{name}: exit code {known[name]['code']} after {known[name]['minutes']:.0f} minutes", flush=True)
-    options.output.write_text("\n".join(table(commit, chosen, known, folder)) + "\n")
+        if known[name]["code"] == 0:
+            passed.add(name)
+    options.output.write_text("\n".join(table(commit, chosen, known, earlier, folder)) + "\n")
     print(f"the table is in {options.output}")
-    passed = [name for name in chosen if known.get(name, {}).get("code") == 0]
     if len(passed) < len(chosen):
         sys.exit(f"{len(passed)} of {len(chosen)} gates passed")
 
