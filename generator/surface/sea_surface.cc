@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <numeric>
 
@@ -15,9 +16,12 @@ namespace {
 constexpr double kNarrowRing = 1.39;  // ratio of the outer to the inner wavenumber
 constexpr double kWideRing = 2.89;
 constexpr int kNarrowRings = 6;
-// Of the half plane. A sum over equidistant directions is exact for harmonics below 2 kDirections: those of the
-// spreading, two more for the product of two slopes, and the few of the footprint's average.
-constexpr int kDirections = 12;
+// Directions of the half plane, at least. A sum over N equidistant directions is exact for harmonics below 2 N: those
+// of the spreading, and kMoreHarmonics for the product of two slopes and the footprint's average.
+constexpr int kFewestDirections = 12;
+constexpr int kMoreHarmonics = 10;
+// The directions by which the harmonics of a ring are found. They resolve every PositiveSpreading.
+constexpr int kFineDirections = 96;
 
 // Gauss-Legendre nodes and weights of four points on (-1, 1); Abramowitz and Stegun, table 25.4.
 constexpr std::array<double, 4> kGaussNodes = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
@@ -31,21 +35,50 @@ LongWaveModel::Wave WaveOfSlope(double log_k, double psi, double slope_variance)
   return {{k * std::cos(psi), k * std::sin(psi)}, slope_variance / (k * k)};
 }
 
-// Two waves for the waves of a ring that travel towards `psi` or back, `d_psi` wide. Their slope variance over ln k has
-// the first four moments of the ring's: they are the nodes of Gauss's quadrature of two points with the slope variance
-// as the weight. The mean of any cubic in ln k over the ring is thus exact.
-std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFade& patch_share, double k_inner,
-                                             double k_outer, double psi, double d_psi) {
-  std::array<double, 4 * kPanels> log_k, slope;
+// The waves of a ring at nodes over ln k: their slope variance within `d_psi` over their spreading.
+struct Ring {
+  std::array<double, 4 * kPanels> log_k, k, slope;
+};
+
+Ring RingOf(const SeaState& sea, const CrossFade& patch_share, double k_inner, double k_outer, double d_psi) {
+  Ring ring;
   const double panel = std::log(k_outer / k_inner) / kPanels;
   for (int i = 0; i < 4 * kPanels; ++i) {
-    log_k[i] = std::log(k_inner) + panel * (i / 4 + 0.5 + 0.5 * kGaussNodes[i % 4]);
-    const double k = std::exp(log_k[i]);
-    slope[i] = 2 * d_psi * 0.5 * panel * kGaussWeights[i % 4] * k * k * k * sea.S(k) * (1 - patch_share(k)) *
-               sea.FrozenSpreading(k, psi);
+    ring.log_k[i] = std::log(k_inner) + panel * (i / 4 + 0.5 + 0.5 * kGaussNodes[i % 4]);
+    const double k = ring.k[i] = std::exp(ring.log_k[i]);
+    ring.slope[i] = 2 * d_psi * 0.5 * panel * kGaussWeights[i % 4] * k * k * k * sea.S(k) * (1 - patch_share(k));
   }
+  return ring;
+}
+
+// So many directions that the ring's last harmonic of at least 1e-3 of its slope is summed exactly. The spreading has
+// even harmonics alone: a wave on a frozen surface looks the same as one that travels the opposite way.
+int DirectionsOf(const SeaState& sea, const Ring& ring) {
+  constexpr double kNegligible = 1e-3;
+  constexpr double kStep = std::numbers::pi / kFineDirections;
+  std::array<double, kFineDirections> slope{};
+  for (int j = 0; j < kFineDirections; ++j)
+    for (int i = 0; i < 4 * kPanels; ++i) slope[j] += ring.slope[i] * sea.FrozenSpreading(ring.k[i], (j + 0.5) * kStep);
   const double total = std::accumulate(slope.begin(), slope.end(), 0.0);
-  if (total == 0) return {WaveOfSlope(std::log(k_inner), psi, 0), WaveOfSlope(std::log(k_outer), psi, 0)};
+  const auto matters = [&](int harmonic) {
+    std::complex<double> sum = 0;
+    for (int j = 0; j < kFineDirections; ++j) sum += std::polar(slope[j], harmonic * (j + 0.5) * kStep);
+    return std::abs(sum) > kNegligible * total;
+  };
+  int last = kFineDirections - 2;
+  while (last + kMoreHarmonics > 2 * kFewestDirections && !matters(last)) last -= 2;
+  return (last + kMoreHarmonics) / 2;
+}
+
+// Two waves for the waves of a ring that travel towards `psi` or back, in one of its directions. Their slope variance
+// over ln k has the first four moments of the ring's: they are the nodes of Gauss's quadrature of two points with the
+// slope variance as the weight. The mean of any cubic in ln k over the ring is thus exact.
+std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const Ring& ring, double psi) {
+  const std::array<double, 4 * kPanels>& log_k = ring.log_k;
+  std::array<double, 4 * kPanels> slope;
+  for (int i = 0; i < 4 * kPanels; ++i) slope[i] = ring.slope[i] * sea.FrozenSpreading(ring.k[i], psi);
+  const double total = std::accumulate(slope.begin(), slope.end(), 0.0);
+  if (total == 0) return {WaveOfSlope(log_k.front(), psi, 0), WaveOfSlope(log_k.back(), psi, 0)};
   const auto moment = [&](int power, double about) {
     double sum = 0;
     for (int i = 0; i < 4 * kPanels; ++i) sum += slope[i] * std::pow(log_k[i] - about, power);
@@ -65,12 +98,14 @@ std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFad
 
 LongWaveModel::LongWaveModel(const SeaState& sea, const CrossFade& patch_share) {
   const double lowest = sea.energetic_range().lowest;
-  const double d_psi = std::numbers::pi / kDirections;
   double outer = patch_share.all_patch();
   for (int ring = 0; outer > lowest; ++ring) {
     const double inner = std::max(lowest, outer / (ring < kNarrowRings ? kNarrowRing : kWideRing));
-    for (int direction = 0; direction < kDirections; ++direction) {
-      const auto pair = RingWaves(sea, patch_share, inner, outer, (direction + 0.5) * d_psi, d_psi);
+    const int directions = DirectionsOf(sea, RingOf(sea, patch_share, inner, outer, 1));
+    const double d_psi = std::numbers::pi / directions;
+    const Ring of_direction = RingOf(sea, patch_share, inner, outer, d_psi);
+    for (int direction = 0; direction < directions; ++direction) {
+      const auto pair = RingWaves(sea, of_direction, (direction + 0.5) * d_psi);
       waves_.insert(waves_.end(), pair.begin(), pair.end());
     }
     outer = inner;

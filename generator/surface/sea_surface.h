@@ -21,9 +21,9 @@ namespace albtpu {
 
 // The waves that are longer than the patch under a beam, as plane waves, which need no grid.
 
-// The part 1 - share(k) of a sea's spectrum, divided into rings and sectors of the half plane. Each cell becomes one
-// plane wave with the cell's variances of elevation and slope and Gaussian amplitudes, so the sum is exactly Gaussian.
-// Immutable.
+// The part 1 - share(k) of a sea's spectrum, divided into rings and sectors of the half plane: twelve, and more in
+// rings whose waves travel in a narrow range of directions, as swell does. Each cell becomes two plane waves with the
+// cell's variances of elevation and slope and Gaussian amplitudes, so the sum is exactly Gaussian. Immutable.
 class LongWaveModel {
  public:
   struct Wave {

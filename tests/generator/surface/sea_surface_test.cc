@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "generator/surface/discretization.h"
 #include "sea/sampled_spectrum.h"
@@ -69,6 +70,60 @@ TEST(LongWaveModel, IsFiniteWhereARingHasSlopeAtOneNode) {
     const LongWaveModel model(sea, CrossFade(all_patch / 2, all_patch));
     for (const LongWaveModel::Wave& wave : model.waves())
       ASSERT_TRUE(std::isfinite(wave.variance) && wave.wavenumber.allFinite()) << all_patch;
+  }
+}
+
+// Waves that all travel in a narrow range of directions about `psi` [rad], of which harmonic 2 n has the mean `r2` to
+// the power n^2, as a normal distribution has. With an `r2` of 1 they travel in one direction.
+SeaState NarrowSwell(double r2, double psi) {
+  HarmonicSpectrum swell = FlatSea(SeaWavenumbers(), 2);
+  for (std::size_t i = 0; i < swell.k.size(); ++i) {
+    const double off_peak = std::log(swell.k[i] / 0.05) / 0.2;
+    swell.s[i] = 5 * std::exp(-0.5 * off_peak * off_peak);
+    for (std::size_t n = 0; n < 2; ++n) {
+      const double harmonic = 2 * static_cast<double>(n + 1), mean = std::pow(r2, harmonic * harmonic / 4);
+      swell.a[n][i] = mean * std::cos(harmonic * psi);
+      swell.b[n][i] = mean * std::sin(harmonic * psi);
+    }
+  }
+  return SeaState(
+      {.waves = KnownWaves{std::make_shared<SampledSpectrum>(swell, SpectrumText{"swell", "a test", "none"})}});
+}
+
+// The swell travels between two of twelve directions, and along one of them. Trapezoids, fine enough to count as exact.
+TEST(LongWaveModel, HasTheSlopesOfNarrowSwellInEveryDirection) {
+  const CrossFade share(9, 19);
+  constexpr double kStep = 5e-3, kTurn = std::numbers::pi / 720;
+  for (const double r2 : {0.5, 0.9, 0.98, 0.995, 1.0}) {
+    for (const double psi : {0.0, 0.07, 0.1309, 0.2, 0.9, 1.5}) {
+      const SeaState sea = NarrowSwell(r2, psi);
+      Eigen::Matrix2d exact = Eigen::Matrix2d::Zero();
+      for (double k = sea.energetic_range().lowest; k < sea.energetic_range().highest; k *= std::exp(kStep)) {
+        for (int j = 0; j < 720; ++j) {
+          const double towards = j * kTurn;
+          const Eigen::Vector2d wave(k * std::cos(towards), k * std::sin(towards));
+          exact += 2 * sea.Psi(k, towards) * k * k * kStep * kTurn * wave * wave.transpose();
+        }
+      }
+      const Eigen::Matrix2d error = LongWaveModel(sea, share).SlopeCovariance(kEverything) - exact;
+      EXPECT_LT(error.cwiseAbs().maxCoeff(), 2e-3 * exact.trace()) << r2 << ", " << psi << '\n'
+                                                                   << error / exact.trace();
+    }
+  }
+}
+
+// Published tables are computed with them.
+TEST(LongWaveModel, HasTwelveDirectionsForEveryWindSea) {
+  for (const SpectrumModel* spectrum : kSpectrumModels) {
+    for (const double spreading : {0.5, 2.0, 30.0}) {
+      const SeaState sea(
+          {.waves = WindSea{.wind_speed_10m = 7, .fetch = 1e4, .model = spectrum, .spreading = spreading}});
+      const LongWaveModel model(sea, CrossFade(9, 19));
+      for (const LongWaveModel::Wave& wave : model.waves()) {
+        const double sectors = 12 * std::atan2(wave.wavenumber.y(), wave.wavenumber.x()) / std::numbers::pi;
+        EXPECT_NEAR(sectors - 0.5, std::round(sectors - 0.5), 1e-9) << spectrum->key << ", " << spreading;
+      }
+    }
   }
 }
 
