@@ -34,14 +34,14 @@ Effort ReadEffort(CampaignFile& file) {
   effort.realizations = static_cast<int>(*ReadWhole(file, kRealizations));
   effort.relative_error = ReadNumber(file, kRelativeError).value_or(0);
   effort.estimator = FindEstimator(ReadText(file, kEstimator)).value_or(effort.estimator);
-  const int most =
-      effort.relative_error > 0 ? std::max(effort.realizations, kMaxRealizationsUnlessGiven) : effort.realizations;
+  const int most = std::max(effort.realizations, kMaxRealizationsUnlessGiven);
   const auto& range = std::get<WholeRange>(kMaxRealizationsOfBeam.values);
   effort.most_realizations =
       static_cast<int>(file[kMaxRealizationsOfBeam.table]
                            .WholeNumber(kMaxRealizationsOfBeam.name,
                                         std::max<std::int64_t>(effort.realizations, range.least), range.most)
                            .value_or(most));
+  if (effort.relative_error == 0) effort.most_realizations = effort.realizations;
   return effort;
 }
 

@@ -179,11 +179,14 @@ Cost Measure(const Campaign& campaign) {
   constexpr std::size_t kProbes = 24;
   constexpr int kFew = 4, kMore = 24;
   const std::size_t sea_cases = SeaCaseCount(campaign), probes = std::min(kProbes, sea_cases);
+  const Estimator estimator = campaign.effort.estimator;
+  SecondsOf(SeaCaseOf(campaign, sea_cases / 2), kFew,
+            estimator);  // What a program does once is not part of a sea case.
   Cost cost;
   for (std::size_t p = 0; p < probes; ++p) {
     const SeaCase sea_case = SeaCaseOf(campaign, (2 * p + 1) * sea_cases / (2 * probes));
-    const double few = SecondsOf(sea_case, kFew, campaign.effort.estimator);
-    const double more = SecondsOf(sea_case, kMore, campaign.effort.estimator);
+    const double few = SecondsOf(sea_case, kFew, estimator);
+    const double more = SecondsOf(sea_case, kMore, estimator);
     const double realization = std::max(0.0, (more - few) / (kMore - kFew));
     const double share = static_cast<double>(sea_cases) / static_cast<double>(probes);
     cost.realization += share * realization;

@@ -154,6 +154,11 @@ TEST(Campaign, RefusesMoreCellsThanATableHolds) {
   EXPECT_THAT(ErrorOf(text), HasSubstr("more cells than a table holds"));
 }
 
+TEST(Campaign, StopsAtItsRealizationsWithoutARelativeError) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(std::string(kSmall) + "most_realizations = 5000\n");
+  EXPECT_EQ(campaign->effort.most_realizations, 50);
+}
+
 TEST(Campaign, RefusesATextThatCouldNestTooDeeply) {
   std::string key = "a";
   while (key.size() < 32000) key += ".a";
