@@ -58,7 +58,13 @@ std::size_t EchoesOfCase(const Campaign& campaign) {
   return NodesOf(campaign, WaterAxis::kOpticalDepth).size() * NodesOf(campaign, WaterAxis::kFieldOfView).size();
 }
 
-void Append(const DetectedBias& bias, std::vector<Estimate>& estimates) {
+// An echo without a clear end has no biases: their standard errors are infinite.
+void Append(const std::optional<DetectedBias>& detected, std::vector<Estimate>& estimates) {
+  if (!detected) {
+    estimates.insert(estimates.end(), 7, Estimate{0, kInfinity});
+    return;
+  }
+  const DetectedBias& bias = *detected;
   estimates.insert(estimates.end(), bias.vertical.begin(), bias.vertical.end());
   estimates.insert(estimates.end(), bias.along.begin(), bias.along.end());
   estimates.push_back(bias.stretch);
@@ -73,11 +79,12 @@ CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
                      const std::vector<std::vector<Estimate>>& direct, std::size_t bias) {
   CheckedError error;
   for (std::size_t i = 0; i < direct.size(); ++i) {
-    if (direct[i][kCheckedBiases].value < kMinEchoEnergy) continue;
+    if (direct[i][kCheckedBiases].value < kMinEchoEnergy || std::isinf(direct[i][bias].standard_error)) continue;
     ++error.beams;
     const CheckedBeam checked = CheckedBeamOf(campaign, i);
     const OneWater water = table.Of(checked.backscatter_fraction, checked.scattering_over_absorption);
-    const double off = (*water.At(checked.beam))[bias] * checked.depth - direct[i][bias].value;
+    // A checked beam lies within the nodes, and so it has an answer.
+    const double off = water.At(checked.beam).value()[bias] * checked.depth - direct[i][bias].value;
     error.rms += off * off;
     error.noise += direct[i][bias].standard_error * direct[i][bias].standard_error;
     error.greatest = std::max(error.greatest, std::abs(off));
@@ -172,11 +179,7 @@ std::vector<Estimate> ComputeWaterCase(const Campaign& campaign, std::size_t ind
   estimates.reserve(EchoesOfCase(campaign) * EstimatesOfEcho(campaign));
   for (const std::vector<WaterColumnBias>& of_depth : biases) {
     for (const WaterColumnBias& bias : of_depth) {
-      for (const std::optional<DetectedBias>& detected : bias.by_pulse)
-        if (detected)
-          Append(*detected, estimates);
-        else
-          estimates.insert(estimates.end(), 7, Estimate{0, kInfinity});
+      for (const std::optional<DetectedBias>& detected : bias.by_pulse) Append(detected, estimates);
       estimates.push_back(bias.spot);
       estimates.push_back(bias.energy);
     }
@@ -229,7 +232,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBea
   const WaterColumnBias bias = ComputeWaterColumn(PhaseFunction::FournierForand(checked.backscatter_fraction), column,
                                                   pulses, EffortOf(campaign, checked.scattering_over_absorption));
   std::vector<Estimate> estimates;
-  Append(bias.by_pulse.front().value_or(DetectedBias()), estimates);
+  Append(bias.by_pulse.front(), estimates);
   estimates.resize(kCheckedBiases);
   for (Estimate& estimate : estimates) {
     estimate.value *= checked.depth;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "generator/campaign/provenance.h"
+#include "generator/campaign/water_cases.h"
 #include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "tables/query/interpolation.h"
@@ -78,6 +79,42 @@ TEST(TableMaker, StatesHowItTraced) {
   std::string text = TwoSeas().text;
   text.insert(text.find("[effort]"), "[beam]\nsource_height = 400\n");
   EXPECT_EQ(estimator(*Make(*ParseCampaign(text))), "plain");
+}
+
+// In water from which no photon comes back.
+TEST(TableMaker, ComparesNoBeamWhoseEchoHasNoClearEnd) {
+  const Campaign campaign = *ParseCampaign(R"(id = "water"
+kind = "water_column"
+version = "1"
+title = "One water"
+[axes]
+backscatter_fraction = [0.01]
+scattering_over_absorption = [2]
+incidence = [10]
+optical_depth = [0.2]
+field_of_view = [3]
+pulse_length = [0.3]
+[effort]
+photons = 1000
+[interpolation]
+checked_pulses = 1
+)");
+  CheckedBeam beam = CheckedBeamOf(campaign, 0);
+  const std::vector<Estimate> clear = ComputeDirectly(campaign, beam);
+  beam.beam.optical_depth = 100;
+  std::vector<Estimate> unclear = ComputeDirectly(campaign, beam);
+  EXPECT_TRUE(std::isfinite(clear[0].standard_error));
+  EXPECT_TRUE(std::isinf(unclear[0].standard_error));
+
+  unclear.back() = clear.back();  // Energy alone does not make an echo.
+  const std::vector<std::vector<Estimate>> cases = {ComputeWaterCase(campaign, 0)};
+  for (const auto& [direct, beams] : {std::pair(clear, 1.0), std::pair(unclear, 0.0)}) {
+    const absl::StatusOr<Table> table = BuildWaterTable(campaign, cases, {direct});
+    ASSERT_TRUE(table.ok()) << table.status();
+    EXPECT_EQ(
+        std::get<std::vector<double>>(table->provenance().attributes.at("interpolation_error_bias_vertical_peak"))[4],
+        beams);
+  }
 }
 
 TEST(TableMaker, MakesTheSameTableOnOneThread) {
