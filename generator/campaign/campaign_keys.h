@@ -61,6 +61,10 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr std::int64_t kMaxRealizations = 10'000'000;
 inline constexpr int kMaxRealizationsUnlessGiven = 40'000;
 
+// m. The shortest waves of the spectra have 0.5 mm and 2 mm. A narrower footprint sees what this one sees, within some
+// per cent; from 0.01 mm down the coordinates of its rays are too coarse in single precision.
+inline constexpr double kMinFootprint = 1e-3;
+
 inline constexpr std::string_view kKinds[] = {"sea_surface", "water_column"};
 inline constexpr std::string_view kProfiles[] = {"uniform", "gaussian"};
 inline constexpr std::string_view kEstimators[] = {"control_variate", "plain"};
@@ -100,7 +104,7 @@ inline constexpr CampaignKey kAzimuth = {
     Required{},
     "Horizontal direction of the beam from downwind."};
 inline constexpr CampaignKey kFootprint = {
-    "axes", "footprint", NodeRange{0, false, kInfinity}, "m", Required{},
+    "axes", "footprint", NodeRange{kMinFootprint, true, kInfinity}, "m", Required{},
     "Diameter of the beam at the mean surface, across its axis. Interpolated on a log scale."};
 inline constexpr CampaignKey kDepth = {
     "axes", "depth", NodeRange{0, true, kInfinity}, "m", Required{},

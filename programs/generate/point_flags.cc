@@ -9,21 +9,21 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "generator/campaign/campaign_keys.h"
 #include "programs/command_line/command_line.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/spectral_tail.h"
 #include "tables/water/water_schema.h"
 
 namespace albtpu::programs {
-CLI::Validator NumberIn(double least, double most, bool open_below) {
-  const std::string remedy = std::string("give a number ") + (open_below ? "above " : "from ") +
-                             CLI::detail::to_string(least) + (open_below ? " and up to " : " to ") +
-                             CLI::detail::to_string(most);
+CLI::Validator NumberIn(double least, double most) {
+  const std::string remedy =
+      "give a number from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double x = 0;
         const bool number = CLI::detail::lexical_cast(text, x);
-        if (number && std::isfinite(x) && x <= most && (open_below ? x > least : x >= least)) return {};
+        if (number && std::isfinite(x) && x >= least && x <= most) return {};
         return "'" + text + "' is not a finite number in the range; " + remedy;
       },
       "", "number");
@@ -232,7 +232,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
           ->check(NumberIn(-1e6, 1e6));
   point.add_option("--footprint", options.footprint, "Diameter of the beam at the mean surface, across its axis [m]")
       ->required()
-      ->check(NumberIn(0, 1000, true));
+      ->check(NumberIn(campaign_keys::kMinFootprint, 1000));
   AddList(point, "--depth", options.depth, "Depths below the surface, separated by commas [m]", NumberIn(0, 1e4))
       ->type_name("M,M")
       ->required();

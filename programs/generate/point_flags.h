@@ -11,9 +11,8 @@ namespace albtpu::programs {
 // The heading of --help under which options of the computation stand.
 inline constexpr char kWork[] = "The computation";
 
-// A finite number in a range that includes both ends, or not `least` if `open_below`. CLI11 parses "nan" and "inf" as
-// numbers.
-CLI::Validator NumberIn(double least, double most, bool open_below = false);
+// A finite number in a range that includes both ends. CLI11 parses "nan" and "inf" as numbers.
+CLI::Validator NumberIn(double least, double most);
 
 // A seed of random numbers.
 CLI::Validator Seed();

@@ -126,7 +126,7 @@ TEST(Campaign, NamesLineAndKeyOfWhatIsWrong) {
            {"depth = [0, 10]", "depth = [-1, 10]", "depth"},
            {"depth = [0, 10]", "depth = []", "depth"},
            {"[3, 6]", "[-1, 6]", "'axes.wind_speed' must be at least 0"},
-           {"[0.1, 1]", "[0, 1]", "'axes.footprint' must be above 0"},
+           {"[0.1, 1]", "[0, 1]", "'axes.footprint' must be at least 0.001"},
            {"[1000, inf]", "[1000, 5000]", "must be inf"},
            {"[1000, inf]", "[1e7, inf]", "beyond full development"},
            {"[axes]", "[sea]\nspectrum = \"phillips\"\n[axes]",

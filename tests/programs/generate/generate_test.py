@@ -156,6 +156,7 @@ class Table(GenerateTest):
                                (CAMPAIGN.replace('"small"', '"My Bay"'), "My Bay"),
                                (CAMPAIGN.replace('version = "1"', 'version = ""'), "version"),
                                (CAMPAIGN.replace("realizations", "realisations"), "did you mean realizations?"),
+                               (CAMPAIGN.replace("0.25", "0.0009"), "'axes.footprint' must be at least 0.001"),
                                ("\x00\xff", "not TOML"), ("", "missing")):
             self.campaign = self.write("bad.toml", text)
             for command in (("plan",), ("table", "--output", self.folder / "x.h5")):
@@ -218,7 +219,8 @@ class Point(GenerateTest):
     def test_bad_flags_are_bad_usage(self):
         for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"),
                             ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
-                            ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
+                            ("--footprint", "0"), ("--footprint", "0.0009"), ("--depth", "1,-2"), ("--depth", "deep"),
+                            ("--fetch", "nan"),
                             ("--fetch", "0"), ("--azimuth", "inf"), ("--profile", "square"),
                             ("--spectrum", "phillips"), ("--corrected-above", "0"), ("--corrected-above", "nan"),
                             ("--relative-error", "0"), ("--seed", "-1"), ("--seed", "18446744073709551616"),
