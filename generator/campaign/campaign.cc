@@ -63,6 +63,15 @@ absl::Status CheckTable(const Campaign& campaign) {
   return status.ok() ? status : absl::InvalidArgumentError(formats::OneLine(std::string(status.message())));
 }
 
+// Checks the sea of the strongest wind and the longest fetch, which is the steepest and the highest.
+absl::Status CheckSeas(const Campaign& campaign) {
+  const absl::Status status = CheckTraceable(SeaCaseOf(campaign, SeaCaseCount(campaign) - 1));
+  if (status.ok()) return status;
+  return absl::InvalidArgumentError(absl::StrCat("the sea of the strongest wind, ",
+                                                 campaign.nodes(AxisId::kWindSpeed).back(),
+                                                 " m/s: ", std::string(status.message())));
+}
+
 // The keys of all kinds.
 struct CampaignHead {
   std::string text, id, version, title;
@@ -144,6 +153,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   campaign.balanced_nodes = node_values == "balanced";
   campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
   RETURN_IF_ERROR(CheckTable(campaign));
+  RETURN_IF_ERROR(CheckSeas(campaign));
   return campaign;
 }
 

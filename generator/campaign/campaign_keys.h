@@ -98,7 +98,8 @@ inline constexpr CampaignKey kFetch = {
 inline constexpr CampaignKey kIncidence = {
     "axes", "incidence", NodeRange{0, true, 60, "waves would hide behind each other, which is not modelled"}, "degree",
     Required{},
-    "Angle of the beam from the vertical, in air."};
+    "Angle of the beam from the vertical, in air. At the strongest wind, slopes along the beam of three standard "
+    "deviations must face it."};
 inline constexpr CampaignKey kAzimuth = {
     "axes", "azimuth", NodeRange{0, true, 90, "azimuths are folded into 0 to 90 degrees by symmetry"}, "degree",
     Required{},
@@ -116,7 +117,8 @@ inline constexpr CampaignKey kProfile = {
     "irradiance is 1/e^2 of that on the axis."};
 inline constexpr CampaignKey kSourceHeight = {
     "beam", "source_height", NumberRange{0.1, kInfinity}, "m", kInfinity,
-    "Height of the point source that the beam diverges from. `inf` is a collimated beam."};
+    "Height of the point source that the beam diverges from, at least six standard deviations of the surface's "
+    "elevation. `inf` is a collimated beam."};
 
 inline constexpr CampaignKey kRefractiveIndexOfWater = {
     "water", "refractive_index", NumberRange{1.01, 2}, "", kRefractiveIndex,

@@ -125,6 +125,11 @@ bool HasShapeOf(const Campaign& campaign, const SeaCaseResult& result) {
          });
 }
 
+absl::Status NotFinite() {
+  return absl::FailedPreconditionError(
+      "has values that are not finite (rays met waves from behind); give smaller incidences or weaker winds");
+}
+
 absl::Status WrongShape() {
   return absl::DataLossError("does not have the beams and depths of its campaign; delete it");
 }
@@ -162,11 +167,14 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
     const bool checks = unit.kind == UnitKind::kPulse;
     if (checks && estimates.size() != (parts_->campaign.water ? kCheckedEstimates : kChecked.size()))
       return WrongShape();
+    const auto is_finite = [](const Estimate& estimate) { return std::isfinite(estimate.value); };
+    if (checks && !std::all_of(estimates.begin(), estimates.end(), is_finite)) return NotFinite();
     (checks ? parts_->direct : parts_->water)[unit.index] = std::move(estimates);
     return absl::OkStatus();
   }
   ASSIGN_OR_RETURN(SeaCaseResult result, DecodeResult(content));
   if (!HasShapeOf(parts_->campaign, result)) return WrongShape();
+  if (!std::all_of(result.beams.begin(), result.beams.end(), IsFinite)) return NotFinite();
   for (std::size_t beam = 0; beam < result.beams.size(); ++beam)
     Store(result.beams[beam], unit.index, beam, *parts_->grid);
   result.beams.clear();

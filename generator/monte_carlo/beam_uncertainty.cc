@@ -1,5 +1,6 @@
 #include "generator/monte_carlo/beam_uncertainty.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sea/response/closed_form.h"
@@ -140,6 +141,17 @@ class ControlVariates {
 };
 
 }  // namespace
+
+bool IsFinite(const BeamUncertainty& beam) {
+  const auto finite = [](const Estimate& estimate) {
+    return std::isfinite(estimate.value) && std::isfinite(estimate.standard_error);
+  };
+  const auto all = [&](const std::vector<Estimate>& estimates) {
+    return std::all_of(estimates.begin(), estimates.end(), finite);
+  };
+  return finite(beam.refraction_along_wind) && finite(beam.refraction_cross_wind) && all(beam.thu) && all(beam.tvu) &&
+         all(beam.bias_along_beam) && all(beam.bias_vertical);
+}
 
 BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,

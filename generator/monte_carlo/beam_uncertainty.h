@@ -55,6 +55,9 @@ struct BeamUncertainty {
   int realizations = 0;
 };
 
+// Whether all values and standard errors are finite. Rays that meet facets from behind may have no intersection.
+bool IsFinite(const BeamUncertainty& beam);
+
 // The known statistics of the slopes over which a beam averages: the expectations of the control variates. The `form`
 // of the moments is SecantCurvature (closed_form.h).
 struct KnownSlopes {

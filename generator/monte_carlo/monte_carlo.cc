@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "absl/strings/str_format.h"
 #include "generator/math/random_stream.h"
 #include "generator/monte_carlo/beam_tracing.h"
 #include "generator/surface/sea_surface.h"
@@ -70,6 +71,30 @@ std::optional<Estimator> FindEstimator(std::string_view name) {
   for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain})
     if (name == Name(estimator)) return estimator;
   return std::nullopt;
+}
+
+absl::Status CheckTraceable(const SeaCase& sea_case) {
+  const SeaState sea(sea_case.sea);
+  const Eigen::Matrix2d slopes = SlopeCovariance(sea);
+  const double elevation = std::sqrt(ElevationVariance(sea));
+  for (const BeamOptions& beam : sea_case.beams) {
+    const Eigen::Vector2d azimuth(std::cos(beam.azimuth), std::sin(beam.azimuth));
+    const double slope = std::sqrt(azimuth.dot(slopes * azimuth));
+    if (!(kFacingDeviations * slope * std::tan(beam.incidence) <= 1)) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "waves hide behind each other at an incidence of %g degrees (the slope along the beam has a standard "
+          "deviation of %.3f, and %g of them must face the beam); give at most %.1f degrees, or a weaker wind",
+          DegreesOfRadians(beam.incidence), slope, kFacingDeviations,
+          std::floor(10 * DegreesOfRadians(std::atan(1 / (kFacingDeviations * slope)))) / 10));
+    }
+    if (!(beam.source_height >= kCrestDeviations * elevation)) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "a point source at a height of %g m stands below crests (the elevation of the surface has a standard "
+          "deviation of %.3g m); give at least %.3g m, %g of them, or inf, a collimated beam",
+          beam.source_height, elevation, kCrestDeviations * elevation, kCrestDeviations));
+    }
+  }
+  return absl::OkStatus();
 }
 
 SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed, std::uint32_t cell) {

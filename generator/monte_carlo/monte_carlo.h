@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "generator/monte_carlo/beam_uncertainty.h"
 #include "generator/surface/beam.h"
 #include "generator/surface/discretization.h"
@@ -55,7 +56,18 @@ struct SeaCaseResult {
   double resolved_slope_fraction = 0;  // mean square slope of the facets, divided by that of the sea
 };
 
-// Runs on all threads of the current TBB arena. The result is a function of its arguments alone.
+// Slopes along a beam up to this many of their standard deviations must face it: each ray then meets one facet, but for
+// 1e-4 of the surface, which is hidden behind other waves (Smith (1967), doi:10.1109/TAP.1967.1138991).
+inline constexpr double kFacingDeviations = 3;
+// A point source stands above crests of so many standard deviations of the surface's elevation.
+inline constexpr double kCrestDeviations = 6;
+
+// InvalidArgument if a beam is so far from the vertical that waves hide behind each other, or its source stands below
+// crests; the message says what would be right.
+absl::Status CheckTraceable(const SeaCase& sea_case);
+
+// Requires CheckTraceable, otherwise values may be wrong or not finite. Runs on all threads of the current TBB arena.
+// The result is a function of its arguments alone.
 SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed, std::uint32_t cell);
 
 }  // namespace albtpu

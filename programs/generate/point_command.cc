@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -222,7 +223,13 @@ absl::Status RunPoint(const PointOptions& options) {
       std::cerr << "albtpu-generate: " << sentence << '\n';
   }
   const auto start = std::chrono::steady_clock::now();
-  const SeaCaseResult result = Simulate(SeaCaseAt(options, sea), effort, options.seed, 0);
+  const SeaCase sea_case = SeaCaseAt(options, sea);
+  RETURN_IF_ERROR(CheckTraceable(sea_case));
+  const SeaCaseResult result = Simulate(sea_case, effort, options.seed, 0);
+  if (!std::all_of(result.beams.begin(), result.beams.end(), IsFinite)) {
+    return absl::InternalError(
+        "values are not finite (rays met waves from behind); give a smaller incidence or a weaker wind");
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.converged) {
     std::fprintf(stderr,

@@ -159,6 +159,16 @@ TEST(Campaign, StopsAtItsRealizationsWithoutARelativeError) {
   EXPECT_EQ(campaign->effort.most_realizations, 50);
 }
 
+TEST(Campaign, RefusesBeamsThatItsStrongestWindCannotBeTracedWith) {
+  const std::string slanted = Replaced(kSmall, "[0, 20]", "[0, 60]"), windy = Replaced(slanted, "[3, 6]", "[3, 15]");
+  EXPECT_TRUE(ParseCampaign(Replaced(slanted, "[3, 6]", "[1, 3]")).ok());
+  EXPECT_THAT(ErrorOf(windy), StartsWith("the sea of the strongest wind, 15 m/s: waves hide behind each other at an "
+                                         "incidence of 60 degrees"));
+  EXPECT_THAT(ErrorOf(windy), HasSubstr("give at most 43.4 degrees"));
+  EXPECT_THAT(ErrorOf(std::string(kSmall) + "[beam]\nsource_height = 1\n"),
+              HasSubstr("a point source at a height of 1 m stands below crests"));
+}
+
 TEST(Campaign, RefusesATextThatCouldNestTooDeeply) {
   std::string key = "a";
   while (key.size() < 32000) key += ".a";

@@ -81,6 +81,27 @@ TEST(TableMaker, StatesHowItTraced) {
   EXPECT_EQ(estimator(*Make(*ParseCampaign(text))), "plain");
 }
 
+TEST(TableMaker, RefusesValuesThatAreNotFinite) {
+  const Campaign campaign = TwoSeas();
+  TableBuilder builder(campaign);
+  const auto status_of = [&](const SeaCaseResult& result) {
+    return builder.Add({UnitKind::kSeaCase, 0},
+                       SealUnit({UnitKind::kSeaCase, 0}, OriginOf(campaign), EncodeResult(result)));
+  };
+  const std::vector<Estimate> depths(2);
+  SeaCaseResult result;
+  result.beams.assign(4, {{}, {}, depths, depths, depths, depths});
+  EXPECT_TRUE(status_of(result).ok());
+  result.beams[2].tvu[1].standard_error = NAN;
+  EXPECT_THAT(std::string(status_of(result).message()), ::testing::HasSubstr("not finite"));
+
+  std::vector<Estimate> checked(kChecked.size());
+  checked[1].value = NAN;
+  const UnitId pulse{UnitKind::kPulse, 0};
+  EXPECT_THAT(std::string(builder.Add(pulse, SealUnit(pulse, OriginOf(campaign), EncodeEstimates(checked))).message()),
+              ::testing::HasSubstr("not finite"));
+}
+
 // In water from which no photon comes back.
 TEST(TableMaker, ComparesNoBeamWhoseEchoHasNoClearEnd) {
   const Campaign campaign = *ParseCampaign(R"(id = "water"

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "generator/campaign/unit.h"
 #include "sea/response/closed_form.h"
 #include "tests/degree.h"
@@ -143,6 +144,33 @@ TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
   const BeamUncertainty collimated = Simulate(survey, Exactly(1500), 1, 1).beams[0];
   // The mean direction has the same response to the mean slope; the divergence of 0.03 rad is a second-order effect.
   ExpectWithinErrors(diverging.refraction_along_wind, collimated.refraction_along_wind);
+}
+
+// Slopes of 3 standard deviations turn away from the beam at an incidence of atan(1 / (3 deviations)).
+TEST(CheckTraceable, RefusesBeamsAtWhichWavesHideEachOther) {
+  SeaCase sea_case = ModerateSea({{}});
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 15};
+  const Eigen::Matrix2d slopes = SlopeCovariance(SeaState(sea_case.sea));
+  for (const int axis : {0, 1}) {
+    const double steepest = std::atan(1 / (3 * std::sqrt(slopes(axis, axis))));
+    sea_case.beams = {{.incidence = 0.999 * steepest, .azimuth = axis * 90 * kDegree, .footprint = 1}};
+    EXPECT_TRUE(CheckTraceable(sea_case).ok());
+    sea_case.beams.push_back({.incidence = 1.001 * steepest, .azimuth = axis * 90 * kDegree, .footprint = 1});
+    EXPECT_TRUE(absl::IsInvalidArgument(CheckTraceable(sea_case)));
+  }
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 0};
+  EXPECT_TRUE(CheckTraceable(sea_case).ok());
+}
+
+TEST(CheckTraceable, RefusesPointSourcesBelowCrests) {
+  SeaCase sea_case = ModerateSea({{.footprint = 1}});
+  const double crests = 6 * std::sqrt(ElevationVariance(SeaState(sea_case.sea)));
+  sea_case.beams[0].source_height = 1.001 * crests;
+  EXPECT_TRUE(CheckTraceable(sea_case).ok());
+  sea_case.beams[0].source_height = 0.999 * crests;
+  const std::string message(CheckTraceable(sea_case).message());
+  for (const double named : {0.999 * crests, crests / 6, crests})
+    EXPECT_NE(message.find(absl::StrFormat("%.3g", named)), std::string::npos) << message;
 }
 
 TEST(MonteCarlo, RecordsTheDiscretization) {

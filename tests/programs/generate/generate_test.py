@@ -231,6 +231,13 @@ class Point(GenerateTest):
                 del arguments[at:at + 2]
             self.assertIn(flag, self.refused(2, *arguments, f"{flag}={value}"))
 
+    def test_refuses_beams_at_which_waves_hide_each_other(self):
+        beam = ("point", "--wind-speed", "15", "--footprint", "0.6", "--depth", "10", "--incidence")
+        said = self.refused(1, *beam, "60")
+        for expected in ("60 degrees", "standard deviation of 0.352", "give at most 43.4 degrees"):
+            self.assertIn(expected, said)
+        self.assert_succeeds(generate(*beam, "43.4", "--relative-error", "0.5"))
+
     def test_fails_if_standard_output_cannot_be_written(self):
         with open("/dev/full", "w") as full:
             result = generate(*POINT, "--json", stdout=full)
