@@ -96,7 +96,8 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   place.remark = crs.remark;
   // Points on both sides of 180 degrees of longitude: the middle of their box is on the other side of the earth.
   const formats::LasHeader& header = reader.header();
-  if (header.point_count > 0 && header.greatest[0] - header.least[0] > place.map->turn() / 2 && place.map->turn() > 0) {
+  const double turn = place.map->turn();
+  if (header.point_count > 0 && turn > 0 && header.greatest[0] - header.least[0] > turn / 2) {
     ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
     middle.x = formats::LasPointFields(header).X(record);
   }

@@ -15,7 +15,7 @@ struct LocalFrame {
   double origin_x = 0, origin_y = 0;  // In the horizontal unit of the points.
   double metres_per_x = 1, metres_per_y = 1;
   double metres_per_z = 1;  // Of the vertical unit.
-  double north_per_x = 0;   // As of SensorPosition.
+  double north_per_x = 0;   // As of MapMetric.
   double turn = 0;          // Of longitudes, in which x repeats; 0 on a map.
   // True azimuth = grid azimuth + convergence: rad at the origin, and rad per metre along x and y. It is about
   // (longitude - central meridian) sin(latitude): 15 km from the origin, a straight line leaves 1e-5 rad of it out.
@@ -30,7 +30,10 @@ struct LocalFrame {
     const double dx = Difference(x, origin_x);
     return {dx * metres_per_x, (y - origin_y) * metres_per_y + dx * north_per_x};
   }
-  Eigen::Vector3d At(double x, double y, double z) const { return {At(x, y).x(), At(x, y).y(), Z(z)}; }
+  Eigen::Vector3d At(double x, double y, double z) const {
+    const Eigen::Vector2d at = At(x, y);
+    return {at.x(), at.y(), Z(z)};
+  }
   double Z(double z) const { return z * metres_per_z; }
 
   // The inverse of At; longitudes lie within half a turn of the origin.
