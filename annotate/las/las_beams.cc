@@ -277,19 +277,17 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
     RETURN_IF_ERROR(Scan(reader, annotation));
     if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_); !axis.empty()) {
       return absl::FailedPreconditionError(absl::StrCat(
-          reader.name(),
-          ": the bounds in its header are those of its points with another offset or scale "
-          "of ",
-          axis, ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_),
+          reader.name(), ": the bounds in its header are those of its points with another offset or scale of ", axis,
+          ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_),
           "); correct the header, or its bounds alone if the points are right"));
     }
     if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_); !wrong.empty()) {
       notes_.push_back(absl::StrCat("the header states bounds that the points do not have (", wrong,
                                     "); those of the points are used"));
       const std::array<double, 3>&least = prescan_.all.least, &greatest = prescan_.all.greatest;
-      ASSIGN_OR_RETURN(
-          place_,
-          PlaceOf(reader, plan, formats::MapPosition{(least[0] + greatest[0]) / 2, (least[1] + greatest[1]) / 2}));
+      formats::MapPosition middle = {(least[0] + greatest[0]) / 2, (least[1] + greatest[1]) / 2};
+      if (place_.map != nullptr && IsSplit(*place_.map, least[0], greatest[0])) middle.x = greatest[0];
+      ASSIGN_OR_RETURN(place_, PlaceOf(reader, plan, middle));
       RETURN_IF_ERROR(Scan(reader, annotation));
     }
     if (prescan_.synthetic_surface > 0)

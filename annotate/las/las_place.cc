@@ -69,6 +69,10 @@ absl::StatusOr<formats::MapPosition> StatedMiddle(const formats::LasReader& read
 
 }  // namespace
 
+bool IsSplit(const formats::MapFrame& map, double least_x, double greatest_x) {
+  return map.turn() > 0 && greatest_x - least_x > map.turn() / 2;
+}
+
 absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPlan& plan,
                                  std::optional<formats::MapPosition> given) {
   formats::MapPosition middle;
@@ -94,10 +98,8 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
   }
   if (place.map == nullptr) return place;
   place.remark = crs.remark;
-  // Points on both sides of 180 degrees of longitude: the middle of their box is on the other side of the earth.
   const formats::LasHeader& header = reader.header();
-  const double turn = place.map->turn();
-  if (header.point_count > 0 && turn > 0 && header.greatest[0] - header.least[0] > turn / 2) {
+  if (!given.has_value() && header.point_count > 0 && IsSplit(*place.map, header.least[0], header.greatest[0])) {
     ASSIGN_OR_RETURN(const std::string record, formats::FirstRecord(reader));
     middle.x = formats::LasPointFields(header).X(record);
   }

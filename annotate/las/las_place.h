@@ -19,6 +19,10 @@ struct LasPlace {
   std::string remark;                            // For the user, about the coordinate system; may be empty.
 };
 
+// Whether points that span these x lie on both sides of 180 degrees of longitude, because no file spans half of the
+// earth: then the middle of the span is on its other side.
+bool IsSplit(const formats::MapFrame& map, double least_x, double greatest_x);
+
 // The place of a file whose middle is at `middle`; absent: in the middle of the box that the header states, true or
 // not, or where the first point is if that lies outside of the box. The vertical unit is that of the plan, or that of
 // the coordinate system, or metres. Fails when the coordinate system is in feet without saying whether heights are, and

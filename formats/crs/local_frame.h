@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <optional>
 
 #include "formats/crs/map_frame.h"
@@ -23,7 +22,7 @@ struct LocalFrame {
   Eigen::Vector2d convergence_slope = Eigen::Vector2d::Zero();
 
   // x - from; of longitudes, the short way round.
-  double Difference(double x, double from) const { return turn > 0 ? std::remainder(x - from, turn) : x - from; }
+  double Difference(double x, double from) const { return DifferenceOfX(x, from, turn); }
 
   // m to grid east and grid north of the origin.
   Eigen::Vector2d At(double x, double y) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -51,6 +52,11 @@ struct MapMetric {
   double north_per_x = 0;  // 0 of a conformal projection, such as UTM: x and y are perpendicular on the ground.
   double convergence = 0;  // rad; true azimuth = grid azimuth + convergence.
 };
+
+// x - from; of longitudes, which repeat after `turn`, the short way round. `turn` is 0 on a map, where nothing repeats.
+inline double DifferenceOfX(double x, double from, double turn) {
+  return turn > 0 ? std::remainder(x - from, turn) : x - from;
+}
 
 // Immutable; any number of threads may use it at a time.
 class MapFrame {

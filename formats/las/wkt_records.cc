@@ -68,7 +68,8 @@ double Apart(const MapFrame& one, const MapFrame& other, const MapPosition& at) 
   if (!position.has_value() || one.is_geographic() != other.is_geographic()) return HUGE_VAL;
   const MapPosition again = other.Project(*position);
   const MapMetric metric = one.MetricAt(*position);
-  const double apart = std::hypot((again.x - at.x) * metric.metres_per_x, (again.y - at.y) * metric.metres_per_y);
+  const double dx = DifferenceOfX(again.x, at.x, one.turn());
+  const double apart = std::hypot(dx * metric.metres_per_x, (again.y - at.y) * metric.metres_per_y);
   return std::isfinite(apart) ? apart : HUGE_VAL;
 }
 

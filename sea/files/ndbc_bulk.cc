@@ -108,9 +108,9 @@ class NdbcBulkReader {
   // Stations on the coast measure no waves.
   absl::Status TakeWinds() {
     if (without_period_ > 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("none of its records has a period (DPD) with the height of its waves, up to ",
-                       highest_without_period_, " m; give a file that has periods, or --hs, --tp and --waves-from"));
+      return absl::InvalidArgumentError(absl::StrCat(
+          "none of its records has a period (DPD) of at most ", kLongestPeak, " s with the height of its waves, up to ",
+          highest_without_period_, " m; give a file that has periods, or --hs, --tp and --waves-from"));
     }
     is_of_winds_ = !winds_.empty();
     series_.records = std::exchange(winds_, {});

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cmath>
+#include <cstring>
+
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 
@@ -52,6 +56,28 @@ TEST(LasPlace, MeasuresDegreesInMetres) {
   // 111 132.92 - 559.82 cos 2p + 1.175 cos 4p = 110 805 m, to 1 m.
   EXPECT_NEAR(place->frame.metres_per_x, 99167, 2);
   EXPECT_NEAR(place->frame.metres_per_y, 110805, 2);
+}
+
+// The middle of the bounds of the points is on the other side of the earth; so is that of bounds that are wrong.
+TEST(LasPlace, LiesAmongPointsOnBothSidesOfTheAntimeridian) {
+  LasSpec spec = InDegrees();
+  spec.points = {{.x = 1799990000, .y = -168000000, .classification = albtpu::testing::kSurface},
+                 {.x = -1799990000, .y = -168000000, .classification = albtpu::testing::kSurface}};
+  spec.vlrs = {{"LASF_Projection", 34735, albtpu::testing::GeoKeys({{2048, 4326}})}};
+  const std::string right = BuildLas(spec);
+  std::string wrong = right;
+  const std::array<double, 4> bounds = {20, 5, 5, 1};  // Greatest and least x, greatest and least y.
+  std::memcpy(&wrong[179], bounds.data(), sizeof bounds);
+  LasAnnotation annotation;
+  annotation.plan.source = ConstantIncidence();
+  annotation.plan.water_classes = {albtpu::testing::kSurface};
+  const TemporaryFolder folder;
+  for (const std::string& file : {right, wrong}) {
+    const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(folder.Write("in.las", file));
+    const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
+    ASSERT_TRUE(beams.ok()) << beams.status();
+    EXPECT_NEAR(std::abs((*beams)->place().frame.origin_x), 179.999, 1e-9);
+  }
 }
 
 }  // namespace

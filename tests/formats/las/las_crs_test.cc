@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "formats/las/wkt_records.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/temporary_folder.h"
 
@@ -122,6 +123,22 @@ TEST(LasCrs, TakesTheRecordThatTheHeaderNamesAndRemarksContradictions) {
     EXPECT_NEAR(crs->metres_per_height_unit.value_or(0), each.height_unit, 1e-9) << which;
     EXPECT_EQ(crs->remark.empty(), !each.remarked) << which << crs->remark;
   }
+}
+
+// Longitudes from 0 to 360, of which PROJ makes -180 to 180.
+TEST(LasCrs, FindsNoContradictionInLongitudesTo360) {
+  const auto map = *MapFrame::Create("in.las", {.user = "EPSG:4326"});
+  for (const double x : {-160., 179., 200.}) EXPECT_LT(Apart(*map, *map, {x, -16.8}), 1e-6) << x;
+  const albtpu::testing::TemporaryFolder folder;
+  albtpu::testing::LasSpec spec;
+  spec.points.resize(1);
+  spec.vlrs = {{"LASF_Projection", 2112, map->wkt()},
+               {"LASF_Projection", 34735, GeoKeys({{2048, 4326}, {4099, 9003}})}};
+  const absl::StatusOr<LasReader> reader = LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+  const absl::StatusOr<LasCrs> crs = CrsOf(*reader, "", {200, -16.8});
+  ASSERT_TRUE(crs.ok()) << crs.status();
+  EXPECT_DOUBLE_EQ(crs->metres_per_height_unit.value_or(0), 1200.0 / 3937);
+  EXPECT_EQ(crs->remark, "");
 }
 
 std::string WithReplaced(std::string text, const std::string& what, const std::string& by) {

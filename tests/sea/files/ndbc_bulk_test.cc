@@ -110,7 +110,7 @@ TEST(NdbcMeteorology, DoesNotTakeWavesWithoutAPeriodForNone) {
       "#yr  mo dy hr mn degT m/s  m/s     m   sec   sec degT   hPa  degC\n";
   const std::string without = "2026 07 31 12 00  90  8.0  9.0   2.5 99.00  5.90 191 1021.2    MM\n";
   EXPECT_THAT(std::string(ReadNdbcBulk(columns + without).status().message()),
-              HasSubstr("a period (DPD) with the height of its waves, up to 2.5 m"));
+              HasSubstr("a period (DPD) of at most 25 s with the height of its waves, up to 2.5 m"));
   const auto series =
       ReadNdbcBulk(columns + without + "2026 07 31 11 00  90  8.0  9.0   1.2     7   6.6 191 1021.2    MM\n");
   ASSERT_TRUE(series.ok()) << series.status();
