@@ -28,7 +28,9 @@ std::string MutateBytes(std::string bytes, std::size_t most) {
 
 // HDF5 asks for as much memory as a damaged file states; if it gets none, it fails to read. What is asked for by `new`
 // is a fault all the same.
-extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1:max_allocation_size_mb=2048"; }
+constexpr char kAllocatorOptions[] = "allocator_may_return_null=1:max_allocation_size_mb=2048";
+extern "C" const char* __asan_default_options() { return kAllocatorOptions; }
+extern "C" const char* __tsan_default_options() { return kAllocatorOptions; }
 
 // Is called first. The program is NAME_fuzz.
 extern "C" int LLVMFuzzerInitialize(int*, char*** arguments) {
