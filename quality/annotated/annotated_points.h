@@ -74,6 +74,7 @@ struct AnnotatedPoint {
   float incidence = 0, beam_azimuth = 0;  // degree; clockwise from north, where the beam travels to.
   float footprint = 0;                    // m
   float depth = 0;
+  float tvu_footprint = 0;  // Of a dry point, with --terrain-slope.
 };
 
 // A point whose beam met no water before it, with a total of the air side.
@@ -83,6 +84,7 @@ struct DryPoint {
   bool of_water_surface = false, of_ground = false, of_bottom = false;
   float variance_horizontal = 0;  // m^2 at 1 sigma, of both axes together.
   float variance_vertical = 0;    // Of the total: with --terrain-slope that of the height at a fixed place.
+  float variance_footprint = 0;   // The part of it that the spread of the footprint over the slope adds.
   AnnotatedPoint point = {};      // All of it; without a depth.
 };
 

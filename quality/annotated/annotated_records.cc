@@ -49,7 +49,8 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"beam_azimuth", &AnnotatedPoint::beam_azimuth},
                                 FloatOfPoint{"footprint", &AnnotatedPoint::footprint},
-                                FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
+                                FloatOfPoint{"water_depth", &AnnotatedPoint::depth},
+                                FloatOfPoint{"tvu_footprint", &AnnotatedPoint::tvu_footprint, true}};
 
 constexpr float kGreatest = 1e6F;  // m or m^2; larger values are not plausible.
 
@@ -145,7 +146,8 @@ class AnnotatedLasFile::PointMaker {
   static void TakeKnown(AnnotatedPoint& point) {
     for (float AnnotatedPoint::*const length :
          {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
-          &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+          &AnnotatedPoint::tvu_extra, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line,
+          &AnnotatedPoint::tvu_footprint})
       point.*length = KnownOrZero(point.*length, false);
     for (float AnnotatedPoint::*const bias :
          {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,
@@ -156,17 +158,21 @@ class AnnotatedLasFile::PointMaker {
   void AddDry(std::string_view record, int point_class, MadePoints& made) const {
     AnnotatedPoint dry;
     Read(record, dry);
-    const auto sigma = static_cast<float>(dry.tvu / VerticalFactor(file_.coverage_));
     if (!(IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))) return;
     TakeKnown(dry);
     dry.depth = 0;
     dry.has_number = IsKnown(dry.variance_z);
+    const auto variance = [&](float length) {
+      const auto sigma = static_cast<float>(length / VerticalFactor(file_.coverage_));
+      return sigma * sigma;
+    };
     made.dry.push_back({.point_class = point_class,
                         .of_water_surface = water_surface_.contains(point_class),
                         .of_ground = formats::IsGround(point_class, file_.reader_.header().point_format),
                         .of_bottom = wanted_[point_class],
                         .variance_horizontal = dry.variance_x + dry.variance_y,
-                        .variance_vertical = sigma * sigma,
+                        .variance_vertical = variance(dry.tvu),
+                        .variance_footprint = variance(dry.tvu_footprint),
                         .point = dry});
   }
 

@@ -147,8 +147,8 @@ std::string PointCheckText(const PointCheck& check) {
   std::string text =
       absl::StrFormat("%s\n%d check points, surface less check point in m", Conclusion(check), all.points);
   if (check.without_surface() > 0)
-    absl::StrAppendFormat(&text, "; no points there (fewer than %d within %g m): %d more", kFewestPoints, check.radius,
-                          check.without_surface());
+    absl::StrAppendFormat(&text, "; no surface there (fewer than %d points within %g m, or all on one line): %d more",
+                          kFewestPoints, check.radius, check.without_surface());
   absl::StrAppendFormat(&text, "\n%-16s%7s%9s%9s%8s %-16s%7s%8s %-14s%7s\n", "", "points", "mean", "std.dev", "RMSE",
                         "95 % interval", "95 %", "z^2", "95 % interval", "in TVU");
   absl::StrAppend(&text, Row("all", all));
@@ -197,7 +197,7 @@ std::string PointCheckCsv(const PointCheck& check) {
                     Number(sigma), ",", Number((d.difference - d.bias) / sigma), ",", Number(std::sqrt(lidar)), ",",
                     Number(std::sqrt(std::max(d.variance() - d.own - d.survey * d.survey, 0.0))), ",", Number(d.survey),
                     ",", Number(std::sqrt(std::max(d.own - lidar, 0.0))), ",", Number(d.tvu), ",", WetOrDry(next->wet),
-                    ",", Number(next->node.depth), ",", next->node.points, ",", variance.passes, "\n");
+                    ",", next->wet ? Number(next->node.depth) : "", ",", next->node.points, ",", variance.passes, "\n");
     ++next;
   }
   return text;

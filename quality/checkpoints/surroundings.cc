@@ -62,23 +62,35 @@ absl::Status GatherAround(const std::vector<AnnotatedLasFile>& files, const Chec
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
     ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, seas));
-    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(gathered.facts, sea, GroupsOf(file)));
-    const auto add = [&](const AnnotatedPoint& point, std::vector<SurfacePoint> PointsAround::*kind) {
+    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(gathered.facts, sea, GroupsOf(file, false)));
+    const HorizontalGroups dry_groups = GroupsOf(file, true);
+    ASSIGN_OR_RETURN(const std::uint16_t dry_source, AddSource(gathered.facts, sea, dry_groups));
+    const double to_95 = VerticalFactor(Coverage::kP95) / VerticalFactor(file.coverage());
+    const auto add = [&](const AnnotatedPoint& point, const auto& take) {
       if (!point.has_number) return;
       gathered.box.Add(point.x, point.y);
       gathered.times.Add(point.line, point.time);
-      finder.ForEachNear(point.x, point.y, [&](std::size_t i) {
-        (gathered.around[i].*kind).push_back(SurfacePointOf(point, file.coverage(), source));
+      finder.ForEachNear(point.x, point.y, [&](std::size_t i) { take(gathered.around[i]); });
+    };
+    const auto add_wet = [&](const AnnotatedPoint& point) {
+      add(point, [&](PointsAround& around) {
+        around.wet.push_back(SurfacePointOf(point, file.coverage(), source));
+        around.wet_tvu += to_95 * point.tvu;
+      });
+    };
+    const auto add_dry = [&](const DryPoint& dry) {
+      add(dry.point, [&](PointsAround& around) {
+        around.dry.push_back(DrySurfacePointOf(dry, file.coverage(), dry_groups, dry_source));
+        around.dry_tvu += to_95 * dry.point.tvu;
       });
     };
     ASSIGN_OR_RETURN(const LeftOutPoints of_file, file.ForEach(
                                                       progress,
                                                       [&](std::span<const AnnotatedPoint> points) {
-                                                        for (const AnnotatedPoint& point : points)
-                                                          add(point, &PointsAround::wet);
+                                                        for (const AnnotatedPoint& point : points) add_wet(point);
                                                       },
                                                       [&](const DryPoint& dry) {
-                                                        if (dry.of_ground) add(dry.point, &PointsAround::dry);
+                                                        if (dry.of_ground) add_dry(dry);
                                                       }));
     gathered.left_out.Add(of_file);
   }
@@ -114,12 +126,6 @@ std::size_t InBoth(const std::vector<SurfacePoint>& a, const std::vector<Surface
   return both;
 }
 
-double MeanTvu(const std::vector<SurfacePoint>& points) {
-  double sum = 0;
-  for (const SurfacePoint& p : points) sum += 2 * kFactor95 * std::sqrt(double{p.pulse} + p.sea + p.line + p.survey);
-  return sum / static_cast<double>(points.size());
-}
-
 }  // namespace
 
 void PlaneBox::Add(double x, double y) {
@@ -141,7 +147,7 @@ std::vector<SurfaceAtPoint> SurfacesOf(const std::vector<CheckPoint>& points, st
     surface.node = NodeOfCircle(taken, points[i].x, points[i].y, radius, metres_per_unit, sources, of_node);
     if (surface.node.points == 0) continue;
     surface.lines = OncePerLine(of_node);
-    surface.tvu = MeanTvu(taken);
+    surface.tvu = (wet ? around[i].wet_tvu : around[i].dry_tvu) / static_cast<double>(taken.size());
     for (std::size_t j = 0; j < found.size(); ++j) {
       const CheckPoint& other = points[found[j].point];
       if (std::hypot(other.x - points[i].x, other.y - points[i].y) >= 2 * radius / metres_per_unit) continue;

@@ -38,6 +38,7 @@ struct SurfaceAtPoint {
 // The points of the survey within the radius of a check point, with the numbers of their lines.
 struct PointsAround {
   std::vector<SurfacePoint> wet, dry;
+  double wet_tvu = 0, dry_tvu = 0;  // Sums of the points' own, m, at 95 %.
 };
 
 // Of `around`, by check point, whose points it brings into order. `sources` are for cells of SideOfCircle(radius).

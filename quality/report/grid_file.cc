@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "annotate/answers/batch.h"
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 
 namespace albtpu::quality {
 namespace {

@@ -47,7 +47,7 @@ Json NodesOf(const Json& surface, const std::string& order, double pass_share) {
           {"nodes", nodes},
           {"meeting", meeting},
           {"fraction", fraction},
-          {"passes", 100 * fraction >= pass_share}};
+          {"passes", nodes > 0 && Reach(meeting, nodes, pass_share)}};
 }
 
 }  // namespace albtpu::quality

@@ -1,6 +1,7 @@
 // The verdict by the nodes of a surface, beside that by points.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,12 @@
 #include "quality/annotated/annotated_points.h"
 
 namespace albtpu::quality {
+
+// Whether `part` of `whole` are `percent` of it or more, also where a percentage is no binary fraction.
+inline bool Reach(std::uint64_t part, std::uint64_t whole, double percent) {
+  constexpr double kRounding = 1e-12;
+  return 100 * static_cast<double>(part) >= percent * static_cast<double>(whole) * (1 - kRounding);
+}
 
 // `surface` is surface.json of `albtpu-query surface`, or null. FailedPrecondition where it is of other files, or of
 // other annotations of them.

@@ -183,6 +183,7 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   if (tile == nullptr) return;
   const auto within = [](std::int64_t index) { return static_cast<std::size_t>(index - TileOf(index) * kTile); };
   const std::size_t blocks = tile->blocks();
+  if (blocks == 0) tile->base = point.z;
   GridCell& cell = tile->At(tile->PlaceOf(within(row) * kTile + within(column)));
   bytes_ += (tile->blocks() - blocks) * sizeof(Tile::Block);
   ++cell.points;
@@ -193,7 +194,7 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   const auto take = [count = static_cast<double>(cell.with_number)](double value, float& mean) {
     mean += static_cast<float>((value - mean) / count);
   };
-  take(point.z, cell.elevation);
+  take(point.z - tile->base, cell.elevation);
   take(point.depth, cell.depth);
   take(point.thu, cell.thu);
   take(point.tvu, cell.tvu);
@@ -244,9 +245,12 @@ void SurveyGrid::Strip(std::size_t strip, std::vector<GridCell>& cells) const {
     const auto found = tiles_.find(KeyOf(column, row));
     if (found == tiles_.end()) continue;
     const std::size_t west = static_cast<std::size_t>(column - min_column_) * kTile;
-    for (std::size_t i = 0; i < Tile::kCells; ++i)
-      if (const GridCell* cell = found->second->Find(i); cell != nullptr)
-        cells[i / kTile * columns() + west + i % kTile] = *cell;
+    for (std::size_t i = 0; i < Tile::kCells; ++i) {
+      const GridCell* const stored = found->second->Find(i);
+      if (stored == nullptr) continue;
+      GridCell& cell = cells[i / kTile * columns() + west + i % kTile] = *stored;
+      if (cell.with_number > 0) cell.elevation = static_cast<float>(found->second->base + cell.elevation);
+    }
   }
 }
 

@@ -141,6 +141,8 @@ class SurveyGrid {
     std::size_t PlaceOf(std::size_t cell);  // Makes one where there is none.
     std::size_t blocks() const { return blocks_.size(); }
 
+    double base = 0;  // m; elevations of cells are above it: a float holds a height of 4000 m to 0.2 mm alone.
+
    private:
     std::array<std::uint16_t, kCells> places_ = {};  // Plus 1, in the order of the first points.
     std::uint16_t used_ = 0;

@@ -153,7 +153,7 @@ class Reporter {
     return {{"factor", check->factor.value},
             {"meeting", meeting},
             {"fraction", fraction},
-            {"passes", 100 * fraction >= options_.pass_share}};
+            {"passes", Reach(meeting, all_.points(), options_.pass_share)}};
   }
 
   // When the points were measured; null where their times have no dates.
@@ -182,7 +182,7 @@ class Reporter {
                  {"meeting", meeting},
                  {"fraction", fraction},
                  {"pass_share", options_.pass_share},
-                 {"passes", 100 * fraction >= options_.pass_share},
+                 {"passes", Reach(meeting, all_.points(), options_.pass_share)},
                  {"without_number", OutcomesWithoutNumber(files_, all_.points() - all_.with_number())},
                  {"failing", {{"points", failing_.points}, {"largest_share", Json::object()}}}};
     for (std::size_t i = 0; i < failing_.largest.size(); ++i)

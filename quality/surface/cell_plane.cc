@@ -5,11 +5,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "sea/angle.h"
+#include "tables/coverage.h"
+
 namespace albtpu::quality {
 namespace {
 
 constexpr double kOfMedianDeviation = 1.4826;  // From a median deviation to a standard one, of normal errors.
 constexpr int kPartsOfCircle = 3;              // Squares along its diameter, as the cells around a node.
+
+// At a fixed place: a point that is moved to where the bottom is higher tells too small a height there.
+double BiasOfHeight(const SurfacePoint& point, const Eigen::Vector2d& slope) {
+  const double azimuth = RadiansOfDegrees(point.azimuth);
+  return point.bias - point.bias_along_beam * slope.dot(Eigen::Vector2d(std::sin(azimuth), std::cos(azimuth)));
+}
 
 }  // namespace
 
@@ -57,12 +66,12 @@ SurfaceNode NodeOf(const CellPoints& cell, std::span<const char> kept, const Pla
     const SurfacePoint& point = cell.points[i];
     middle += cell.places[i];
     mean += point.z;
-    node.bias += point.bias;
+    node.bias += BiasOfHeight(point, plane.slope);
     if (point.dry())
       ++node.dry;
     else
       node.depth += point.depth;
-    node.thu += point.thu;
+    node.thu += static_cast<float>(HorizontalRadius(point.xx, point.yy, point.xy).At(Coverage::kP95));
     if (!(point.z <= node.shoalest)) {
       node.shoalest = point.z;
       node.shoalest_sigma = std::sqrt(double{point.pulse} + point.sea + point.line + point.survey);

@@ -39,11 +39,10 @@ absl::Status CheckWater(const AnnotatedLasFile& first, const AnnotatedLasFile& f
 
 }  // namespace
 
-HorizontalGroups GroupsOf(const AnnotatedLasFile& file) {
+HorizontalGroups GroupsOf(const AnnotatedLasFile& file, bool dry) {
   const Json& answers = file.summary()["answers"];
-  const Json all = MemberOf(MemberOf(answers, "total"), "all");
-  // Without a total of bathymetric points, the groups are those of dry ones.
-  const Json groups = MemberOf(all.is_object() ? all : MemberOf(answers, "dry"), "groups_horizontal");
+  const Json all = dry ? MemberOf(answers, "dry") : MemberOf(MemberOf(answers, "total"), "all");
+  const Json groups = MemberOf(all, "groups_horizontal");
   const auto fraction = [](const Json& shares, const char* name) {
     const Json number = MemberOf(shares, name);
     return number.is_number() ? number.get<double>() : 0.0;
@@ -73,29 +72,24 @@ SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std:
   of.xx = point.variance_x, of.yy = point.variance_y, of.xy = point.covariance_xy;
   of.xz = point.covariance_xz, of.yz = point.covariance_yz;
   of.incidence = point.incidence, of.azimuth = point.beam_azimuth, of.footprint = point.footprint;
-  of.depth = point.depth, of.bias = point.bias_vertical;
-  of.thu =
-      static_cast<float>(HorizontalRadius(point.variance_x, point.variance_y, point.covariance_xy).At(Coverage::kP95));
+  of.depth = point.depth, of.bias = point.bias_vertical, of.bias_along_beam = point.bias_along_beam;
   of.flight_line = static_cast<std::uint16_t>(point.line);
   of.source = source;
   return of;
 }
 
-namespace {
-
 SurfacePoint DrySurfacePointOf(const DryPoint& dry, Coverage coverage, const HorizontalGroups& groups,
                                std::uint16_t source) {
   SurfacePoint of = SurfacePointOf(dry.point, coverage, source);
   of.depth = NAN;
-  // With --terrain-slope the groups are those of the height at a fixed place. A node has a slope of its own.
-  const double by_slope = dry.variance_vertical - dry.point.variance_z;
-  of.pulse = std::max(of.pulse - static_cast<float>(groups.pulse * by_slope), 0.F);
+  // With --terrain-slope the groups are those of the height at a fixed place, with the spread of the footprint in that
+  // of the pulse. A node has a slope of its own.
+  const double by_slope = dry.variance_vertical - dry.variance_footprint - dry.point.variance_z;
+  of.pulse = std::max(of.pulse - static_cast<float>(dry.variance_footprint + groups.pulse * by_slope), 0.F);
   of.line = std::max(of.line - static_cast<float>(groups.line * by_slope), 0.F);
   of.survey = std::max(dry.point.variance_z - of.pulse - of.line, 0.F);
   return of;
 }
-
-}  // namespace
 
 SurfaceMap MapOf(const AnnotatedLasFile& file) {
   return {.crs_name = file.crs_name(),
@@ -122,8 +116,12 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
   for (const AnnotatedLasFile& file : files) {
     progress.NextFile();
     ASSIGN_OR_RETURN(const SeaOfSource sea, SeaOfFile(file, options.seas));
-    const HorizontalGroups groups = GroupsOf(file);
-    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, groups));
+    ASSIGN_OR_RETURN(const std::uint16_t source, AddSource(facts, sea, GroupsOf(file, false)));
+    const HorizontalGroups dry_groups = GroupsOf(file, true);
+    std::uint16_t dry_source = source;
+    if (options.land) {
+      ASSIGN_OR_RETURN(dry_source, AddSource(facts, sea, dry_groups));
+    }
     RETURN_IF_ERROR(CheckWater(files.front(), file, facts));
     const bool has_dates = file.has_dates();
     const auto add = [&](const SurfacePoint& point) {
@@ -137,7 +135,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     const AnnotatedLasFile::VisitDry add_dry = [&](const DryPoint& dry) {
       if (!dry.point.has_number || !(dry.of_bottom || dry.of_ground)) return;
       ++*facts.dry;
-      add(DrySurfacePointOf(dry, facts.coverage, groups, source));
+      add(DrySurfacePointOf(dry, facts.coverage, dry_groups, dry_source));
     };
     ASSIGN_OR_RETURN(const LeftOutPoints of_file,
                      file.ForEach(
@@ -152,8 +150,7 @@ absl::StatusOr<SurfacePart> GatherPoints(const std::vector<AnnotatedLasFile>& fi
     facts.left_out.Add(of_file);
     facts.files.push_back(NameOf(file));
     facts.summary_digests.push_back(file.summary_digest());
-    if (facts.map.vertical_name.empty())
-      facts.map.vertical_name = file.vertical_name(), facts.map.vertical_wkt = file.vertical_wkt();
+    facts.map.TakeVertical(file.vertical_name(), file.vertical_wkt());
   }
   RETURN_IF_ERROR(writer.Finish());
   part.points_end = fs::file_size(path);

@@ -96,8 +96,7 @@ absl::StatusOr<JoinedParts> Join(std::vector<SurfacePart>& parts) {
       ASSIGN_OR_RETURN(const std::uint16_t number, AddSource(all, facts.seas[source.sea], source.groups));
       sources.push_back(number);
     }
-    if (all.map.vertical_name.empty())
-      all.map.vertical_name = facts.map.vertical_name, all.map.vertical_wkt = facts.map.vertical_wkt;
+    all.map.TakeVertical(facts.map.vertical_name, facts.map.vertical_wkt);
     all.files.insert(all.files.end(), facts.files.begin(), facts.files.end());
     all.summary_digests.insert(all.summary_digests.end(), facts.summary_digests.begin(), facts.summary_digests.end());
     all.with_number += facts.with_number, all.without_number += facts.without_number;

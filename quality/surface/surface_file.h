@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 #include "quality/surface/surface_tile.h"
 
 namespace albtpu::quality {

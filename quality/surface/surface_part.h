@@ -23,6 +23,11 @@ struct SurfaceMap {
   std::string crs_name, crs_wkt;            // The second is empty if it is not known.
   std::string vertical_name, vertical_wkt;  // Of heights in metres; empty if it is not known.
   double metres_per_unit = 1;               // Of x and y.
+
+  // Of another file of the same datum: the first that is known as a system, or else the first name.
+  void TakeVertical(const std::string& name, const std::string& wkt) {
+    if (vertical_wkt.empty() && (vertical_name.empty() || !wkt.empty())) vertical_name = name, vertical_wkt = wkt;
+  }
 };
 
 // A file that is in a part, so that none is taken twice.

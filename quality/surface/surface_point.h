@@ -20,11 +20,10 @@ struct SurfacePoint {
   // Of the whole error, on the axes of the map, with z up: its other entries.
   float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0;
 
-  float incidence = 0, azimuth = 0;  // degree; the azimuth clockwise from north, where the beam travels to.
-  float footprint = 0;               // m
-  float depth = 0;                   // m, below the water; NaN of a dry point, over which no water lay
-  float bias = 0;                    // m, of the height
-  float thu = 0;                     // m, 95 %
+  float incidence = 0, azimuth = 0;     // degree; the azimuth clockwise from north, where the beam travels to.
+  float footprint = 0;                  // m
+  float depth = 0;                      // m, below the water; NaN of a dry point, over which no water lay
+  float bias = 0, bias_along_beam = 0;  // m, of the height, and towards the azimuth
 
   std::uint16_t flight_line = 0;  // Point source ID. After a pause, another line of the same ID begins.
   std::uint16_t source = 0;       // Of NodeSources.

@@ -7,8 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "quality/grids/bag_metadata.h"
-#include "quality/grids/gdal_raster.h"
+#include "grids/bag_metadata.h"
+#include "grids/gdal_raster.h"
 #include "quality/surface/surface_file.h"
 #include "status/status_macros.h"
 #include "tables/version.h"

@@ -10,7 +10,7 @@
 #include "annotate/answers/json_box.h"
 #include "annotate/seas/sea_timeline.h"
 #include "quality/annotated/annotated_points.h"
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 #include "quality/surface/sea_sharing.h"
 #include "quality/surface/surface_part.h"
 #include "quality/surface/surface_point.h"
@@ -26,11 +26,16 @@ struct SurfaceOptions {
 
 SurfaceMap MapOf(const AnnotatedLasFile& file);
 
-// Of the horizontal variance but for the sea's, in the mean of a file.
-HorizontalGroups GroupsOf(const AnnotatedLasFile& file);
+// Of the horizontal variance but for the sea's, in the mean of a file: of its bathymetric or its dry points.
+HorizontalGroups GroupsOf(const AnnotatedLasFile& file, bool dry);
 
 // Of a point with a number, in a file of that coverage.
 SurfacePoint SurfacePointOf(const AnnotatedPoint& point, Coverage coverage, std::uint16_t source);
+
+// The same of a dry point with a number, without what the slope of the terrain adds to its height. `groups` are those
+// of dry points.
+SurfacePoint DrySurfacePointOf(const DryPoint& dry, Coverage coverage, const HorizontalGroups& groups,
+                               std::uint16_t source);
 
 // Puts the points of files into a part at `path`, which must be new, and is not sealed. Memory does not depend on their
 // number. Of no files the part is empty.

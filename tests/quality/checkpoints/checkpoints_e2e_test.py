@@ -1,7 +1,6 @@
 """albtpu-query checkpoints, from outside: simulated surveys of which the bottom is known, and the statistics again.
 
-The same flight without errors (tests/flights) has its points on the true ground and bottom: these are the check points,
-whose own errors are drawn here. ALBTPU_EVERY_CASE=1 flies 20 surveys instead of one.
+ALBTPU_EVERY_CASE=1 flies 20 surveys instead of one.
 """
 
 import csv
@@ -21,96 +20,12 @@ from scipy.stats import chi2
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "programs/query"))
 
 import programs  # noqa: E402
+from checked_flight import DATUM, POINT_HORIZONTAL, POINT_VERTICAL, RADIUS, Flight  # noqa: E402
 from las_file import LasFile  # noqa: E402
 from programs import query  # noqa: E402
-from simulated_survey import SimulatedSurvey  # noqa: E402
 
 SEEDS = 20 if os.environ.get("ALBTPU_EVERY_CASE") else 1
-FLIGHT = ("--lines", 4, "--cross-lines", 2, "--seconds", 3, "--pulse-rate", 6000, "--altitude", 250,
-          "--surface-share", 1, "--column-share", 0, "--divergence", 1, "--file-for-each-line")
-SCAN, RANGE, DATUM = 0.02, 0.03, 0.02  # degree, m, m: one sigma of errors that are drawn and declared
-ERRORS = ("--trajectory-errors", "--scan-noise", SCAN, "--range-noise", RANGE)
-POINT_VERTICAL, POINT_HORIZONTAL = 0.02, 0.03  # m, one sigma; radial
-RADIUS = 2.5
 POINTS = 60
-# The water is calm, for the simulation draws its slopes anew for each pulse, which neighbours here share; over waves
-# that travel, surface_validation_test has the same nodes.
-SURVEY = """
-[sensor]
-name = "riegl-vq-880-g"
-lever_arm = [0.3, -0.2, 0.5]
-[trajectory]
-files = ["{flight}/sbet.out"]
-errors = ["{flight}/smrmsg.out"]
-[surface]
-classes = [41]
-located = "pulse"
-[sea]
-wind_speed = {wind}
-wind_from = 250
-[water]
-column = "none"
-[datum]
-sigma = {datum}
-[sigma]
-scan = {scan}
-bottom_range = {range}
-surface_range = {range}
-range_offset = 0
-boresight = [0, 0, 0]
-lever_arm = 0
-time = 0
-index = 0
-[output]
-classes = [40]
-coverage = "p95"
-details = true
-"""
-
-
-class Flight:
-    """A survey with errors, annotated, and points of the true bottom and ground."""
-
-    def __init__(self, folder, seed):
-        self.folder = folder / str(seed)
-        flags = (*FLIGHT, "--seed", seed)
-        right = SimulatedSurvey(self.folder / "right", *flags)
-        flown = SimulatedSurvey(self.folder / "flown", *flags, *ERRORS)
-        self.random = np.random.default_rng(seed)
-        self.annotated = self.folder / "annotated"
-        self.annotated.mkdir()
-        self.survey = self.folder / "survey.toml"
-        self.survey.write_text(SURVEY.format(flight=flown.folder, wind=1, datum=DATUM, scan=SCAN, range=RANGE))
-        query("las", flown.folder, "--output-dir", self.annotated, "--survey", self.survey, "--table",
-              programs.PATHS["shipped_table"], "--divergence", 1, check=0)
-        places, wet = [], []
-        for name in right.names:
-            las = LasFile(right.folder / f"{name}.las")
-            xyz = np.stack([las.field(4 * axis, "<i4") * las.scale[axis] + las.offset[axis] for axis in range(3)], 1)
-            kind = right.truth(name)["kind"]
-            places.append(xyz[(kind == 0) | (kind == 3)])
-            wet.append(kind[(kind == 0) | (kind == 3)] == 0)
-        self.true, self.wet = np.concatenate(places), np.concatenate(wet)
-        self.datum = DATUM * self.random.standard_normal()  # What all points have in common.
-
-    def check_points(self, count):
-        """x, y and elevation of points on the true bottom, each with its own errors."""
-        taken = self.true[self.random.choice(np.flatnonzero(self.wet), count, replace=False)]
-        along = POINT_HORIZONTAL / math.sqrt(2)  # Of each axis.
-        return taken + self.random.standard_normal(taken.shape) * [along, along, POINT_VERTICAL]
-
-    def write(self, points):
-        path = self.folder / "points.csv"
-        rows = [",".join(f"{value:.4f}" for value in row) for row in points]
-        path.write_text("\n".join(["x,y,elevation", *rows]) + "\n")
-        return path
-
-    def check(self, points, *flags):
-        return query("checkpoints", self.annotated, self.write(points), "--radius", RADIUS, "--point-sigma-vertical",
-                     POINT_VERTICAL, "--point-sigma-horizontal", POINT_HORIZONTAL, *flags, check=0)
-
-    def json(self, points, *flags):
-        return json.loads(self.check(points, "--json", *flags).stdout)
 
 
 def setUpModule():
@@ -196,7 +111,10 @@ class Twin(programs.Test):
             height, *slope = np.linalg.lstsq(design, of["z"], rcond=None)[0]
             lines = {line: np.sum(of["tvu_line"][of["line"] == line]) / 1.959964 / len(near)
                      for line in np.unique(of["line"])}
-            yield height, of["bias_vertical"].mean(), of["total_tvu"].mean(), lines, math.hypot(*slope)
+            azimuth = np.radians(of["beam_azimuth"])
+            ahead = slope[0] * np.sin(azimuth) + slope[1] * np.cos(azimuth)  # Rise of the bottom along the beam.
+            bias = np.mean(of["bias_vertical"] - ahead * of["bias_along_beam"])
+            yield height, bias, of["total_tvu"].mean(), lines, math.hypot(*slope)
 
     def test_finds_the_same_surfaces_and_statistics(self):
         made = list(self.surfaces())
@@ -303,6 +221,40 @@ class Command(programs.Test):
         self.assertGreater(groups["wet", "sand"], 10)
         self.assertEqual(sum(each["points"] for each in check["by_depth"]),
                          sum(count for (of, _), count in groups.items() if of == "wet"))
+
+    def test_on_a_slope_of_the_terrain_the_slope_counts_once(self):
+        """--terrain-slope states the height at a fixed place; a surface has its own slope, and the same parts."""
+        flight, sloping = self.flight, self.folder / "sloping"
+        sloping.mkdir()
+        query("las", flight.folder / "flown", "--output-dir", sloping, "--survey", flight.survey, "--table",
+              programs.PATHS["shipped_table"], "--divergence", 1, "--terrain-slope", check=0)
+        dry = flight.true[~flight.wet]
+        path = flight.write(dry[:: len(dry) // 60])
+        listed = []
+        for annotated in (flight.annotated, sloping):
+            csv_path = self.folder / f"{annotated.name}.csv"
+            query("checkpoints", annotated, path, "--radius", RADIUS, "--points", csv_path, check=0)
+            rows = csv.DictReader(io.StringIO(csv_path.read_text()))
+            listed.append([row for row in rows if row["water"] == "dry"])
+        self.assertGreater(len(listed[0]), 20)
+        for before, after in zip(*listed, strict=True):
+            self.assertEqual(after["depth"], "")
+            self.assertGreater(float(after["sigma_survey"]), 0.99 * DATUM)
+            for part in ("sigma", "sigma_survey", "sigma_lines"):
+                self.assertAlmostEqual(float(after[part]) / float(before[part]), 1, delta=0.05, msg=part)
+        # The TVU is that of the points, with the slope.
+        columns = {}
+        for file in sorted(sloping.glob("*.las")):
+            las = LasFile(file)
+            ground = (las.classes == 2) & (las.columns()["share_of"] == 1)
+            of_file = {"x": las.field(0, "<i4") * las.scale[0] + las.offset[0],
+                       "y": las.field(4, "<i4") * las.scale[1] + las.offset[1], "tvu": las.columns()["total_tvu"]}
+            for name, values in of_file.items():
+                columns.setdefault(name, []).append(values[ground])
+        ground = {name: np.concatenate(parts) for name, parts in columns.items()}
+        for row in listed[1]:
+            near = np.hypot(ground["x"] - float(row["x"]), ground["y"] - float(row["y"])) <= RADIUS
+            self.assertAlmostEqual(float(row["tvu_95"]), ground["tvu"][near].mean(), delta=2e-4)
 
     def test_takes_files_in_place_of_a_folder(self):
         files = sorted(self.flight.annotated.glob("*.las"))

@@ -7,7 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <string>
 
+#include "quality/report/surface_nodes.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {
@@ -84,6 +86,35 @@ TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
   }
   EXPECT_EQ(points, added);
   EXPECT_EQ(filled, twin.size());
+}
+
+// A float's steps at this height are 0.24 mm: a mean that runs in floats would not move by the late points.
+TEST(SurveyGrid, HasTheMeanOfManyHighPoints) {
+  constexpr int kPoints = 30'000;
+  std::mt19937 random(4);
+  std::normal_distribution<double> height(3770, 0.3);
+  SurveyGrid grid(100, Coverage::kTwoSigma);
+  AnnotatedPoint point;
+  point.has_number = true;
+  double sum = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    point.z = height(random) + 1.0 * i / kPoints;  // Along a slope.
+    sum += point.z;
+    grid.Add(point, 1);
+  }
+  std::vector<GridCell> cells;
+  grid.Strip(0, cells);
+  EXPECT_NEAR(cells[0].elevation, sum / kPoints, 3e-4);
+}
+
+TEST(Reach, IsExactForPercentages) {
+  for (std::uint64_t part = 1; part < 1000; ++part) {
+    const double percent = std::stod(std::to_string(part / 10) + "." + std::to_string(part % 10));
+    for (const std::uint64_t times : {1U, 3U, 1'000'000U, 123'456'789U}) {
+      EXPECT_TRUE(Reach(part * times, 1000 * times, percent)) << percent;
+      EXPECT_FALSE(Reach(part * times - 1, 1000 * times, percent)) << percent;
+    }
+  }
 }
 
 TEST(SurveyGrid, KeepsTheLeastStrictOrderOfACell) {

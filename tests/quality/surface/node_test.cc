@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -139,6 +140,24 @@ TEST(Node, OfLandHasNoWavesAndNoDepth) {
   node = NodeOf({points, places}, kept, {}, Sharing(0.7));
   EXPECT_EQ(node.dry, 3U);
   EXPECT_EQ(node.depth, 3);
+}
+
+// Points that are reported 0.1 m too far to the east tell the height of what lies there; those whose beams went the
+// other way are as much too far to the west.
+TEST(Node, HasTheBiasOfItsPlaceOnASlope) {
+  const std::vector<Eigen::Vector2d> places(2, Eigen::Vector2d::Zero());
+  std::vector<char> kept(2, true);
+  Plane plane;
+  plane.slope = {0.3, 0.2};
+  const auto bias = [&](std::array<float, 2> azimuths) {
+    std::vector<SurfacePoint> points(2, PointAt(0));
+    for (std::size_t i = 0; i < 2; ++i) points[i].azimuth = azimuths[i], points[i].bias = -0.02F;
+    for (SurfacePoint& point : points) point.bias_along_beam = 0.1F;
+    return NodeOf({points, places}, kept, plane, Sharing(0.7)).bias;
+  };
+  EXPECT_NEAR(bias({90, 90}), -0.02 - 0.3 * 0.1, 1e-8);
+  EXPECT_NEAR(bias({180, 180}), -0.02 + 0.2 * 0.1, 1e-8);
+  EXPECT_NEAR(bias({90, 270}), -0.02, 1e-8);
 }
 
 TEST(Node, PredictsTheScatterOfItsPoints) {

@@ -1,4 +1,4 @@
-#include "quality/grids/gdal_raster.h"
+#include "grids/gdal_raster.h"
 
 #include "absl/strings/str_cat.h"
 
@@ -19,11 +19,11 @@
 #include <mutex>
 
 #include "absl/status/statusor.h"
-#include "quality/grids/netcdf_reader.h"
+#include "grids/netcdf_reader.h"
 #include "status/status_macros.h"
 #endif
 
-namespace albtpu::quality {
+namespace albtpu {
 
 #ifndef ALBTPU_GDAL_LIBRARY
 
@@ -323,4 +323,4 @@ absl::Status WriteBag(const Raster& raster, const std::string& metadata, const f
 
 #endif
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

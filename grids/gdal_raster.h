@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 
 // A band is a variable of the NetCDF file, under the same name.
 struct RasterBand {
@@ -37,4 +37,4 @@ absl::Status WriteCog(const Raster& raster, const std::filesystem::path& path);
 // where what GDAL reads of the file is not what was to be written.
 absl::Status WriteBag(const Raster& raster, const std::string& metadata, const std::filesystem::path& path);
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

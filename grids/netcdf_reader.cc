@@ -1,4 +1,4 @@
-#include "quality/grids/netcdf_reader.h"
+#include "grids/netcdf_reader.h"
 
 #include <netcdf.h>
 
@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "absl/strings/str_cat.h"
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 
 absl::StatusOr<NetcdfReader> NetcdfReader::Open(const std::filesystem::path& path) {
   NetcdfReader reader(path, -1);
@@ -42,4 +42,4 @@ absl::Status NetcdfReader::Read(const std::string& variable, const GridWindow& w
   return absl::OkStatus();
 }
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

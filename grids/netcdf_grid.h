@@ -13,7 +13,7 @@
 
 #include "absl/status/status.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 
 // The grid has columns from `first_column` on, which counts cells from x = 0, and rows from `first_row` on, from y = 0.
 struct GridFrame {
@@ -84,4 +84,4 @@ class NetcdfGrid {
   absl::Status status_;
 };
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace albtpu::quality {
+namespace albtpu {
 
 struct BagFacts {
   std::string title, abstract;
@@ -24,4 +24,4 @@ struct BagFacts {
 // from other uncertainties at 95 %. The others are standard deviations of soundings. The abstract says what it is.
 std::string BagMetadata(const BagFacts& facts);
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

@@ -10,7 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 
 // Rows from the north, columns from the west.
 struct GridWindow {
@@ -36,4 +36,4 @@ class NetcdfReader {
   int file_;
 };
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

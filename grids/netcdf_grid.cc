@@ -1,4 +1,4 @@
-#include "quality/grids/netcdf_grid.h"
+#include "grids/netcdf_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "tables/file/hdf5_exit.h"
 #include "tables/version.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 namespace {
 
 constexpr char kFillValue[] = "_FillValue";
@@ -170,4 +170,4 @@ bool NetcdfGrid::Check(int result) {
   return result == NC_NOERR;
 }
 
-}  // namespace albtpu::quality
+}  // namespace albtpu

@@ -1,4 +1,4 @@
-#include "quality/grids/bag_metadata.h"
+#include "grids/bag_metadata.h"
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -7,7 +7,7 @@
 #include "absl/strings/string_view.h"
 #include "tables/digest.h"
 
-namespace albtpu::quality {
+namespace albtpu {
 namespace {
 
 constexpr char kIsoLists[] = "http://www.isotc211.org/2005/resources/Codelist/gmxCodelists.xml#";
@@ -177,4 +177,4 @@ std::string BagMetadata(const BagFacts& facts) {
       Lineage(facts), Constraints(), "</gmi:MI_Metadata>\n");
 }
 
-}  // namespace albtpu::quality
+}  // namespace albtpu
