@@ -92,8 +92,16 @@ absl::StatusOr<WaterColumnTable> ReadWaterTable() {
   return WaterColumnTable::Create(*std::move(table));
 }
 
+std::string BeyondTable(double share) {
+  return share > 0 ? absl::StrFormat("; %.2g %% of such waters scatter more than any of the table, and are left out",
+                                     100 * share)
+                   : "";
+}
+
 // What was taken of the optics, and whose numbers they are.
-void StateOptics(const config::WaterSettings& settings, const WaterOptics& optics, std::vector<StatedNumber>& numbers) {
+void StateOptics(const config::WaterSettings& settings, const CompiledWater& water,
+                 std::vector<StatedNumber>& numbers) {
+  const WaterOptics& optics = *water.optics;
   const OpticsText text = TextOf(OpticsGiven(settings));
   numbers.push_back({"water_entered", text.entered, "[water]", false});
   numbers.push_back({"water_attenuation", absl::StrFormat("%.4g 1/m", optics.attenuation),
@@ -107,7 +115,7 @@ void StateOptics(const config::WaterSettings& settings, const WaterOptics& optic
                                   ? "assumed: as coastal water, 0.8 +- 0.1, but absorbs as pure water"
                                   : "assumed: coastal water, 0.8 +- 0.1";
   numbers.push_back({"water_albedo", absl::StrFormat("%.3g", optics.typical_albedo()),
-                     albedo_told ? "[water]" : assumed, !albedo_told});
+                     albedo_told ? absl::StrCat("[water]", BeyondTable(water.beyond_table())) : assumed, !albedo_told});
   numbers.push_back({"water_backscatter_fraction",
                      optics.least_fraction == optics.most_fraction
                          ? absl::StrCat(optics.least_fraction)
@@ -166,8 +174,8 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   }
   RETURN_IF_ERROR(CheckReceiver(settings));
   ASSIGN_OR_RETURN(const BiasTreatment treatment, TreatmentOf(settings));
-  const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(settings));
-  if (!optics.ok()) return InWater(optics.status());
+  if (const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(settings)); !optics.ok())
+    return InWater(optics.status());
   ASSIGN_OR_RETURN(const WaterColumnTable table, ReadWaterTable());
   known.detector = DetectorOf(settings);
   known.field_of_view = *settings.field_of_view;
@@ -177,7 +185,7 @@ absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, doubl
   if (!settings.processed_with.has_value())
     numbers.push_back(
         {"processed_with", "the group index of the water", "assumed: ranges in water were computed with it", true});
-  StateOptics(settings, *optics, numbers);
+  StateOptics(settings, plan, numbers);
   numbers.push_back({"water_detector", *settings.detector, "[water]", false});
   numbers.push_back({"water_field_of_view", absl::StrCat(*settings.field_of_view, " m"), "[water]", false});
   numbers.push_back({"water_pulse_length", absl::StrCat(*settings.pulse_length, " ns"), "[water]", false});

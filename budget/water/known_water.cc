@@ -22,6 +22,11 @@ absl::Status CheckWater(const KnownWater& water) {
       "processed_with needs the index that the water has; give its temperature (degree C) and salinity");
 }
 
+double CompiledWater::beyond_table() const {
+  constexpr double kLeast = 0.005;
+  return share != nullptr && share->beyond_table() >= kLeast ? share->beyond_table() : 0;
+}
+
 std::optional<WaterIndex> KnownWater::index() const {
   if (!temperature.has_value() || !salinity.has_value()) return std::nullopt;
   return SeaWaterIndex(*temperature, *salinity);
@@ -61,8 +66,7 @@ absl::StatusOr<CompiledWater> CompileWater(const WaterColumnTable* table, const 
 
 void AddGreenSpread(const GreenSurface& surface, SurfaceLocation located, AirErrors& errors) {
   if (located != SurfaceLocation::kPulse) return;
-  double& own = errors.surface_height > 0 ? errors.surface_height : errors.surface_range;
-  own = std::hypot(own, surface.spread);
+  errors.surface_range = std::hypot(errors.surface_range, surface.spread);
 }
 
 std::vector<std::string> AssumptionsOf(const KnownWater& water, const CompiledWater& compiled) {
@@ -85,6 +89,11 @@ std::vector<std::string> AssumptionsOf(const KnownWater& water, const CompiledWa
     }
     if (!water.optics.omega0_sigma.has_value() && !water.optics.absorption.has_value())
       sentences.push_back("The albedo is known to 0.1 (1 sigma).");
+    if (const double beyond = compiled.beyond_table(); beyond > 0)
+      sentences.push_back(absl::StrFormat(
+          "The albedo is no larger than in the table of the water column: %.2g %% of the waters that were stated lie "
+          "beyond, and are left out.",
+          100 * beyond));
     if (!water.optics.backscatter_fraction.has_value()) {
       sentences.push_back(absl::StrCat("The backscatter fraction is between ", optics.least_fraction, " and ",
                                        optics.most_fraction, ", as that of natural particles."));

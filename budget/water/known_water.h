@@ -68,6 +68,8 @@ struct CompiledWater {
   std::optional<GreenSurface> surface = {};
 
   bool has_share() const { return share != nullptr || surface.has_value(); }
+  // The share of the stated waters that the table does not have; 0 where that is less than is worth a word.
+  double beyond_table() const;
 };
 
 // InvalidArgument with what would be right: a state without one of its two numbers or missing for `processed_with`,
@@ -80,7 +82,7 @@ absl::Status CheckWater(const KnownWater& water);
 absl::StatusOr<CompiledWater> CompileWater(const WaterColumnTable* table, const KnownWater& water);
 
 // Where each pulse's own return located the surface, a green laser finds it as much lower as chance has it: adds this
-// to the error of the surface. Elsewhere the mean over many pulses has averaged it out.
+// to the error of the surface's range. Elsewhere the mean over many pulses has averaged it out.
 void AddGreenSpread(const GreenSurface& surface, SurfaceLocation located, AirErrors& errors);
 
 // What was assumed where the description has no value: one sentence each, for people.

@@ -114,7 +114,10 @@ absl::StatusOr<WaterContribution> WaterContribution::Create(const WaterColumnTab
     return absl::InvalidArgumentError(
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
-  const std::vector<DrawnWater> draws = DrawWaters(optics, kDraws);
+  WaterOptics within = optics;
+  within.max_ratio = std::min(within.max_ratio, table.Range(WaterAxis::kScatteringOverAbsorption).second);
+  contribution.beyond_table_ = ShareBeyond(optics, within.max_ratio);
+  const std::vector<DrawnWater> draws = DrawWaters(within, kDraws);
   std::vector<WaterLookup> lookups;
   lookups.reserve(draws.size());
   for (const DrawnWater& draw : draws) lookups.emplace_back(table, receiver, draw);

@@ -53,6 +53,8 @@ class WaterContribution {
   // their depth.
   double greatest_incidence() const { return max_incidence_; }
   double greatest_depth() const { return max_depth_; }
+  // The share of the waters that scatter more, for what they absorb, than those of the table: none of these is drawn.
+  double beyond_table() const { return beyond_table_; }
   // m; a wider beam would be cut by the field of view, which the table does not know.
   double greatest_footprint() const { return max_footprint_; }
 
@@ -98,7 +100,7 @@ class WaterContribution {
   Node Blend(double incidence, double depth) const;
 
   WaterReceiver receiver_;
-  double max_incidence_ = 0, max_depth_ = 0, max_footprint_ = 0;
+  double max_incidence_ = 0, max_depth_ = 0, max_footprint_ = 0, beyond_table_ = 0;
   double incidence_step_ = 1;
   std::size_t incidences_ = 0;
   std::vector<Node> nodes_;  // by incidence, then by the root of the depth

@@ -25,17 +25,25 @@ double Radical(std::size_t i, std::size_t base) {
   return value;
 }
 
+// How many waters scatter at most `ratio` times as much as they absorb, without the limits of that.
+double Below(const WaterOptics& optics, double ratio) {
+  if (!(ratio > 0)) return 0;
+  if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0 : 1;
+  const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
+  return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
 }  // namespace
+
+double ShareBeyond(const WaterOptics& optics, double ratio) {
+  const double least = Below(optics, optics.min_ratio), most = Below(optics, optics.max_ratio);
+  return most > least ? std::clamp((most - Below(optics, ratio)) / (most - least), 0.0, 1.0) : 0;
+}
 
 std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count) {
   std::vector<DrawnWater> draws;
   // The limits of b / a as probabilities of its distribution.
-  const auto place = [&](double ratio) {
-    if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0.0 : 1.0;
-    const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
-    return 0.5 * std::erfc(-x / std::sqrt(2.0));
-  };
-  const double least = optics.min_ratio > 0 ? place(optics.min_ratio) : 0, most = place(optics.max_ratio);
+  const double least = Below(optics, optics.min_ratio), most = Below(optics, optics.max_ratio);
   for (std::size_t i = 0; i < count; ++i) {
     const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     DrawnWater draw{};

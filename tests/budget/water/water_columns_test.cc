@@ -97,6 +97,20 @@ TEST(WaterColumns, SumTheBiases) {
               1e-6);
 }
 
+// The height at which a surface was located is another error, whose size does not matter.
+TEST(AddGreenSpread, AddsToTheRangeOfTheSurface) {
+  const GreenSurface surface{.spread = 0.04};
+  for (const double height : {0.0, 1e-6, 0.1}) {
+    AirErrors errors{.surface_range = 0.03, .surface_height = height};
+    AddGreenSpread(surface, SurfaceLocation::kPulse, errors);
+    EXPECT_NEAR(errors.surface_range, 0.05, 1e-12);
+    EXPECT_EQ(errors.surface_height, height);
+  }
+  AirErrors errors{.surface_range = 0.03};
+  AddGreenSpread(surface, SurfaceLocation::kLocal, errors);
+  EXPECT_EQ(errors.surface_range, 0.03);
+}
+
 TEST(KnownWater, SaysWhatCannotBeCompiled) {
   const auto problem = [](const KnownWater& water) {
     const absl::Status status = CompileWater(testing::ShippedWaterTable().get(), water).status();
@@ -132,6 +146,10 @@ TEST(KnownWater, ListsWhatWasAssumed) {
   known.processed_with = 1.34;
   known.photons = 100;
   EXPECT_THAT(assumptions(known), IsEmpty());
+  known = testing::CoastalWater({.kd = 0.4, .kd_kind = KdKind::kDiffuse532, .omega0 = 0.9, .omega0_sigma = 0.1});
+  EXPECT_THAT(assumptions(known),
+              ::testing::Contains("The albedo is no larger than in the table of the water column: 19 % of the waters "
+                                  "that were stated lie beyond, and are left out."));
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ struct Twin {
                                           optics.attenuation * std::exp(optics.attenuation_log_sigma * normal(random)));
       const double fraction = 0.01 * std::pow(3, even(random));
       double ratio = 0;
-      while (ratio < 1 || ratio > 19) ratio = 4 * std::exp(0.625 * normal(random));
+      do ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * normal(random));
+      while (ratio < optics.min_ratio || ratio > optics.max_ratio);
       ratio = std::min(ratio, WaterOptics::MaxRatio(attenuation, fraction));
       const double tau = attenuation * depth;
       const WaterAnswer answer =
@@ -133,6 +134,26 @@ TEST(WaterContribution, HasTheMomentsOfTheClearestWaters) {
 
 // Mean, u and the interval that a program apart from this one found at 12 degrees and 10 m, too deep being positive
 // there. Its attenuation of 0.15 1/m is by Kirk's factor of 0.256; the same a and b have 0.1265 here.
+// An albedo of 0.9 +- 0.1 has waters that the table does not: as if it were known that there are none of these.
+TEST(WaterContribution, DrawsNoWaterBeyondTheTable) {
+  WaterOptics cloudy = Coastal(0.34);
+  cloudy.scattering_over_absorption = 9, cloudy.ratio_log_sigma = 0.1 / (0.9 * 0.1);
+  cloudy.min_ratio = 0, cloudy.max_ratio = 1e9;
+  const WaterContribution made = Contribution(kNarrow, {}, cloudy);
+  EXPECT_NEAR(made.beyond_table(), 0.5 * std::erfc(std::log(24.0 / 9) / cloudy.ratio_log_sigma / std::sqrt(2.0)), 1e-3);
+  WaterOptics within = cloudy;
+  within.max_ratio = 24;
+  const WaterContribution limited = Contribution(kNarrow, {}, within);
+  EXPECT_EQ(limited.beyond_table(), 0);
+  const WaterAnswerOfSurvey answer = *made.At(12, 4);
+  EXPECT_EQ(answer.mean_vertical, limited.At(12, 4)->mean_vertical);
+  EXPECT_EQ(answer.sigma_vertical, limited.At(12, 4)->sigma_vertical);
+  const Twin twin(kNarrow, 12, 4, within);
+  const double sigma = std::sqrt(Covariance(twin.vertical, twin.vertical));
+  EXPECT_NEAR(answer.mean_vertical, Mean(twin.vertical), 0.06 * sigma);
+  EXPECT_NEAR(answer.sigma_vertical, sigma, 0.06 * sigma);
+}
+
 TEST(WaterContribution, AgreesWithWhatWasFoundApart) {
   const WaterAnswerOfSurvey wide = *Contribution(kWide, {}, Coastal(0.1265)).At(12, 10);
   const WaterAnswerOfSurvey narrow = *Contribution(kNarrow, {}, Coastal(0.1265)).At(12, 10);

@@ -54,6 +54,8 @@ ARGUMENTS = {
         (SERVICE.query_budget, FLOWN | dict(located="here"), "located is 'here'"),
         (SERVICE.query_budget, FLOWN | dict(errors=dict(scann=1)), "errors is 'scann'.*did you mean 'scan'"),
         (SERVICE.query_budget, FLOWN | dict(aircraft=dict(rol=1)), "aircraft is 'rol'.*did you mean 'roll'"),
+        *((SERVICE.query_budget, FLOWN | dict(aircraft={name: 100}), f"{name} and aircraft.'{name}'. are both given")
+          for name in ("altitude", "beam_azimuth")),
         (CALM.with_tail, dict(tail="relaxed"), "did you mean 'relax'")],
     "options": [
         (TABLE.query, PULSE | dict(coverage="95"), r"is '95' \(did you mean 'p95'\?\): it should be '2sigma' or 'p95'"),
@@ -83,6 +85,8 @@ ARGUMENTS = {
         (Sea.spectrum, dict(frequencies=F, energy=F, r2=F), "r2 and alpha2 belong together"),
         (Sea.spectrum, dict(frequencies=F, energy=F, r2=[0.1], alpha2=[3]), "have 2, 1 and 1 numbers"),
         (Sea.spectrum, dict(frequencies=[F], energy=F), "frequencies has the shape"),
+        *((Sea.spectrum, dict(frequencies=F, energy=F, r2=[0.5, r2], alpha2=F), f"r2 has {r2}: it should be 0 to 1")
+          for r2 in (-0.2, 1.1)),
         (Sea.spectrum(F, F).__add__, dict(other=CALM), "only seas given by heights"),
         (SERVICE.query, PULSE | dict(sea="calm"), "it should be an albtpu.Sea"),
         (SERVICE.query, PULSE | dict(sea=CALM, table="synthetic"), "omit one of them"),
@@ -101,6 +105,8 @@ ARGUMENTS = {
     "servers": [
         *((albtpu.connect, dict(target=target), "it should be HOST:PORT")
           for target in ("", "localhost", "two words:1", None, 50051)),
+        *((albtpu.connect, dict(target=target), "its port should be at most 65535")
+          for target in ("localhost:65536", "dns:///localhost:108614", "[::1]:99999")),
         *((albtpu.connect, dict(target="localhost:1", **files), message) for files, message in (
             (dict(ca="nowhere.pem"), "'ca', .*nowhere.pem: No such file"),
             (dict(ca=sys.argv[1]), "should be a PEM file"),

@@ -246,11 +246,10 @@ class TableOfOneSea(unittest.TestCase):
         self.assertNotEqual(mirrored[0], thu[0])
 
     def test_answers_at_any_wind_and_fetch(self):
-        thu = self.source.query(**{**PULSE, "wind_speed": np.array([0, 6.5, 100, np.inf]),
-                                   "fetch": np.array([1e-3, 1, 1e9, np.inf])}).thu
-        np.testing.assert_array_equal(thu, np.full(4, thu[0]))
+        thu = self.source.query(**{**PULSE, "wind_speed": np.array([0, 6.5, 100, np.inf, -1, np.nan]),
+                                   "fetch": np.array([1e-3, 0, 1e9, np.inf, -1, np.nan])}).thu
+        np.testing.assert_array_equal(thu, np.full(6, thu[0]))
         self.assertFalse(np.isnan(thu[0]))
-        self.assertEqual(self.source.query(**{**PULSE, "wind_speed": -1}).outcome, "OUT_OF_DOMAIN:wind_speed:below")
 
     def test_returns_the_worst_azimuth_without_one(self):
         pulse = {name: number for name, number in PULSE.items() if name != "azimuth"}

@@ -28,6 +28,7 @@ _OPTIONS = (
     ("grpc.keepalive_timeout_ms", 10_000),
 )
 File = Union[str, "os.PathLike[str]"]
+_LARGEST_PORT = 65535  # gRPC takes larger ones modulo 65536.
 _TARGET = re.compile(r"(?:[a-z]+:.*)?\S+:\w+|unix:\S+")
 
 # The server is shutting down, restarting or at a limit; it may answer again in a moment.
@@ -41,6 +42,9 @@ def open_channel(target: str, *, tls: bool, ca: File | None, cert: File | None, 
     if not isinstance(target, str) or not _TARGET.fullmatch(target):
         raise ArgumentError(f"the server is {target!r}: it should be HOST:PORT, dns:///HOST:PORT or "
                             "unix:PATH")
+    port = target.rpartition(":")[2]
+    if not target.startswith("unix:") and port.isdecimal() and int(port) > _LARGEST_PORT:
+        raise ArgumentError(f"the server is {target!r}: its port should be at most {_LARGEST_PORT}")
     options = list(_OPTIONS)
     if proxy_for(target) is None:
         options.append(("grpc.enable_http_proxy", 0))

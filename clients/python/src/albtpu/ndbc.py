@@ -40,8 +40,12 @@ def read_spectrum(path: str | os.PathLike[str], time: object) -> Spectrum:
     r2, alpha2 = (_beside(other, quantity, row.time) for other, quantity in _companions(path))
     frequencies, energy = list(row.values), list(row.values.values())
     nan = float("nan")
-    return buoy_spectrum(frequencies, energy, [r2.get(f, nan) for f in frequencies],
-                         [alpha2.get(f, nan) for f in frequencies], min(TRUSTED_UP_TO, frequencies[-1]), RECORD_LENGTH)
+    try:
+        return buoy_spectrum(frequencies, energy, [r2.get(f, nan) for f in frequencies],
+                             [alpha2.get(f, nan) for f in frequencies], min(TRUSTED_UP_TO, frequencies[-1]),
+                             RECORD_LENGTH)
+    except ArgumentError as error:
+        raise ArgumentError(f"{path}, {row.time}: {error}") from None
 
 
 def _known_time(path: pathlib.Path, time: object, known: list[np.datetime64]) -> np.datetime64:

@@ -78,6 +78,8 @@ def _with_second_harmonic(waves: Spectrum, r2: Sequence[float], alpha2: Sequence
     for density, r, alpha in zip(waves.densities, r2, alpha2):
         if math.isnan(r) or math.isnan(alpha):
             r = alpha = 0.0
+        if not 0 <= r <= 1:
+            raise ArgumentError(f"r2 has {r:g}: it should be 0 to 1")
         angle = 2 * radians(alpha)
         cosines.append(density * r * math.cos(angle))
         sines.append(density * r * math.sin(angle))

@@ -111,7 +111,9 @@ class _Answers:
             wanted.update(("thu", "tvu", *REFRACTIONS))
         values = [name for name in QUANTITIES if name in wanted and name in content.values]
         errors = [name for name in values if query.standard_errors and name in content.standard_errors]
-        columns = {axis: np.array([np.inf]) for axis in KINDS[content.table.kind].endless} | dict(query.columns)
+        unused = ("wind_speed", "fetch") if content.table.kind == ONE_SEA else ()
+        columns = {axis: np.array([np.inf]) for axis in KINDS[content.table.kind].endless}
+        columns |= {axis: column for axis, column in query.columns.items() if axis not in unused}
         azimuths: list[dict[str, Floats]] = [{}]
         if "azimuth" not in columns:
             azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in _azimuths(content)]
