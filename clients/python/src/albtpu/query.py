@@ -80,8 +80,7 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
     check_name("coverage", coverage, COVERAGES)
     if s44_order is not None:
         check_name("s44_order", s44_order, S44_ORDERS[1:])
-    # Copies: the answer names its pulses, also where the caller writes others into the same arrays.
-    return Query(shape=shape, pulses={axis: np.broadcast_to(array.copy(), shape) for axis, array in arrays.items()},
+    return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
                  columns=flat, quantities=read_quantities(quantities, known), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
                  best_s44_order=bool(best_s44_order), table=table, sea=sea,

@@ -183,8 +183,9 @@ class Service(UncertaintySource):
         ...     errors=dict(position=(0.03, 0.03, 0.05), scan=0.001))   # doctest: +SKIP
         >>> budget.total_thu, budget.outcome                            # doctest: +SKIP
         """
-        for name in {"altitude", "beam_azimuth"} & set(aircraft or {}):
-            raise ArgumentError(f"{name} and aircraft[{name!r}] are both given: give one")
+        for name in ("altitude", "beam_azimuth"):
+            if name in (aircraft or {}):
+                raise ArgumentError(f"{name} and aircraft[{name!r}] are both given: give one")
         asked = read_budget_query(
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth, footprint=footprint,
                  depth=depth), {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth},

@@ -72,7 +72,7 @@ class Uncertainties:
     sea:              the sea with what was assumed (albtpu.SeaSummary); None if the table is not of one sea.
     coverage:         "2sigma", "1sigma" or "p95", of all quantities except the biases and S-44.
     azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
-    pulses:           the coordinates of the query by axis, as arrays of its shape.
+    pulses:           the coordinates of the query by axis, as arrays of its shape: views of those that were given.
     values:           the quantities by name.
     standard_errors:  their standard errors by name, of the Monte Carlo or of a sea; empty if not requested.
     outcomes:         1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
