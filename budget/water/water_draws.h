@@ -16,8 +16,8 @@ struct DrawnWater {
 // absorbs less than pure water.
 std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count);
 
-// The share of the waters of `optics` that scatter more than `ratio` times as much as they absorb, 0 to 1; pure water
-// aside.
+// The share of the waters of `optics`, 0 to 1, that scatter more than `ratio` times as much as they absorb. That none
+// absorbs less than pure water does not count here.
 double ShareBeyond(const WaterOptics& optics, double ratio);
 
 }  // namespace albtpu

@@ -103,9 +103,8 @@ NodeVariance VarianceOf(std::span<const SurfacePoint> points, const Eigen::Vecto
     variance.sea += std::max(wet * sea.of_point + sea.of_pairs, 0.0) / (n * n);
     variance.of_point += wet / n * sea.of_point;
 
-    HorizontalGroups groups;
     for (const SurfacePoint& point : pass) {
-      if (&point == &first || point.source != (&point - 1)->source) groups = sources.groups(point.source);
+      const HorizontalGroups groups = sources.groups(point.source);
       Eigen::Matrix3d rest;
       rest << point.xx, point.xy, point.xz, point.xy, point.yy, point.yz, point.xz, point.yz, 0;
       if (!point.dry()) rest -= sea.whole;
