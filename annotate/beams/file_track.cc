@@ -70,6 +70,7 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& given, double inde
                                 "each other"));
   }
   FileTrack found;
+  found.clock = clock;
   const double height = statistics->middle.height, speed = statistics->middle.velocity.norm();
   const double sigma = DegreesOfRadians(statistics->sigma);
   *found.json = {{"pairs", file.pairs},          {"rays", file.rays.size()}, {"segments", track.segments().size()},
@@ -89,7 +90,6 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& given, double inde
   if (clock.changes_times()) {
     found.track = std::make_unique<ClockedTrack>(std::move(found.track), clock);
     found.motions = std::make_unique<ClockedMotions>(std::move(found.motions), clock);
-    found.seconds = seconds;
   }
   return found;
 }

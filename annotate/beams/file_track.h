@@ -18,6 +18,7 @@
 #include "budget/beams/track_spline.h"
 #include "formats/crs/local_frame.h"
 #include "formats/crs/map_frame.h"
+#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_checks.h"
 #include "formats/trajectories/trajectory_time.h"
 
@@ -38,7 +39,9 @@ struct TrackedFile {
 struct FileTrack {
   std::unique_ptr<const SensorTrack> track;
   std::unique_ptr<const SensorMotions> motions;  // Of the aircraft, along the track.
-  double seconds = 1;                            // Of a unit of the points' times.
+  formats::PointClock clock;                     // Of the points' times, by which the track lies at them.
+  std::optional<double> week;                    // s; adjusted standard GPS time of its beginning, if the clock's times
+                                                 // are seconds of one and the trajectory names it.
   JsonBox json;                                  // For a summary.
   std::vector<std::string> notes;                // For the user, a line each.
 };

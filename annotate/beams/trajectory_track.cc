@@ -134,6 +134,18 @@ double CoveredPart(const formats::TrajectoryTimeline& timeline) {
   return points.last > points.first ? covered / (points.last - points.first) : 1;
 }
 
+// FileTrack::week
+std::optional<double> WeekOf(const formats::TrajectoryTimeline& timeline) {
+  if (timeline.points().form != formats::PointTimeForm::kWeekSeconds) return std::nullopt;
+  // From 2000 to September 2011, GPS times since 1980 are as large as adjusted ones after 2031.
+  constexpr double kFirstAmbiguous = 6.3e8;
+  const formats::TimelineRun& run = timeline.runs().front();
+  const double stated = run.trajectory->TimeAt(run.begin);
+  const std::optional<double> gps = formats::GpsTimeOfTrajectory(stated);
+  if (!gps.has_value() || (stated >= kFirstAmbiguous && stated < formats::kAdjustedGpsOffset)) return std::nullopt;
+  return *gps - formats::kAdjustedGpsOffset - (stated + run.offset);
+}
+
 void NoteRemarks(const formats::TrajectoryTimeline& timeline, FileTrack& found) {
   for (const formats::TimelineRun& run : timeline.runs()) {
     const std::string& remark = run.trajectory->remark();
@@ -192,6 +204,8 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   if (clock.changes_times()) changed = ByClock(stated, clock);
   const TrackedFile& file = clock.changes_times() ? changed : stated;
   FileTrack found;
+  found.clock = clock;
+  found.week = WeekOf(*timeline);
   NoteRemarks(*timeline, found);
   absl::StatusOr<std::vector<formats::ErrorsOfRun>> errors = plan.trajectory_errors.Of(*timeline);
   if (!errors.ok())
@@ -205,7 +219,6 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
                                            .geoid_separation = source.geoid_separation.value_or(0)}));
   RETURN_IF_ERROR(CheckAgainstReturns(file, plan, source.utc, found));
   if (!clock.changes_times()) return found;
-  found.seconds = clock.scale;
   found.track = std::make_unique<ClockedTrack>(std::move(found.track), clock);
   found.motions = std::make_unique<ClockedMotions>(std::move(found.motions), clock);
   return found;

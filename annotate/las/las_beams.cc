@@ -8,6 +8,7 @@
 #include "absl/strings/str_format.h"
 #include "annotate/beams/trajectory_track.h"
 #include "annotate/beams/water_heights.h"
+#include "formats/las/header_bounds.h"
 #include "formats/las/las_points.h"
 #include "formats/trajectories/mixed_clocks.h"
 #include "formats/trajectories/trajectory_time.h"
@@ -18,6 +19,11 @@ namespace {
 
 bool GoesByTime(const LasAnnotation& annotation) { return annotation.seas != nullptr && annotation.seas->by_time(); }
 
+// Whether the sea has times, with which those of the points are compared.
+bool ComparesTimes(const LasAnnotation& annotation) {
+  return GoesByTime(annotation) || (annotation.seas != nullptr && annotation.seas->unchosen_time().has_value());
+}
+
 bool UsesTimes(const LasAnnotation& annotation) {
   return annotation.plan.has_track() || annotation.plan.water_levels != nullptr || GoesByTime(annotation);
 }
@@ -26,7 +32,8 @@ formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& 
   return {.span = {prescan.first_time, prescan.last_time},
           .form = reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
                                                     : formats::PointTimeForm::kWeekSeconds,
-          .created = formats::GpsTimeOfDay(reader.header().creation_year, reader.header().creation_day)};
+          .created = formats::GpsTimeOfDay(reader.header().creation_year, reader.header().creation_day),
+          .count = prescan.numbered};
 }
 
 // Times are needed to find the position of the sensor or the water level at a point.
@@ -58,51 +65,12 @@ absl::Status CheckChannels(const formats::LasReader& reader, const LasAnnotation
   return absl::OkStatus();
 }
 
-// s. Rounding to such steps moves the sensor by up to half a step. At 60 m/s and 400 m, half of the longest is 6 m, or
-// 0.9 degrees of incidence; half of the noted one is 0.3 m, less than a footprint.
-constexpr double kLongestTimeStep = 0.2, kNotedTimeStep = 0.01;
-constexpr double kRoundedBounds = 1;  // m; programs round the bounds of a header.
-
-// "x 0 to 8 instead of 3 to 8": the bounds of the header that are not those of the points. Empty without points.
-std::string WrongBounds(const formats::LasHeader& header, const LasPrescan::Box& box, const LasPlace& place) {
-  const std::array<double, 3> metres = {place.frame.metres_per_x, place.frame.metres_per_y, place.frame.metres_per_z};
-  std::string wrong;
-  for (std::size_t axis = 0; axis < metres.size() && header.point_count > 0; ++axis) {
-    const auto is_off = [&](double stated, double found) {
-      return !(std::abs(stated - found) * metres[axis] <= kRoundedBounds);
-    };
-    if (!is_off(header.least[axis], box.least[axis]) && !is_off(header.greatest[axis], box.greatest[axis])) continue;
-    absl::StrAppendFormat(&wrong, "%s%c %.10g to %.10g instead of %.10g to %.10g", wrong.empty() ? "" : ", ",
-                          "xyz"[axis], header.least[axis], header.greatest[axis], box.least[axis], box.greatest[axis]);
-  }
-  return wrong;
+std::array<double, 3> MetresOf(const LasPlace& place) {
+  return {place.frame.metres_per_x, place.frame.metres_per_y, place.frame.metres_per_z};
 }
 
-// "x": the axis whose bounds are those of the points with another offset or another scale, so that one of the three is
-// wrong, and nothing says which. Empty if there is none.
-std::string ContradictedAxis(const formats::LasHeader& header, const LasPrescan::Box& box, const LasPlace& place) {
-  const std::array<double, 3> metres = {place.frame.metres_per_x, place.frame.metres_per_y, place.frame.metres_per_z};
-  for (std::size_t axis = 0; axis < metres.size() && header.point_count > 0; ++axis) {
-    const double least = header.least[axis] - header.offset[axis], found_least = box.least[axis] - header.offset[axis];
-    const double greatest = header.greatest[axis] - header.offset[axis];
-    const double found_greatest = box.greatest[axis] - header.offset[axis];
-    const double step = 4 * std::abs(header.scale[axis]);
-    if (!(std::abs(least - found_least) * metres[axis] > kRoundedBounds)) continue;
-    if (!(std::abs(greatest - found_greatest) * metres[axis] > kRoundedBounds)) continue;
-    const bool shifted = std::abs((least - found_least) - (greatest - found_greatest)) <= step;
-    // With a negative factor, the greatest is that of the least; a factor of 1 would exchange the two alone.
-    const auto scaled = [&](double first, double second) {
-      const double factor = first / found_least;
-      return factor != 0 && std::abs(factor - 1) > 1e-9 &&
-             std::abs(factor * found_greatest - second) <= step * std::max(1.0, std::abs(factor));
-    };
-    if (shifted || scaled(least, greatest) || scaled(greatest, least)) return std::string(1, "xyz"[axis]);
-  }
-  return "";
-}
-
-TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
-                   const WaterHeights& water, double index) {
+// Without rays.
+TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, const LasPrescan& prescan) {
   return {.name = reader.name(),
           .frame = place.frame,
           .map = place.map,
@@ -111,13 +79,20 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
                      .x_max = prescan.of_numbered.greatest[0],
                      .y_min = prescan.of_numbered.least[1],
                      .y_max = prescan.of_numbered.greatest[1]},
-          .rays = RaysOfPairs(prescan.pairs, water, place.frame, index),
+          .rays = {},
           .pairs = prescan.pair_count,
           .remark = prescan.is_scattered()
                         ? absl::StrCat(prescan.alone, " of ", prescan.of_several,
                                        " returns of pulses with several lie alone in the file, whose points "
                                        "are sorted by place or incomplete")
                         : ""};
+}
+
+formats::ClockReading ReadingOf(const FileTrack& track) {
+  return {.of = "the trajectory",
+          .scale = track.clock.scale,
+          .shift = track.clock.shift + track.week.value_or(0),
+          .form = track.week.has_value() ? formats::PointTimeForm::kAdjustedStandard : track.clock.form};
 }
 
 }  // namespace
@@ -142,25 +117,6 @@ absl::StatusOr<FileTrack> LasBeams::TrackOf(const TrackedFile& file, const BeamP
   return track;
 }
 
-absl::Status LasBeams::CheckTimeStep(const std::string& name, double seconds) {
-  const std::optional<double> stated = prescan_.tally.CoarseStep();
-  if (!stated.has_value()) return absl::OkStatus();
-  const double step = *stated * seconds;
-  if (step <= kLongestTimeStep) {
-    if (step >= kNotedTimeStep)
-      AddNote(
-          absl::StrFormat("the GPS times of the points are rounded: pulses share them, and they are %.2g s apart, so "
-                          "that positions of the sensor are off by up to %.2g s of flight",
-                          step, step / 2));
-    return absl::OkStatus();
-  }
-  return absl::FailedPreconditionError(absl::StrCat(
-      name, ": the GPS times of its points are rounded (",
-      std::isfinite(step) ? absl::StrFormat("pulses share them, and they are %.3g s apart", step) : "all are equal",
-      "), and do not tell where the sensor was; take the file with the times that the sensor's software wrote, or give "
-      "--scanner or --incidence"));
-}
-
 absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
                                                            const WaterHeights& water, double& found_seconds) {
   found_seconds = seconds_;
@@ -169,7 +125,8 @@ absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasRea
   const std::array<double, 3> lever_arm = files != nullptr ? files->lever_arm : std::array<double, 3>{};
   for (const std::unique_ptr<const Track>& known : tracks_)
     if (known->lever_arm == lever_arm) return known.get();
-  const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
+  TrackedFile file = FileOf(reader, place_, prescan_);
+  file.rays = RaysOfPairs(prescan_.pairs, water, place_.frame, plan.refractive_index);
   if (!(file.times.span.first <= file.times.span.last)) {
     return absl::FailedPreconditionError(absl::StrCat(
         reader.name(),
@@ -177,10 +134,12 @@ absl::StatusOr<const LasBeams::Track*> LasBeams::FindTrack(const formats::LasRea
         "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
   }
   ASSIGN_OR_RETURN(FileTrack track, TrackOf(file, plan));
-  found_seconds = track.seconds;
-  RETURN_IF_ERROR(CheckTimeStep(reader.name(), found_seconds));
+  found_seconds = track.clock.scale;
+  ASSIGN_OR_RETURN(const std::string rounded, formats::TimeStepNote(reader.name(), prescan_.tally, found_seconds));
+  AddNote(rounded);
   tracks_.emplace_back(new Track{lever_arm, std::move(track.track), std::move(track.motions)});
   if (tracks_.size() > 1) return tracks_.back().get();  // That of another lever arm says nothing else of the file.
+  if (files != nullptr) readings_.push_back(ReadingOf(track));
   (*json_)["trajectory"] = std::move(*track.json);
   notes_.insert(notes_.end(), track.notes.begin(), track.notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
@@ -195,6 +154,17 @@ void LasBeams::AddNote(const std::string& note) {
   if (!note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
 }
 
+void LasBeams::FindClock(const formats::LasReader& reader, const LasAnnotation& annotation) {
+  const BeamPlan& plan = annotation.plan;
+  choice_.format = plan.time_format;
+  const bool has_dates = (plan.water_levels != nullptr && plan.water_levels->has_dates()) || ComparesTimes(annotation);
+  if (!has_dates || !std::holds_alternative<TrajectoryFromFiles>(plan.source) ||
+      !(prescan_.first_time <= prescan_.last_time))
+    return;
+  const absl::StatusOr<FileTrack> track = TrackOf(FileOf(reader, place_, prescan_), plan);
+  if (track.ok()) choice_.of_track = track->clock;  // Otherwise FindTrack says why, with the levels.
+}
+
 absl::Status LasBeams::FindLevels(const formats::LasReader& reader, const BeamPlan& plan) {
   if (plan.water_levels == nullptr) return absl::OkStatus();
   const formats::PointTimes times = TimesOf(reader, prescan_);
@@ -203,25 +173,42 @@ absl::Status LasBeams::FindLevels(const formats::LasReader& reader, const BeamPl
     return absl::OkStatus();
   }
   std::string note;
-  ASSIGN_OR_RETURN(levels_, plan.water_levels->For(times, plan.time_format, note));
+  ASSIGN_OR_RETURN(levels_, plan.water_levels->For(times, choice_, note));
+  if (std::optional<formats::ClockReading> reading = levels_->ReadingOf(times); reading.has_value())
+    readings_.push_back(*std::move(reading));
   levels_->TakeUnit(place_.frame.metres_per_z);
   AddNote(levels_->description());
   AddNote(note);
   return absl::OkStatus();
 }
 
-absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const BeamPlan& plan, const SeaTimeline& seas) {
+absl::StatusOr<formats::UtcClock> LasBeams::ClockOfSea(const formats::LasReader& reader, const std::string& sea,
+                                                       const formats::TimeSpan& known) {
+  std::string note;
+  ASSIGN_OR_RETURN(const formats::UtcClock clock,
+                   formats::FindUtcClock(reader.name(), TimesOf(reader, prescan_), choice_, known, sea, note));
+  AddNote(note);
+  const double adjusted = formats::GpsOfUtc(clock(prescan_.first_time)) - formats::kAdjustedGpsOffset;
+  readings_.push_back({.of = sea, .scale = clock.scale, .shift = adjusted - clock.scale * prescan_.first_time});
+  return clock;
+}
+
+absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimeline& seas) {
   if (!seas.by_time()) {
     records_ = {seas.fixed().first, seas.fixed().second};
-    return absl::OkStatus();
+    return CheckOnlyRecord(reader, seas);
   }
   if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a sea.
-  std::string note;
-  ASSIGN_OR_RETURN(utc_, formats::FindUtcClock(reader.name(), TimesOf(reader, prescan_), plan.time_format,
-                                               {seas.start(), seas.end()}, *seas.settings().file, note));
-  AddNote(note);
+  ASSIGN_OR_RETURN(utc_, ClockOfSea(reader, *seas.settings().file, {seas.start(), seas.end()}));
   records_ = seas.RecordsWithin(utc_(prescan_.first_time), utc_(prescan_.last_time));
   return absl::OkStatus();
+}
+
+absl::Status LasBeams::CheckOnlyRecord(const formats::LasReader& reader, const SeaTimeline& seas) {
+  const std::optional<double> time = seas.unchosen_time();
+  if (!time.has_value() || !(prescan_.first_time <= prescan_.last_time)) return absl::OkStatus();
+  const formats::TimeSpan near = {*time - seas.longest_gap(), *time + seas.longest_gap()};
+  return ClockOfSea(reader, *seas.settings().file, near).ok() ? absl::OkStatus() : NotOfOnlyRecord(reader.name(), seas);
 }
 
 void LasBeams::NoteLevel() {
@@ -273,15 +260,18 @@ absl::Status LasBeams::FindPlace(const formats::LasReader& reader, const LasAnno
   }
   if (!place.ok()) return place.status();
   place_ = *std::move(place);
-  if (plan.has_track() || !plan.water_classes.empty() || plan.water_level_file.has_value() || GoesByTime(annotation)) {
+  const bool compares_times = ComparesTimes(annotation) && formats::HasGpsTime(reader.header().point_format);
+  if (plan.has_track() || !plan.water_classes.empty() || plan.water_level_file.has_value() || compares_times) {
     RETURN_IF_ERROR(Scan(reader, annotation));
-    if (const std::string axis = ContradictedAxis(reader.header(), prescan_.all, place_); !axis.empty()) {
+    if (const std::string axis = formats::ContradictedAxis(reader.header(), prescan_.all, MetresOf(place_));
+        !axis.empty()) {
       return absl::FailedPreconditionError(absl::StrCat(
           reader.name(), ": the bounds in its header are those of its points with another offset or scale of ", axis,
-          ", so that one of them is wrong (", WrongBounds(reader.header(), prescan_.all, place_),
+          ", so that one of them is wrong (", formats::WrongBounds(reader.header(), prescan_.all, MetresOf(place_)),
           "); correct the header, or its bounds alone if the points are right"));
     }
-    if (const std::string wrong = WrongBounds(reader.header(), prescan_.all, place_); !wrong.empty()) {
+    if (const std::string wrong = formats::WrongBounds(reader.header(), prescan_.all, MetresOf(place_));
+        !wrong.empty()) {
       notes_.push_back(absl::StrCat("the header states bounds that the points do not have (", wrong,
                                     "); those of the points are used"));
       const std::array<double, 3>&least = prescan_.all.least, &greatest = prescan_.all.greatest;
@@ -317,10 +307,13 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   if (plan.time_format == formats::TimeFormat::kAuto && UsesTimes(annotation))
     RETURN_IF_ERROR(formats::CheckOneClock(reader.name(), beams->prescan_.tally));
   beams->NoteLevel();
+  beams->FindClock(reader, annotation);
+  if (beams->choice_.of_track.has_value())
+    RETURN_IF_ERROR(beams->TakeUnitOfTime(beams->choice_.of_track->scale, reader, annotation));
   RETURN_IF_ERROR(beams->FindLevels(reader, plan));
   if (beams->levels_.has_value() && beams->levels_->seconds() != 1)
     RETURN_IF_ERROR(beams->TakeUnitOfTime(beams->levels_->seconds(), reader, annotation));
-  if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, plan, *annotation.seas));
+  if (annotation.seas != nullptr) RETURN_IF_ERROR(beams->FindSeas(reader, *annotation.seas));
   if (beams->utc_.scale != 1) RETURN_IF_ERROR(beams->TakeUnitOfTime(beams->utc_.scale, reader, annotation));
   const auto add = [&](const BeamPlan& of_scanner) -> absl::Status {
     const Track* track = nullptr;
@@ -332,6 +325,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
         RETURN_IF_ERROR(beams->TakeUnitOfTime(seconds, reader, annotation));
         beams->notes_.resize(notes);
         beams->tracks_.pop_back();
+        beams->readings_.pop_back();
         ASSIGN_OR_RETURN(track, beams->FindTrack(reader, of_scanner, beams->Water(plan), seconds));
       }
     }
@@ -342,6 +336,9 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReade
   };
   if (annotation.channels.empty()) RETURN_IF_ERROR(add(plan));
   for (const LasChannel& channel : annotation.channels) RETURN_IF_ERROR(add(channel.plan));
+  const formats::PointTimes times = TimesOf(reader, beams->prescan_);
+  RETURN_IF_ERROR(formats::CheckReadingsAgree(reader.name(), times, beams->readings_));
+  beams->AddNote(formats::CreationNote(times, beams->readings_));
   return beams;
 }
 

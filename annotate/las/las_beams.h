@@ -50,8 +50,14 @@ class LasBeams {
 
  private:
   void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
+  // The clock of the trajectory, where levels or a sea of dates are to be found by the same one.
+  void FindClock(const formats::LasReader& reader, const LasAnnotation& annotation);
   absl::Status FindLevels(const formats::LasReader& reader, const BeamPlan& plan);
-  absl::Status FindSeas(const formats::LasReader& reader, const BeamPlan& plan, const SeaTimeline& seas);
+  absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
+  absl::StatusOr<formats::UtcClock> ClockOfSea(const formats::LasReader& reader, const std::string& sea,
+                                               const formats::TimeSpan& known);
+  // That the only record of a sea, which nobody chose for its time, is of the time of the points.
+  absl::Status CheckOnlyRecord(const formats::LasReader& reader, const SeaTimeline& seas);
   // Place and first pass, again if the points show that the header had put the place elsewhere.
   absl::Status FindPlace(const formats::LasReader& reader, const LasAnnotation& annotation);
   // The track of the sensor at its lever arm, which scanners with equal ones share.
@@ -69,8 +75,6 @@ class LasBeams {
                                          const WaterHeights& water, double& found_seconds);
   // By the times of all points; where that fails and a few lie far from all others, by those of the others.
   absl::StatusOr<FileTrack> TrackOf(const TrackedFile& file, const BeamPlan& plan);
-  // Fails where times are rounded so that they do not tell where the sensor was.
-  absl::Status CheckTimeStep(const std::string& name, double seconds);
   void AddNote(const std::string& note);
 
   LasPlace place_;
@@ -78,6 +82,8 @@ class LasBeams {
   std::optional<formats::WaterLevelSeries> levels_;
   std::vector<std::unique_ptr<const Track>> tracks_;
   std::vector<BeamGeometry> geometries_;
+  formats::ClockChoice choice_;
+  std::vector<formats::ClockReading> readings_;  // Of trajectory, levels and sea, which must be alike.
   formats::UtcClock utc_;
   double seconds_ = 1;  // Of a unit of the points' times.
   std::pair<std::size_t, std::size_t> records_;

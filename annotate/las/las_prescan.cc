@@ -30,7 +30,7 @@ enum Role : std::uint8_t {
   kUnclassified = 64
 };
 
-using Box = LasPrescan::Box;
+using Box = formats::LasBounds;
 
 Box EmptyBox() {
   Box box;

@@ -14,6 +14,7 @@
 #include "budget/beams/return_pair.h"
 #include "budget/beams/terrain_planes.h"
 #include "budget/beams/water_surface.h"
+#include "formats/las/header_bounds.h"
 #include "formats/las/las_reader.h"
 #include "formats/trajectories/time_tally.h"
 
@@ -38,13 +39,9 @@ inline constexpr std::size_t kPulseReach = 16;
 inline constexpr double kLevelTolerance = 2;
 
 struct LasPrescan {
-  // Bounds of points in the coordinates of the file; meaningless if there are none.
-  struct Box {
-    std::array<double, 3> least, greatest;
-  };
-  Box all;                     // Of all points.
+  formats::LasBounds all;      // Of all points.
   std::uint64_t numbered = 0;  // Points that may get a number: chosen and dry ones.
-  Box of_numbered;
+  formats::LasBounds of_numbered;
   // Of the same points, those that are times (formats::IsNoTime).
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
   formats::TimeTally tally;                                  // Of the same times; pulses where pairs are wanted.

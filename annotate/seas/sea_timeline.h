@@ -35,6 +35,10 @@ class SeaTimeline {
   // Whether the sea depends on the time of a pulse. If not, fixed() holds for all.
   bool by_time() const { return !fixed_.has_value(); }
   const BetweenRecords& fixed() const { return *fixed_; }
+  // s since 1970, UTC: of the only record, which holds for all although nobody chose its time. Else nullopt.
+  std::optional<double> unchosen_time() const {
+    return by_time() || settings_.time.has_value() || times_.empty() ? std::nullopt : std::optional(times_.front());
+  }
 
   // The two records around an instant [s since 1970, UTC]. nullopt before the first, after the last, and in a gap that
   // is longer than longest_gap(). Quicker where `guess` is the first of the two. Requires by_time().
@@ -62,6 +66,9 @@ class SeaTimeline {
   double longest_gap_ = 0;
   std::optional<BetweenRecords> fixed_;
 };
+
+// That points of `name` were not measured at the time of the only record. Requires seas.unchosen_time().
+absl::Status NotOfOnlyRecord(const std::string& name, const SeaTimeline& seas);
 
 // "from 2020-06-01T00:50Z to 2020-06-08T03:50Z"
 std::string SpanText(const SeaTimeline& seas);

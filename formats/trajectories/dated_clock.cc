@@ -15,6 +15,9 @@ namespace {
 constexpr double kDay = 86400;  // exact
 constexpr double kHalfDay = kDay / 2;
 
+// s; sources in UTC are read as GPS time where nothing changes within the seconds between the two.
+constexpr double kSameInstant = 60;
+
 std::string SpanText(const TimeSpan& utc) {
   return absl::StrFormat("%s to %s", UtcText(GpsOfUtc(utc.first)), UtcText(GpsOfUtc(utc.last)));
 }
@@ -30,16 +33,23 @@ bool BeginAgain(const PointTimes& points) {
          span.last - span.first > kSecondsPerWeek / 2;
 }
 
-std::vector<DatedClock> FittingClocks(const PointTimes& points, TimeFormat format, const TimeSpan& known) {
+std::vector<PointClock> ChosenClocks(const PointTimes& points, const ClockChoice& choice) {
+  if (choice.of_track.has_value()) return {*choice.of_track};
+  std::vector<PointClock> clocks = ClocksOf(points, choice.format);
+  if (choice.format == TimeFormat::kAuto && IsHeaderPlausible(points)) clocks.resize(1);
+  return clocks;
+}
+
+std::vector<DatedClock> FittingClocks(const PointTimes& points, const ClockChoice& choice, const TimeSpan& known) {
   std::vector<DatedClock> fitting;
   const auto add = [&](const PointClock& clock, double shift) {
     const DatedClock dated = {clock, clock.scale, shift};
     const TimeSpan span = SpanOf(dated, points.span);
     if (Overlap(span, known) >= (span.last - span.first) / 2) fitting.push_back(dated);
   };
-  for (const PointClock& clock : ClocksOf(points, format)) {
+  for (const PointClock& clock : ChosenClocks(points, choice)) {
     // Nothing that has dates changes within the seconds between UTC and GPS.
-    if (format == TimeFormat::kAuto && clock.format == TimeFormat::kUtcDay) continue;
+    if (choice.is_open() && clock.format == TimeFormat::kUtcDay) continue;
     if (clock.form == PointTimeForm::kAdjustedStandard) {
       add(clock, clock.shift);
       continue;
@@ -83,21 +93,74 @@ void KeepByCreation(const PointTimes& points, std::vector<DatedClock>& clocks, s
     evidence = absl::StrCat("the creation of the file on ", DateOf(created + kHalfDay), " by its header");
 }
 
+// "2016-05-12T11:06:22Z by levels.csv"
+std::string InstantText(const ClockReading& reading, double stated) {
+  const double time = reading(stated), gps = time + kAdjustedGpsOffset;
+  if (reading.form == PointTimeForm::kWeekSeconds)
+    return absl::StrCat(HourText(time), " of a ", DayOfWeek(time), " by ", reading.of);
+  return absl::StrCat(gps >= 0 && gps < 1e11 ? UtcText(gps) : "a time before 1980", " by ", reading.of);
+}
+
+bool AreSame(const ClockReading& a, const ClockReading& b, double stated) {
+  double apart = a(stated) - b(stated);
+  if (a.form == PointTimeForm::kAdjustedStandard && b.form == PointTimeForm::kAdjustedStandard)
+    return std::abs(apart) <= kSameInstant;
+  // One of them does not name its week.
+  if (a.form == PointTimeForm::kAdjustedStandard) apart += kAdjustedGpsOffset;
+  if (b.form == PointTimeForm::kAdjustedStandard) apart -= kAdjustedGpsOffset;
+  return std::abs(std::remainder(apart, kSecondsPerWeek)) <= kSameInstant;
+}
+
 }  // namespace
 
-absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, TimeFormat format,
+std::string ChoiceText(const ClockChoice& choice) {
+  if (choice.of_track.has_value())
+    return absl::StrCat("the times are ", choice.of_track->description, ", as the trajectory has them");
+  return absl::StrCat("--time-format ", NameOf(choice.format), " is right");
+}
+
+absl::Status CheckReadingsAgree(const std::string& name, const PointTimes& points,
+                                std::span<const ClockReading> readings) {
+  const double first = points.span.first;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (AreSame(readings[k], readings[i], first)) continue;
+      return absl::FailedPreconditionError(
+          absl::StrCat(name, ": its first point is at ", InstantText(readings[k], first), ", but at ",
+                       InstantText(readings[i], first),
+                       "; give both of the day of the flight, or say how the times of the points "
+                       "are meant by --time-format"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+std::string CreationNote(const PointTimes& points, std::span<const ClockReading> readings) {
+  if (!points.created.has_value()) return "";
+  const double created = *points.created - kAdjustedGpsOffset;
+  for (const ClockReading& reading : readings) {
+    if (reading.form != PointTimeForm::kAdjustedStandard) continue;
+    if (reading(points.span.first) < created + kDay + kHalfDay) continue;
+    return absl::StrCat("the points were measured at ", InstantText(reading, points.span.first),
+                        ", after their file was created on ", DateOf(created + kHalfDay),
+                        " by its header: one of the two is wrong");
+  }
+  return "";
+}
+
+absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, const ClockChoice& choice,
                                                          const TimeSpan& known, const std::string& of,
                                                          std::string& note) {
   note.clear();
-  if (format == TimeFormat::kAuto && BeginAgain(points)) return std::nullopt;
-  std::vector<DatedClock> clocks = FittingClocks(points, format, known);
+  if (choice.is_open() && BeginAgain(points)) return std::nullopt;
+  std::vector<DatedClock> clocks = FittingClocks(points, choice, known);
   const auto is_other = [](const DatedClock& each) {
     return each.clock.format != TimeFormat::kAuto || each.clock.changes_times();
   };
   const auto is_in_milliseconds = [](const DatedClock& each) { return each.scale != 1; };
   // Where the header's clock fits, in whatever week, nothing contradicts it. Milliseconds are rare, and as such a
   // thousandth of the time fits in many places.
-  if (format == TimeFormat::kAuto && !std::ranges::all_of(clocks, is_other)) std::erase_if(clocks, is_other);
+  if (choice.is_open() && !std::ranges::all_of(clocks, is_other)) std::erase_if(clocks, is_other);
   if (!std::ranges::all_of(clocks, is_in_milliseconds)) std::erase_if(clocks, is_in_milliseconds);
   if (clocks.empty()) return std::nullopt;
   std::string evidence;
@@ -108,7 +171,7 @@ absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& point
         [&](std::string* text, const DatedClock& each) { absl::StrAppend(text, DatedText(each, points)); }));
   }
   const DatedClock& found = clocks.front();
-  if (format == TimeFormat::kAuto && is_other(found)) note = ClockNote(found.clock, points, of);
+  if (choice.is_open() && is_other(found)) note = ClockNote(found.clock, points, of);
   if (!evidence.empty()) {
     if (note.empty()) note = absl::StrCat("the GPS times of the points are ", found.clock.description);
     absl::StrAppend(&note, "; of the dates that ", of, " has for them, ", DateOf(found(points.span.first)),
@@ -156,14 +219,14 @@ absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& poin
       offsets.size() > 1 ? "the sea has more than one week of them" : "they begin again from 0"));
 }
 
-absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes& points, TimeFormat format,
+absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes& points, const ClockChoice& choice,
                                       const TimeSpan& known, const std::string& of, std::string& note) {
   note.clear();
   const absl::StatusOr<double> stated = UtcOffset(name, points, known, of);
   if (IsNoTime(points.span.first) && IsNoTime(points.span.last)) return stated.status();
-  if (stated.ok() && format == TimeFormat::kAuto) return UtcClock{1, *stated};
+  if (choice.keeps_header() && stated.ok()) return UtcClock{1, *stated};
   const TimeSpan adjusted = {GpsOfUtc(known.first) - kAdjustedGpsOffset, GpsOfUtc(known.last) - kAdjustedGpsOffset};
-  const absl::StatusOr<std::optional<DatedClock>> found = FindDatedClock(points, format, adjusted, of, note);
+  const absl::StatusOr<std::optional<DatedClock>> found = FindDatedClock(points, choice, adjusted, of, note);
   if (!found.ok()) {
     if (!stated.ok())
       return absl::FailedPreconditionError(
@@ -172,10 +235,10 @@ absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes&
                                                       found.status().message(), "; choose an instant by --sea-time"));
   }
   if (!found->has_value()) {
-    if (!stated.ok()) return stated.status();
-    return absl::FailedPreconditionError(absl::StrCat(name, ": its points were measured outside of ", of,
-                                                      " if --time-format ", NameOf(format),
-                                                      " is right; give the sea of that time, or another format"));
+    if (choice.keeps_header()) return stated.status();
+    return absl::FailedPreconditionError(absl::StrCat(name, ": its points were measured outside of ", of, " if ",
+                                                      ChoiceText(choice),
+                                                      "; give the sea of that time, or another format"));
   }
   const double first = (**found)(points.span.first);
   return UtcClock{(*found)->scale, (*found)->shift + UtcOfGps(first + kAdjustedGpsOffset) - first};

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_time.h"
@@ -20,14 +22,29 @@ struct DatedClock {
   double operator()(double stated) const { return scale * stated + shift; }
 };
 
+// What is known of the clock before dates are.
+struct ClockChoice {
+  TimeFormat format = TimeFormat::kAuto;  // As the user names it.
+  std::optional<PointClock> of_track =
+      std::nullopt;  // By which the trajectory lies at the points: no other one counts.
+
+  bool is_open() const { return format == TimeFormat::kAuto && !of_track.has_value(); }
+  // Whether it may be that of the header.
+  bool keeps_header() const { return is_open() || (of_track.has_value() && of_track->format == TimeFormat::kAuto); }
+};
+
+// "--time-format day is right", "the times are seconds of the day, a Wednesday, as the trajectory has them"
+std::string ChoiceText(const ClockChoice& choice);
+
 // Of the clocks by which half of the points' time or more lies within `known`, adjusted standard GPS times of what `of`
 // names: the one that is meant. Times that do not name their week or day have one for each that fits. The clock that
-// the header states, or that `format` names, comes before all others, and seconds come before milliseconds. Of several,
+// the header states, or that the user names, comes before all others, and seconds come before milliseconds; where it is
+// plausible (IsHeaderPlausible), no other one counts unless the trajectory has it. Of several,
 // those count that are not later than the creation of the file, and of these the one of that day; a creation before all
 // of them says nothing. nullopt where none fits, and where seconds of the week begin again from 0. The error lists
-// those that remain where they are several. `note` says what was found unless it is what header or `format` say, and is
-// empty then.
-absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, TimeFormat format,
+// those that remain where they are several. `note` says what was found unless it is what header, user or trajectory
+// say, and is empty then.
+absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, const ClockChoice& choice,
                                                          const TimeSpan& known, const std::string& of,
                                                          std::string& note);
 
@@ -48,9 +65,25 @@ struct UtcClock {
   double operator()(double stated) const { return scale * stated + shift; }
 };
 
-// UtcOffset by the clock that the header states; where it fails, by FindDatedClock. With another `format` than kAuto by
-// that alone.
-absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes& points, TimeFormat format,
+// UtcOffset by the clock that the header states; where it fails, by FindDatedClock. With a choice by that alone.
+absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes& points, const ClockChoice& choice,
                                       const TimeSpan& known, const std::string& of, std::string& note);
+
+// How a source of data by time reads the times of the points: time = scale * (time as their file states it) + shift.
+struct ClockReading {
+  std::string of;  // "levels.csv", "the trajectory"
+  double scale = 1, shift = 0;
+  PointTimeForm form = PointTimeForm::kAdjustedStandard;  // Of the time that results.
+
+  double operator()(double stated) const { return scale * stated + shift; }
+};
+
+// Fails where two sources put the first point of a file at different instants, of days or weeks as far as they name
+// them: then one of them belongs to another day. `name`: of the file.
+absl::Status CheckReadingsAgree(const std::string& name, const PointTimes& points,
+                                std::span<const ClockReading> readings);
+
+// For the user, where by one of the sources the points were measured after their file was created. Else empty.
+std::string CreationNote(const PointTimes& points, std::span<const ClockReading> readings);
 
 }  // namespace albtpu::formats

@@ -18,6 +18,9 @@ constexpr double kUnixEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 197
 constexpr double kEarliest = 315e6, kLatest = 2525e6;
 // A flight that began before the end of a week or a day goes on for less than a day.
 constexpr double kLastOfWeek = kSecondsPerWeek + kSecondsPerDay, kLastOfDay = 2 * kSecondsPerDay;
+// 1/s; scanners send up to 5 million pulses, and those that see the bottom have less than 1 million with five returns.
+constexpr double kMostReturns = 5e6;
+constexpr double kShortest = 1e-3;  // s; points of one pulse have equal times.
 
 constexpr std::array<std::string_view, 7> kDays = {"Sunday",   "Monday", "Tuesday", "Wednesday",
                                                    "Thursday", "Friday", "Saturday"};
@@ -25,6 +28,8 @@ constexpr std::array<std::string_view, 7> kDays = {"Sunday",   "Monday", "Tuesda
 bool IsWithin(const TimeSpan& span, double least, double greatest) {
   return span.first >= least && span.last <= greatest;
 }
+
+bool IsOfDay(const TimeSpan& span) { return IsWithin(span, 0, kLastOfDay) && span.first < kSecondsPerDay; }
 
 std::string Describe(PointTimeForm form) {
   return form == PointTimeForm::kWeekSeconds ? "seconds of the GPS week" : "adjusted standard GPS times";
@@ -56,7 +61,7 @@ void AddClocks(const TimeSpan& span, double scale, double leap_seconds, std::vec
     clocks.push_back(Adjusted(format(TimeFormat::kUnix), scale, leap - kUnixEpoch - kAdjustedGpsOffset,
                               absl::StrCat("Unix ", unit)));
   }
-  if (!IsWithin(span, 0, kLastOfDay)) return;
+  if (!IsOfDay(span)) return;
   for (std::size_t day = 0; day < kDays.size(); ++day) {
     clocks.push_back({format(TimeFormat::kDay), scale, kSecondsPerDay * static_cast<double>(day),
                       PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the day, a ", std::string(kDays[day]))});
@@ -74,16 +79,23 @@ bool ReadsAlike(const PointClock& a, const PointClock& b) {
 
 }  // namespace
 
-bool MayBeOfDay(const TimeSpan& stated) {
-  return IsWithin(stated, 0, kLastOfDay) && stated.last - stated.first <= kSecondsPerDay;
+bool MayBeOfDay(const TimeSpan& stated) { return IsOfDay(stated) && stated.last - stated.first <= kSecondsPerDay; }
+
+bool IsHeaderPlausible(const PointTimes& stated) {
+  if (stated.form != PointTimeForm::kAdjustedStandard || !stated.created.has_value()) return false;
+  // The date of the header is that of some place, up to half a day from UTC.
+  const double latest = *stated.created + 1.5 * kSecondsPerDay;
+  return IsWithin(stated.span, kEarliest - kAdjustedGpsOffset, latest - kAdjustedGpsOffset) &&
+         !IsWithin(stated.span, 0, kLastOfWeek);
+}
+
+std::string HourText(double seconds) {
+  const int second = static_cast<int>(std::floor(seconds - kSecondsPerDay * std::floor(seconds / kSecondsPerDay)));
+  return absl::StrFormat("%02d:%02d:%02d", second / 3600, second / 60 % 60, second % 60);
 }
 
 std::string HoursText(const TimeSpan& seconds) {
-  const auto hour = [](double time) {
-    const int second = static_cast<int>(std::floor(time - kSecondsPerDay * std::floor(time / kSecondsPerDay)));
-    return absl::StrFormat("%02d:%02d:%02d", second / 3600, second / 60 % 60, second % 60);
-  };
-  return absl::StrCat(hour(seconds.first), " to ", hour(seconds.last));
+  return absl::StrCat(HourText(seconds.first), " to ", HourText(seconds.last));
 }
 
 std::string DayOfWeek(double time) {
@@ -97,7 +109,9 @@ std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format, st
   const double leap_seconds = date.has_value() ? *date + kUnixEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
   AddClocks(stated.span, 1, leap_seconds, possible);
   const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
-  AddClocks(milliseconds, kMillisecond, leap_seconds, possible);
+  const double duration = std::max(milliseconds.last - milliseconds.first, kShortest);
+  if (static_cast<double>(stated.count) <= kMostReturns * duration)
+    AddClocks(milliseconds, kMillisecond, leap_seconds, possible);
   std::vector<PointClock> clocks;
   if (format == TimeFormat::kAuto) clocks.push_back({TimeFormat::kAuto, 1, 0, stated.form, Describe(stated.form)});
   for (PointClock& clock : possible) {

@@ -33,7 +33,8 @@ struct PointClock {
 
 // The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
 // other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
-// formats: that one alone, which is several for seconds of a day and for milliseconds. `date`: a GPS time since 1980
+// formats: that one alone, which is several for seconds of a day and for milliseconds. Seconds of a day begin within
+// it, and milliseconds are left out where no scanner has so many returns in their time. `date`: a GPS time since 1980
 // near those of the points, where it is known, whose leap seconds are theirs; else those at the creation of the file,
 // or of today.
 std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format,
@@ -42,7 +43,13 @@ std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format,
 // Whether times may be seconds of a day, as long as a flight is.
 bool MayBeOfDay(const TimeSpan& stated);
 
-// "16:53:02 to 16:53:22", of seconds of a day, or of the week.
+// Whether the header states adjusted standard times, and by these a survey before the creation of the file. Those that
+// would be seconds of the week are left out: files often state the wrong one of the two.
+bool IsHeaderPlausible(const PointTimes& stated);
+
+// "16:53:02", of seconds of a day, or of the week.
+std::string HourText(double seconds);
+// "16:53:02 to 16:53:22"
 std::string HoursText(const TimeSpan& seconds);
 
 // "Wednesday", of seconds of the week or GPS times since 1980.

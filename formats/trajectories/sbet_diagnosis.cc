@@ -14,7 +14,6 @@ namespace albtpu::formats {
 namespace {
 
 constexpr double kKnot = 1852.0 / 3600;   // m/s, exact.
-constexpr double kFoot = 0.3048;          // m, exact.
 constexpr double kFlying = 20;            // m/s: slower ones may drift, hover or roll on the ground.
 constexpr std::size_t kSectors = 8;       // Of courses, 45 degrees each.
 constexpr std::size_t kMinInSector = 20;  // Pairs.

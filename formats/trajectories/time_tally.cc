@@ -5,6 +5,9 @@
 #include <functional>
 #include <limits>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
 namespace albtpu::formats {
 namespace {
 
@@ -104,6 +107,27 @@ std::uint64_t TimeTally::outside_of_bulk() const { return points_ - Largest().po
 std::optional<double> TimeTally::CoarseStep() const {
   if (pulses_ < kFewPulses || 2 * equal_ <= pulses_) return std::nullopt;
   return steps_ > 0 ? sum_of_steps_ / static_cast<double>(steps_) : std::numeric_limits<double>::infinity();
+}
+
+absl::StatusOr<std::string> TimeStepNote(const std::string& name, const TimeTally& tally, double seconds) {
+  // s. Rounding to such steps moves the sensor by up to half a step. At 60 m/s and 400 m, half of the longest is 6 m,
+  // or 0.9 degrees of incidence; half of the noted one is 0.3 m, less than a footprint.
+  constexpr double kLongestTimeStep = 0.2, kNotedTimeStep = 0.01;
+  const std::optional<double> stated = tally.CoarseStep();
+  if (!stated.has_value()) return "";
+  const double step = *stated * seconds;
+  if (step < kNotedTimeStep) return "";
+  if (step <= kLongestTimeStep) {
+    return absl::StrFormat(
+        "the GPS times of the points are rounded: pulses share them, and they are %.2g s apart, so "
+        "that positions of the sensor are off by up to %.2g s of flight",
+        step, step / 2);
+  }
+  return absl::FailedPreconditionError(absl::StrCat(
+      name, ": the GPS times of its points are rounded (",
+      std::isfinite(step) ? absl::StrFormat("pulses share them, and they are %.3g s apart", step) : "all are equal",
+      "), and do not tell where the sensor was; take the file with the times that the sensor's software wrote, or give "
+      "--scanner or --incidence"));
 }
 
 }  // namespace albtpu::formats

@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
@@ -51,5 +53,9 @@ class TimeTally {
   std::uint64_t pulses_ = 0, equal_ = 0, steps_ = 0;
   double sum_of_steps_ = 0;
 };
+
+// For the user, where the times of a file are rounded so that positions of the sensor suffer by it; else empty. Fails
+// where they do not tell where the sensor was. `name`: of the file. `seconds`: of a unit of the times.
+absl::StatusOr<std::string> TimeStepNote(const std::string& name, const TimeTally& tally, double seconds);
 
 }  // namespace albtpu::formats

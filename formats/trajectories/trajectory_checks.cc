@@ -18,7 +18,6 @@ namespace {
 
 // Times at which distances are taken. Over five hours they are 9 s or half a kilometre apart.
 constexpr int kSamples = 2000;
-constexpr double kFoot = 0.3048;                     // m, exact; the US survey foot differs by 2e-6 of it.
 constexpr double kSouthernFalseNorthing = 10000000;  // m, of all southern UTM zones.
 
 std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeline) {

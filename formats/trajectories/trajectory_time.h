@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,6 +60,7 @@ struct PointTimes {
   PointTimeForm form = PointTimeForm::kAdjustedStandard;
   // The beginning of the day, in UTC, on which the file was created by its header: GPS time since 1980.
   std::optional<double> created = std::nullopt;
+  std::uint64_t count = 0;  // Of the times; 0: not known.
 };
 
 // GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.

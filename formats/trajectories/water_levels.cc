@@ -8,7 +8,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "formats/trajectories/dated_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
@@ -85,6 +84,7 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::In(PointTimeForm form) const 
   const double week =
       std::floor((start() + kAdjustedGpsOffset) / kSecondsPerWeek) * kSecondsPerWeek - kAdjustedGpsOffset;
   for (double& time : series.times_) time -= week;
+  series.week_ = week;
   series.crosses_week_ = series.times_.back() > kSecondsPerWeek;
   return series;
 }
@@ -105,7 +105,12 @@ std::string WaterLevelSeries::TimesText() const {
   return text;
 }
 
-absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& points, TimeFormat format,
+std::optional<ClockReading> WaterLevelSeries::ReadingOf(const PointTimes& points) const {
+  if (!has_dates_ || crosses_week_ || !HasLevelsAt(points.span)) return std::nullopt;
+  return ClockReading{.of = name_, .scale = scale_, .shift = shift_ + week_};
+}
+
+absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& points, const ClockChoice& choice,
                                                              std::string& note) const {
   struct Reading {
     PointClock clock;
@@ -115,7 +120,7 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& p
   for (const PointClock& clock : ClocksOfDates({start(), end()}, points.form)) {
     std::string ignored;
     const absl::StatusOr<std::optional<DatedClock>> found =
-        FindDatedClock(points, format, {clock(start()), clock(end())}, name_, ignored);
+        FindDatedClock(points, choice, {clock(start()), clock(end())}, name_, ignored);
     if (found.ok() && found->has_value()) readings.push_back({clock, **found});
   }
   if (readings.size() > 1) {
@@ -141,7 +146,7 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& p
   return series;
 }
 
-absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points, TimeFormat format,
+absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points, const ClockChoice& choice,
                                                        std::string& note) const {
   note.clear();
   const auto noted = [&](WaterLevelSeries series) {
@@ -155,26 +160,26 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points,
   absl::StatusOr<WaterLevelSeries> stated = In(points.form);
   if (!has_dates_) {
     if (stated->HasLevelsAt(points.span)) return stated;
-    ASSIGN_OR_RETURN(WaterLevelSeries read, ByNumbers(points, format, note));
+    ASSIGN_OR_RETURN(WaterLevelSeries read, ByNumbers(points, choice, note));
     return noted(std::move(read));
   }
-  if (stated.ok() && format == TimeFormat::kAuto && (stated->crosses_week_ || stated->HasLevelsAt(points.span)))
+  if (stated.ok() && choice.keeps_header() && (stated->crosses_week_ || stated->HasLevelsAt(points.span)))
     return noted(*std::move(stated));
   // Dates of more than a week are an error of seconds of a week alone.
-  const absl::StatusOr<std::optional<DatedClock>> clock = FindDatedClock(points, format, {start(), end()}, name_, note);
+  const absl::StatusOr<std::optional<DatedClock>> clock = FindDatedClock(points, choice, {start(), end()}, name_, note);
   if (!clock.ok()) {
     return absl::FailedPreconditionError(absl::StrCat(name_, ": covers the GPS times of the points as ",
                                                       clock.status().message(),
                                                       "; give the levels of the day of the survey alone"));
   }
   if (!clock->has_value()) {
-    if (format == TimeFormat::kAuto) {
+    if (choice.keeps_header()) {
       if (!stated.ok()) return stated;
       return noted(*std::move(stated));
     }
     return absl::FailedPreconditionError(absl::StrCat(name_, ": has no level at the times of the points if ",
-                                                      "--time-format ", NameOf(format),
-                                                      " is right; give the levels of that time, or another format"));
+                                                      ChoiceText(choice),
+                                                      "; give the levels of that time, or another --time-format"));
   }
   WaterLevelSeries series = *this;
   series.scale_ = (*clock)->scale;

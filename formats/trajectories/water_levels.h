@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/trajectories/dated_clock.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
@@ -25,11 +25,14 @@ class WaterLevelSeries {
   absl::StatusOr<WaterLevelSeries> In(PointTimeForm form) const;
 
   // The same for the points of a file, by the clock that their header states. Where a file of dates has no level at
-  // their times by it, or several weeks of them, by FindDatedClock; with another `format` than kAuto by that alone.
+  // their times by it, or several weeks of them, by FindDatedClock; with a choice by that alone.
   // Numbers in place of dates are in the form of the points, whatever it is; where they have no level at their times,
   // the one clock of dates by which they have. `note`: what was found, or that there is no level at their times; else
   // empty.
-  absl::StatusOr<WaterLevelSeries> For(const PointTimes& points, TimeFormat format, std::string& note) const;
+  absl::StatusOr<WaterLevelSeries> For(const PointTimes& points, const ClockChoice& choice, std::string& note) const;
+
+  // How the levels read the times of points, where they have dates and levels at these times.
+  std::optional<ClockReading> ReadingOf(const PointTimes& points) const;
 
   const std::string& name() const { return name_; }
   std::size_t size() const { return times_.size(); }
@@ -70,7 +73,8 @@ class WaterLevelSeries {
   std::optional<double> Between(double time, std::size_t after) const;
 
   // The series of numbers whose times `clock` reads, for points of a clock that fits them.
-  absl::StatusOr<WaterLevelSeries> ByNumbers(const PointTimes& points, TimeFormat format, std::string& note) const;
+  absl::StatusOr<WaterLevelSeries> ByNumbers(const PointTimes& points, const ClockChoice& choice,
+                                             std::string& note) const;
   bool HasLevelsAt(const TimeSpan& points) const;
   std::string TimesText() const;
 
@@ -78,6 +82,7 @@ class WaterLevelSeries {
   std::vector<double> times_, levels_;
   bool crosses_week_ = false;  // Seconds of the week that continue beyond 604 800 s.
   bool has_dates_ = false;
+  double week_ = 0;  // s; what In() took from the times: adjusted standard GPS time of the beginning of their week.
   std::string description_;
   std::optional<double> metres_;  // Of the unit of the levels; absent: not stated.
   double offset_ = 0;             // As LevelReference.

@@ -84,7 +84,7 @@ void ClocksTarget(std::string_view input) {
   const double begin = std::fmod(std::abs(static_cast<double>(numbers.Next<std::int32_t>())), 1.3e9);
   const TimeSpan known = {begin, begin + numbers.Next<std::uint16_t>() * 60.0};
   std::string note;
-  const auto dated = FindDatedClock(points, format, known, "known", note);
+  const auto dated = FindDatedClock(points, {.format = format}, known, "known", note);
   ALBTPU_MUST(note.empty() || (dated.ok() && dated->has_value()));
   if (!dated.ok()) ALBTPU_MUST(dated.status().message().size() > 10);
   if (dated.ok() && dated->has_value()) {
@@ -92,7 +92,7 @@ void ClocksTarget(std::string_view input) {
     ALBTPU_MUST(2 * Overlap(span, known) >= (span.last - span.first) * (1 - 1e-9) - 1e-3);
   }
   const TimeSpan utc = {UtcOfGps(known.first + kAdjustedGpsOffset), UtcOfGps(known.last + kAdjustedGpsOffset)};
-  const absl::StatusOr<UtcClock> clock = FindUtcClock("file", points, format, utc, "known", note);
+  const absl::StatusOr<UtcClock> clock = FindUtcClock("file", points, {.format = format}, utc, "known", note);
   if (!clock.ok()) {
     ALBTPU_MUST(absl::StartsWith(clock.status().message(), "file: "));
     return;

@@ -30,7 +30,7 @@ PointTimes HalfHourOfWeek(double first, std::optional<double> created = std::nul
 
 absl::StatusOr<UtcClock> Find(const PointTimes& points, const TimeSpan& known, std::string& note,
                               TimeFormat format = TimeFormat::kAuto) {
-  return FindUtcClock("in.las", points, format, known, "sea.csv", note);
+  return FindUtcClock("in.las", points, {.format = format}, known, "sea.csv", note);
 }
 
 std::string ErrorOfClock(const PointTimes& points, const TimeSpan& known) {
@@ -109,6 +109,54 @@ TEST(DatedClock, IsNotThatOfACreationThatDecidesNothing) {
   const TimeSpan known = Span("2016-05-11T12:00Z", "2016-05-11T18:00Z");
   EXPECT_TRUE(Find(HalfHourOfWeek(kOfWeek, GpsTimeOfDay(2001, 1)), known, note).ok());
   EXPECT_EQ(note, "");
+}
+
+// Adjusted standard times of 2016-05-11, written on that day, and the milliseconds of a Sunday that they might be.
+TEST(DatedClock, IsThatOfAPlausibleHeader) {
+  PointTimes points = {
+      {kGpsTime - 1e9, kGpsTime - 1e9 + 1800}, PointTimeForm::kAdjustedStandard, GpsTimeOfDay(2016, 132)};
+  const TimeSpan sunday = Span("2016-05-15T00:00Z", "2016-05-17T23:00Z");
+  EXPECT_THAT(ErrorOfClock(points, sunday), HasSubstr("measured outside of sea.csv"));
+  points.created.reset();
+  std::string note;
+  EXPECT_TRUE(Find(points, sunday, note).ok());
+  EXPECT_THAT(note, HasSubstr("are milliseconds of the "));
+  points.count = 100000;  // In 1.8 s: 56 kHz.
+  EXPECT_TRUE(Find(points, sunday, note).ok());
+  points.count = 100000000;  // 56 MHz
+  EXPECT_THAT(ErrorOfClock(points, sunday), HasSubstr("measured outside of sea.csv"));
+}
+
+TEST(DatedClock, IsOfADayOnlyWithinIt) {
+  // Monday, 10:00, and the same hour of Tuesday.
+  EXPECT_THAT(ErrorOfClock(HalfHourOfWeek(122400), Span("2016-05-10T09:00Z", "2016-05-10T12:00Z")),
+              HasSubstr("measured outside of sea.csv"));
+}
+
+TEST(ClockReading, AgreesWithThoseOfOtherSources) {
+  const PointTimes points = HalfHourOfWeek(kOfDay, GpsTimeOfDay(2016, 132));
+  const double wednesday = 1896 * kSecondsPerWeek + 3 * 86400 - kAdjustedGpsOffset;
+  const ClockReading levels = {.of = "levels.csv", .shift = wednesday};
+  const ClockReading track = {.of = "the trajectory", .shift = 3 * 86400 + 18, .form = PointTimeForm::kWeekSeconds};
+  const auto check = [&](const ClockReading& a, const ClockReading& b) {
+    return CheckReadingsAgree("in.las", points, std::vector{a, b});
+  };
+  EXPECT_TRUE(check(levels, track).ok());
+  EXPECT_TRUE(check(track, levels).ok());
+  EXPECT_TRUE(check(levels, levels).ok());
+  EXPECT_EQ(CreationNote(points, std::vector{track, levels}), "");
+  const ClockReading thursday = {.of = "sea.csv", .shift = wednesday + 86400};
+  EXPECT_THAT(std::string(check(track, thursday).message()),
+              ::testing::AllOf(HasSubstr("in.las: its first point is at "),
+                               HasSubstr(" of a Wednesday by the trajectory, but at 2016-05-12T"),
+                               HasSubstr(" by sea.csv; give both of the day of the flight")));
+  // Of another week: only a source that names its week contradicts it.
+  const ClockReading later = {.of = "later.csv", .shift = wednesday + 52 * kSecondsPerWeek};
+  EXPECT_TRUE(check(track, later).ok());
+  EXPECT_FALSE(check(levels, later).ok());
+  EXPECT_THAT(CreationNote(points, std::vector{track, later}),
+              ::testing::AllOf(HasSubstr("measured at 2017-05-10T"),
+                               HasSubstr("by later.csv, after their file was created on 2016-05-11 by its header")));
 }
 
 TEST(DatedClock, DoesNotBeginAgain) {

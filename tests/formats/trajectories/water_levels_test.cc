@@ -16,7 +16,31 @@ using enum PointTimeForm;
 absl::StatusOr<WaterLevelSeries> Find(const std::filesystem::path& path, const PointTimes& points, TimeFormat format,
                                       std::string& note) {
   const absl::StatusOr<WaterLevelSeries> series = ReadWaterLevels(path);
-  return series.ok() ? series->For(points, format, note) : series;
+  return series.ok() ? series->For(points, {.format = format}, note) : series;
+}
+
+// Points of Wednesday in seconds of the day, levels of the same hours of a day: that of the trajectory decides.
+TEST(WaterLevelsFor, KeepsToTheClockOfTheTrajectory) {
+  const TemporaryFolder folder;
+  const PointTimes points = {{51017, 51077}, kWeekSeconds};  // 14:10:00Z
+  const ClockChoice wednesday = {.of_track = PointClock{.format = TimeFormat::kDay,
+                                                        .shift = 3 * 86400,
+                                                        .form = kWeekSeconds,
+                                                        .description = "seconds of the day, a Wednesday"}};
+  std::string note = "none";
+  for (const int day : {8, 11, 12}) {  // A Sunday, as the header says, Wednesday and Thursday.
+    const auto path = folder.Write("tide.csv", absl::StrFormat("time,water_level\n2016-05-%02dT14:00:00Z,1\n"
+                                                               "2016-05-%02dT14:20:00Z,2\n",
+                                                               day, day));
+    EXPECT_TRUE(Find(path, points, TimeFormat::kAuto, note).ok());
+    const auto levels = ReadWaterLevels(path)->For(points, wednesday, note);
+    EXPECT_EQ(levels.ok(), day == 11) << day;
+    EXPECT_EQ(note, "");
+    if (levels.ok())
+      EXPECT_NEAR(levels->At(51017).value_or(-1), 1.5, 1e-9);
+    else
+      EXPECT_THAT(std::string(levels.status().message()), HasSubstr("a Wednesday, as the trajectory has them; give"));
+  }
 }
 
 // 2016-05-11T14:10:00Z, 600 s after the first level, by every clock; GPS is 17 s ahead of UTC. The levels are 1 to 2 m

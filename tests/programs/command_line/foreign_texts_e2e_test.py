@@ -1,20 +1,16 @@
 """Texts in files of others, from outside: they neither control the terminal nor become a part of an output's markup."""
 
 import json
-import pathlib
 import re
 import struct
-import sys
 
 import h5py
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "query"))
-
-import programs  # noqa: E402
-import reported_survey  # noqa: E402
-from las_file import LasFile  # noqa: E402
-from programs import query  # noqa: E402
-from simulated_survey import SimulatedSurvey  # noqa: E402
+import programs
+import reported_survey
+from las_file import LasFile
+from programs import query
+from simulated_survey import SimulatedSurvey
 
 HOSTILE = "\x1b]0;owned\x07\x1b[2J\x9b1m<script>&\"'"  # A title, and the screen erased in two ways; markup.
 CONTROLS = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]")  # All but the ends of lines.
