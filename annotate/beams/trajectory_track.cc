@@ -146,12 +146,35 @@ std::optional<double> WeekOf(const formats::TrajectoryTimeline& timeline) {
   return *gps - formats::kAdjustedGpsOffset - (stated + run.offset);
 }
 
+constexpr double kHalfDay = 43200;  // s
+
+// "2016-05-11", of a GPS time since 1980.
+std::string DateOf(double gps) {
+  return gps >= 0 && gps < 1e11 ? formats::UtcText(gps).substr(0, 10) : "a date before 1980";
+}
+
 void NoteRemarks(const formats::TrajectoryTimeline& timeline, FileTrack& found) {
   for (const formats::TimelineRun& run : timeline.runs()) {
     const std::string& remark = run.trajectory->remark();
     if (!remark.empty() && std::find(found.notes.begin(), found.notes.end(), remark) == found.notes.end())
       found.notes.push_back(remark);
   }
+}
+
+// UTC that neither the points nor the trajectory gives a date.
+void NoteLeapSeconds(const formats::TrajectoryTimeline& timeline, FileTrack& found) {
+  const formats::PointTimes& points = timeline.points();
+  const double stated = timeline.runs().front().trajectory->TimeAt(0);
+  if (points.form != formats::PointTimeForm::kWeekSeconds || formats::GpsTimeOfTrajectory(stated).has_value()) return;
+  found.notes.push_back(
+      points.created.has_value()
+          ? absl::StrFormat(
+                "GPS - UTC of the trajectory is taken as %d s, that of %s, when the file was created by its "
+                "header",
+                formats::GpsMinusUtc(*points.created), DateOf(*points.created + kHalfDay))
+          : absl::StrFormat("GPS - UTC of the trajectory is taken as %g s, that since 2017, because the header of the "
+                            "file does not state when it was created",
+                            formats::kGpsMinusUtcNow));
 }
 
 absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan& plan,
@@ -190,9 +213,10 @@ absl::StatusOr<FileTrack> TrackOfThisWeek(const TrackedFile& stated, const BeamP
 absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan& plan,
                                        const formats::PointClock& clock, double least_covered) {
   const TrajectoryFromFiles& source = std::get<TrajectoryFromFiles>(plan.source);
+  formats::PointTimes times = clock(stated.times.span);
+  times.created = stated.times.created;
   absl::StatusOr<formats::TrajectoryTimeline> timeline = formats::TrajectoryTimeline::Create(
-      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps,
-      clock(stated.times.span));
+      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps, times);
   if (!timeline.ok()) {
     return TrackOfThisWeek(stated, plan, clock, least_covered,
                            absl::Status(timeline.status().code(),
@@ -207,6 +231,7 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   found.clock = clock;
   found.week = WeekOf(*timeline);
   NoteRemarks(*timeline, found);
+  if (source.utc) NoteLeapSeconds(*timeline, found);
   absl::StatusOr<std::vector<formats::ErrorsOfRun>> errors = plan.trajectory_errors.Of(*timeline);
   if (!errors.ok())
     return absl::Status(errors.status().code(), absl::StrCat(file.name, ": ", errors.status().message()));
@@ -222,13 +247,6 @@ absl::StatusOr<FileTrack> TrackByClock(const TrackedFile& stated, const BeamPlan
   found.track = std::make_unique<ClockedTrack>(std::move(found.track), clock);
   found.motions = std::make_unique<ClockedMotions>(std::move(found.motions), clock);
   return found;
-}
-
-constexpr double kHalfDay = 43200;  // s
-
-// "2016-05-11", of a GPS time since 1980.
-std::string DateOf(double gps) {
-  return gps >= 0 && gps < 1e11 ? formats::UtcText(gps).substr(0, 10) : "a date before 1980";
 }
 
 // What to do where several clocks fit.

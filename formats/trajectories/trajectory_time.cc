@@ -139,10 +139,9 @@ std::string UtcText(double gps_time) {
 constexpr double kGpsEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact
 
 // Within the leap second itself either side of it is right enough.
-double UtcOfGps(double gps) {
-  const int leap = LeapSecondsAtUtc(gps - LeapSecondsAtUtc(gps));
-  return gps - leap + kGpsEpoch;
-}
+int GpsMinusUtc(double gps) { return LeapSecondsAtUtc(gps - LeapSecondsAtUtc(gps)); }
+
+double UtcOfGps(double gps) { return gps - GpsMinusUtc(gps) + kGpsEpoch; }
 
 double GpsOfUtc(double utc) { return utc - kGpsEpoch + LeapSecondsAtUtc(utc - kGpsEpoch); }
 
@@ -156,9 +155,10 @@ std::optional<double> GpsTimeOfDay(int year_number, int day_of_year) {
 
 namespace {
 
-// GPS - UTC [s] at a GPS time. Within 18 s of a leap second the result may be off by one: no survey is flown at
-// midnight of New Year's Eve.
-double GpsMinusUtc(double gps) { return LeapSecondsAtUtc(gps - kGpsMinusUtcNow); }
+// GPS - UTC [s] of seconds of a week that neither the points nor their trajectory name.
+double GpsMinusUtcOfAnyWeek(const PointTimes& points) {
+  return points.created.has_value() ? GpsMinusUtc(*points.created) : kGpsMinusUtcNow;
+}
 
 // A trajectory that began before the end of the week goes on for less than a day: no flight is longer.
 constexpr double kLongestContinuation = 86400;
@@ -192,7 +192,7 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
       if (same_week.overlap >= 0) return same_week;
       return Longest(trajectory, points.span, std::array{base, base - kSecondsPerWeek, base + kSecondsPerWeek});
     };
-    if (week_seconds) return of_base(later * kGpsMinusUtcNow);
+    if (week_seconds) return of_base(later * GpsMinusUtcOfAnyWeek(points));
     const auto of_gps = [&](double gps) {
       const double week = gps - trajectory.first - kSecondsPerWeek * std::floor(gps / kSecondsPerWeek);
       return of_base(week + later * GpsMinusUtc(gps));

@@ -37,6 +37,9 @@ std::string UtcText(double gps_time);
 double UtcOfGps(double gps);
 double GpsOfUtc(double utc);
 
+// GPS - UTC [s] at a GPS time, s since 1980.
+int GpsMinusUtc(double gps);
+
 // The beginning of a day in UTC as GPS time, s since 1980, by the number of the day in its year, from 1. nullopt where
 // there is no such day, or none of a laser survey: before 1990 or after 2100.
 std::optional<double> GpsTimeOfDay(int year, int day_of_year);
@@ -75,9 +78,10 @@ enum class TrajectoryClock { kGps, kUtc };
 // `offset` such that time of a point = time of the trajectory + offset. Times of a trajectory are either seconds of a
 // week that it does not name, between 0 and a day after the end of the week; or adjusted standard GPS time; or GPS time
 // since 1980. A week that is not named is the one in which the trajectory overlaps the points longest. Where neither
-// names the week, GPS - UTC is that of today, 18 s. Fails when there is no overlap with `points`, and names the two
-// ranges and, if it can be found, the cause: times that are all 0, another form than the header of the LAS states,
-// another week. Also fails when points of more than a week fit several weeks. `name` is the trajectory's.
+// names the week, GPS - UTC is that of the day on which the file of the points was created, or of today, 18 s. Fails
+// when there is no overlap with `points`, and names the two ranges and, if it can be found, the cause: times that are
+// all 0, another form than the header of the LAS states, another week. Also fails when points of more than a week fit
+// several weeks. `name` is the trajectory's.
 absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& trajectory, TrajectoryClock clock,
                                   const PointTimes& points);
 

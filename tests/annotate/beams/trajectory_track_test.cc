@@ -114,6 +114,19 @@ TEST_F(TrackFromFilesTest, NamesTheClockThatTheTrajectoryHas) {
   EXPECT_THAT(Refusal(), HasSubstr("its times are GPS, 18 s after UTC); give --trajectory-time gps"));
 }
 
+TEST_F(TrackFromFilesTest, TakesLeapSecondsOfTheDayOfCreationAndSaysSo) {
+  AddRays(3000, 17);
+  source().utc = true;
+  EXPECT_THAT(Refusal(), HasSubstr("its returns contradict the trajectory"));
+  file_.times.created = formats::GpsTimeOfDay(2016, 132);
+  const absl::StatusOr<FileTrack> in_2016 = TrackFromFiles(file_, plan_);
+  ASSERT_TRUE(in_2016.ok()) << in_2016.status();
+  EXPECT_THAT(in_2016->notes, ::testing::Contains(HasSubstr("is taken as 17 s, that of 2016-05-11")));
+  AddRays(3000, 18);
+  file_.times.created = std::nullopt;
+  EXPECT_THAT(TrackFromFiles(file_, plan_)->notes, ::testing::Contains(HasSubstr("is taken as 18 s, that since 2017")));
+}
+
 // The same points with the times of other clocks than their header states. 300020 s of the week are Wednesday, 40820 s
 // of its day; the week is 1896.
 struct WrittenClock {

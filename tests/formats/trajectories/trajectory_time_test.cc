@@ -55,7 +55,19 @@ TEST(TrajectoryTime, AddsLeapSecondsOfTheDate) {
   EXPECT_EQ(in_utc(1800), 16);  // July 2014
   EXPECT_EQ(in_utc(1896), 17);  // May 2016
   EXPECT_EQ(in_utc(2100), 18);  // April 2020
-  EXPECT_EQ(Offset({300000, 310000}, WeekSeconds(305000, 305100), TrajectoryClock::kUtc), 18);
+}
+
+TEST(TrajectoryTime, AddsLeapSecondsOfTheCreationWhereNoDateIsKnown) {
+  const auto created_at = [](std::optional<double> created) {
+    PointTimes points = WeekSeconds(305000, 305100);
+    points.created = created;
+    return Offset({300000, 310000}, points, TrajectoryClock::kUtc);
+  };
+  EXPECT_EQ(created_at(GpsTimeOfDay(2014, 200)), 16);
+  EXPECT_EQ(created_at(GpsTimeOfDay(2016, 132)), 17);
+  EXPECT_EQ(created_at(GpsTimeOfDay(2016, 366)), 17);
+  EXPECT_EQ(created_at(GpsTimeOfDay(2017, 1)), 18);
+  EXPECT_EQ(created_at(std::nullopt), 18);
 }
 
 TEST(TrajectoryTime, AcceptsAbsoluteTimes) {
