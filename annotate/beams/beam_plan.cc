@@ -110,10 +110,8 @@ ordered_json Parameters(const BeamPlan& plan) {
       json["velocity_axes"] = std::string(formats::kVelocityAxesNames[static_cast<std::size_t>(files->velocity_axes)]);
     json["geoid_separation"] = or_null(files->geoid_separation);
     json["lever_arm"] = files->lever_arm;
-    json["crs"] = or_null(files->crs);
-  } else {
-    json["crs"] = or_null(std::get<TrajectoryFromReturns>(plan.source).crs);
   }
+  if (plan.has_track() || plan.crs.has_value()) json["crs"] = or_null(plan.crs);
   if (plan.time_format != formats::TimeFormat::kAuto) json["time_format"] = formats::NameOf(plan.time_format);
   json["water_index"] = plan.has_track() ? ordered_json(plan.refractive_index) : ordered_json();
   json["water_level"] = or_null(plan.water_level);

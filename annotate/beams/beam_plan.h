@@ -55,13 +55,10 @@ struct TrajectoryFromFiles {
   formats::VelocityAxes velocity_axes = formats::VelocityAxes::kAuto;  // Of SBETs.
   std::optional<double> geoid_separation;                              // m
   std::array<double, 3> lever_arm = {};                                // m; forward, right, down
-  std::optional<std::string> crs;                                      // Of points whose file does not state it.
 };
 
 // The position of the sensor, from returns under water.
-struct TrajectoryFromReturns {
-  std::optional<std::string> crs;
-};
+struct TrajectoryFromReturns {};
 
 using BeamSource = std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
 
@@ -102,11 +99,14 @@ struct BeamPlan {
   formats::LevelReference level_reference;                        // Of this file.
   std::shared_ptr<const formats::WaterLevelSeries> water_levels;  // The file, read.
   std::set<int> water_classes;                                    // Of returns from the surface.
+  std::optional<std::string> crs;                                 // Of points whose file does not state it.
   std::optional<double> metres_per_unit;  // Of heights; absent: as the coordinate system states.
 
   bool has_track() const {
     return std::holds_alternative<TrajectoryFromFiles>(source) || std::holds_alternative<TrajectoryFromReturns>(source);
   }
+  // Whether distances between points count.
+  bool uses_places() const { return has_track() || !water_classes.empty(); }
   // Whether the true direction of each beam is known.
   bool has_direction() const;
 };

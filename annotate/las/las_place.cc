@@ -13,16 +13,8 @@ namespace {
 // The coordinate system; without a map if it is not known and need not be.
 absl::StatusOr<formats::LasCrs> CrsFor(const formats::LasReader& reader, const BeamPlan& plan,
                                        const formats::MapPosition& middle) {
-  std::string user;
-  bool required = false;
-  if (const auto* files = std::get_if<TrajectoryFromFiles>(&plan.source)) {
-    user = files->crs.value_or("");
-    required = true;
-  } else if (const auto* returns = std::get_if<TrajectoryFromReturns>(&plan.source)) {
-    user = returns->crs.value_or("");
-    required = returns->crs.has_value();
-  }
-  absl::StatusOr<formats::LasCrs> crs = formats::CrsOf(reader, user, middle);
+  const bool required = plan.crs.has_value() || std::holds_alternative<TrajectoryFromFiles>(plan.source);
+  absl::StatusOr<formats::LasCrs> crs = formats::CrsOf(reader, plan.crs.value_or(""), middle);
   if (crs.ok() || required) return crs;
   formats::LasCrs unknown;
   ASSIGN_OR_RETURN(unknown.feet, formats::FindFeet(reader));
@@ -91,7 +83,7 @@ absl::StatusOr<LasPlace> PlaceOf(const formats::LasReader& reader, const BeamPla
                  .metres_per_x = metres_per_z,
                  .metres_per_y = metres_per_z,
                  .metres_per_z = metres_per_z};
-  if (place.map == nullptr && plan.has_track() && LooksGeographic(reader.header(), middle)) {
+  if (place.map == nullptr && plan.uses_places() && LooksGeographic(reader.header(), middle)) {
     return absl::InvalidArgumentError(absl::StrCat(
         reader.name(), ": its points seem to be in degrees (x ", middle.x, ", y ", middle.y,
         "), but it states no coordinate system that can be used; name it by --crs, such as --crs EPSG:4326"));

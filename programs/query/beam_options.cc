@@ -56,7 +56,10 @@ absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::Traj
 }
 
 // Flags that mean something for some of the ways only.
-absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const SurveySettings& flags) {
+absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const SurveySettings& flags,
+                          const config::SurfaceSettings& surface) {
+  // The surface at a point is found from the returns around it, as far as their unit is known.
+  const unsigned of_places = surface.classes.empty() ? kTrajectory | kReturns : way.way;
   const struct {
     const char* flag;
     bool given;
@@ -67,7 +70,7 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const 
       {"--velocity-axes", flags.trajectory.velocity_axes.has_value(), kTrajectory},
       {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
       {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
-      {"--crs", options.crs.has_value(), kTrajectory | kReturns},
+      {"--crs", options.crs.has_value(), of_places},
       {"--flight-direction", options.flight_direction.has_value(), kScanner},
       {"--beam-azimuth", options.beam_azimuth.has_value(), kIncidence},
       {"--altitude", options.altitude.has_value(), kScanner | kIncidence},
@@ -105,10 +108,9 @@ absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOption
                                            .velocity_axes = static_cast<formats::VelocityAxes>(
                                                IndexOf(formats::kVelocityAxesNames, trajectory.velocity_axes)),
                                            .geoid_separation = settings.datum.geoid_separation,
-                                           .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
-                                           .crs = options.crs};
+                                           .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{})};
     case kReturns:
-      return annotate::TrajectoryFromReturns{.crs = options.crs};
+      return annotate::TrajectoryFromReturns();
     case kScanner:
       return annotate::AcrossTrackScan{.flight_direction = options.flight_direction, .altitude = options.altitude};
     case kIncidence:
@@ -291,14 +293,14 @@ std::vector<config::OpenDecision> OpenDecisionsOf(const BeamOptions& options, co
 bool GoesWith(std::string_view flag_of_way, const BeamOptions& options, const SurveySettings& flags) {
   const auto ways = WayFlags(options, flags.trajectory);
   const auto way = std::ranges::find(ways, flag_of_way, &WayFlag::flag);
-  return way != ways.end() && CheckFlagsOf(*way, options, flags).ok();
+  return way != ways.end() && CheckFlagsOf(*way, options, flags, flags.surface).ok();
 }
 
 absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,
                                             const SurveySettings& settings, bool details) {
   const config::SeaSettings& sea = settings.sea;
   ASSIGN_OR_RETURN(const WayFlag way, ChosenWay(options, settings.trajectory));
-  RETURN_IF_ERROR(CheckFlagsOf(way, options, flags));
+  RETURN_IF_ERROR(CheckFlagsOf(way, options, flags, settings.surface));
   ASSIGN_OR_RETURN(const annotate::BeamSource source, Source(way, options, settings));
   annotate::FixedInputs wind;
   TakeWind(sea, wind);
@@ -309,6 +311,7 @@ absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const Su
   plan.any_sea = wind.any_sea;
   plan.wind_speed = wind[annotate::PulseInput::kWindSpeed].value_or(0);
   plan.fetch = wind[annotate::PulseInput::kFetch];
+  plan.crs = options.crs;
   plan.metres_per_unit = options.metres_per_unit;
   if (plan.has_track()) plan.refractive_index = annotate::IndexOrUsual(settings.water);
   RETURN_IF_ERROR(SetWater(settings.surface, plan));

@@ -17,12 +17,16 @@ using albtpu::testing::LasSpec;
 using albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-absl::StatusOr<LasPlace> PlaceOf(const LasSpec& spec, const BeamSource& source) {
+absl::StatusOr<LasPlace> PlaceOf(const LasSpec& spec, const BeamPlan& plan) {
   const TemporaryFolder folder;
   const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+  return PlaceOf(*reader, plan);
+}
+
+BeamPlan PlanOf(const BeamSource& source) {
   BeamPlan plan;
   plan.source = source;
-  return PlaceOf(*reader, plan);
+  return plan;
 }
 
 // A point at 80.3 degrees west and 27.1 degrees north, in steps of 1e-7 degrees.
@@ -34,24 +38,35 @@ LasSpec InDegrees() {
 }
 
 TEST(LasPlace, AsksForTheCoordinateSystemOfPointsInDegrees) {
-  const absl::StatusOr<LasPlace> unknown = PlaceOf(InDegrees(), TrajectoryFromReturns());
+  const absl::StatusOr<LasPlace> unknown = PlaceOf(InDegrees(), PlanOf(TrajectoryFromReturns()));
   ASSERT_FALSE(unknown.ok());
   EXPECT_THAT(unknown.status().message(), HasSubstr("seem to be in degrees"));
   EXPECT_THAT(unknown.status().message(), HasSubstr("--crs"));
   // Nothing is computed from x and y.
-  EXPECT_TRUE(PlaceOf(InDegrees(), ConstantIncidence()).ok());
+  EXPECT_TRUE(PlaceOf(InDegrees(), PlanOf(ConstantIncidence())).ok());
+}
+
+TEST(LasPlace, AsksForTheCoordinateSystemOfDegreesAroundWhichSurfaceReturnsCount) {
+  BeamPlan plan = PlanOf(ConstantIncidence());
+  plan.water_classes = {41};
+  const absl::StatusOr<LasPlace> unknown = PlaceOf(InDegrees(), plan);
+  EXPECT_THAT(unknown.status().message(), HasSubstr("seem to be in degrees"));
+  plan.crs = "EPSG:4326";
+  EXPECT_NEAR(PlaceOf(InDegrees(), plan)->frame.metres_per_x, 99167, 2);  // As below.
 }
 
 TEST(LasPlace, TakesMetresWhereNoCoordinateSystemIsStated) {
   LasSpec spec;
   spec.points = {{.x = 10000, .y = 20000}};
-  const absl::StatusOr<LasPlace> place = PlaceOf(spec, TrajectoryFromReturns());
+  const absl::StatusOr<LasPlace> place = PlaceOf(spec, PlanOf(TrajectoryFromReturns()));
   EXPECT_EQ(place->frame.metres_per_x, 1);
   EXPECT_EQ(place->map, nullptr);
 }
 
 TEST(LasPlace, MeasuresDegreesInMetres) {
-  const absl::StatusOr<LasPlace> place = PlaceOf(InDegrees(), TrajectoryFromReturns{.crs = "EPSG:4326"});
+  BeamPlan plan = PlanOf(TrajectoryFromReturns());
+  plan.crs = "EPSG:4326";
+  const absl::StatusOr<LasPlace> place = PlaceOf(InDegrees(), plan);
   // A degree of the WGS 84 parallel and meridian at 27.1 degrees: 111 412.84 cos p - 93.5 cos 3p = 99 167 m, and
   // 111 132.92 - 559.82 cos 2p + 1.175 cos 4p = 110 805 m, to 1 m.
   EXPECT_NEAR(place->frame.metres_per_x, 99167, 2);
