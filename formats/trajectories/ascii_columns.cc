@@ -1,12 +1,14 @@
 #include "formats/trajectories/ascii_columns.h"
 
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "formats/trajectories/trajectory_errors.h"
 
 namespace albtpu::formats {
 namespace {
@@ -94,6 +96,22 @@ std::span<const AsciiColumn> AsciiColumns(std::size_t count) {
   if (count == kCblue.size()) return kCblue;
   if (count == kPosExport.size()) return kPosExport;
   return {};
+}
+
+SigmaColumns SigmaColumnsOf(std::span<const AsciiColumn> columns) {
+  // As kSigmaFields: north, east, down, velocities, roll, pitch, heading.
+  constexpr std::array kFields = {kSigmaY, kSigmaX,    kSigmaZ,     kUnused,      kUnused,
+                                  kUnused, kSigmaRoll, kSigmaPitch, kSigmaHeading};
+  SigmaColumns found = {.angle = "degrees",
+                        .radians = std::numbers::pi / 180,
+                        .if_unknown =
+                            "write 0 in all three columns of the position or of the attitude, and state them "
+                            "by [sigma] of a survey file"};
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t field = 0; field < kFields.size(); ++field)
+      if (columns[i].field == kFields[field])
+        found.names[field] = absl::StrCat("column ", i + 1, " '", columns[i].name, "'");
+  return found;
 }
 
 std::string HeaderContradiction(std::string_view line, std::span<const AsciiColumn> columns) {

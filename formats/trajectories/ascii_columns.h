@@ -55,6 +55,10 @@ inline constexpr std::size_t kMaxAsciiColumns = 20;
 // The columns of a file with `count` columns; empty if there is no such layout.
 std::span<const AsciiColumn> AsciiColumns(std::size_t count);
 
+// Their standard deviations, for messages (trajectory_errors.h).
+struct SigmaColumns;
+SigmaColumns SigmaColumnsOf(std::span<const AsciiColumn> columns);
+
 // The contradiction between the layout and a line of text above the numbers: a column with the name of another one, or
 // units other than those above. Empty if there is none.
 std::string HeaderContradiction(std::string_view line, std::span<const AsciiColumn> columns);

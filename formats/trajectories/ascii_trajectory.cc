@@ -12,6 +12,7 @@
 #include "formats/csv/csv_reader.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_columns.h"
+#include "formats/trajectories/trajectory_errors.h"
 #include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"
 #include "status/status_macros.h"
@@ -287,8 +288,7 @@ class AsciiReader {
   std::string_view rest_, line_;
   std::size_t line_number_ = 0;
   std::span<const AsciiColumn> columns_;
-  bool next_week_ = false;
-  bool decimal_comma_ = false;
+  bool next_week_ = false, decimal_comma_ = false;
   std::string points_;  // The line, with decimal points.
 };
 
@@ -303,6 +303,9 @@ absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::str
   const auto grid_position = [&trajectory](std::size_t i) { return (*trajectory)->GridPositionAt(i); };
   RETURN_IF_ERROR(CheckMotion(**trajectory, grid_position));
   RETURN_IF_ERROR(CheckJumps(**trajectory, [&trajectory](std::size_t i) { return (*trajectory)->Record(i); }));
+  const auto sigma = [&](std::size_t i) { return (*trajectory)->SigmaAt(i).value_or(TrajectorySigma{}); };
+  const SigmaColumns columns = SigmaColumnsOf(AsciiColumns((*trajectory)->columns()));
+  RETURN_IF_ERROR(CheckSigmaUnits((*trajectory)->name(), columns, (*trajectory)->size(), sigma));
   return trajectory;
 }
 

@@ -16,15 +16,13 @@
 #include "formats/text/text.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/sbet_diagnosis.h"
+#include "formats/trajectories/trajectory_errors.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are read as they lie in the file");
-
-// Arc minutes of roll and pitch: a fifth of what the best airborne systems state after processing, 0.0025 degrees.
-constexpr double kLeastAttitudeError = 0.03;
 
 constexpr double kLowestHeight = -1000, kMaxHeight = 20000;  // m; wider than any airborne survey.
 
@@ -264,28 +262,6 @@ absl::Status SmrmsgFile::CheckSigmas(std::size_t record) const {
   return absl::OkStatus();
 }
 
-// Errors of attitude in degrees or radians are a small part of what they are in arc minutes; 0 stands for errors that
-// nobody computed.
-absl::Status SmrmsgFile::CheckUnits() const {
-  double position = 0, attitude = 0;
-  for (std::size_t record = 0; record < size(); ++record) {
-    for (const std::size_t field : {1, 2, 3}) position = std::max(position, Number(record, field));
-    for (const std::size_t field : {7, 8}) attitude = std::max(attitude, Number(record, field));
-  }
-  if (position > 0 && attitude >= kLeastAttitudeError) return absl::OkStatus();
-  const std::string of = attitude > 0 || position == 0 ? "position" : "roll and pitch";
-  if (position == 0 || attitude == 0) {
-    return InvalidFile(name_,
-                       absl::StrCat("all its errors of ", of,
-                                    " are 0, which no trajectory has; leave the file out, and the errors of a good "
-                                    "trajectory are taken, or state them by [sigma] of a survey file"));
-  }
-  return InvalidFile(name_, absl::StrFormat("its errors of roll and pitch are at most %.2g arc minutes, less than any "
-                                            "inertial system has (they are in degrees or radians); convert them to arc "
-                                            "minutes",
-                                            attitude));
-}
-
 absl::Status SmrmsgFile::Check() {
   if (bytes_.empty()) return absl::InvalidArgumentError(absl::StrCat(name_, ": is empty; give an SMRMSG"));
   if (bytes_.size() % kRecordSize != 0) {
@@ -307,7 +283,13 @@ absl::Status SmrmsgFile::Check() {
                         "exported",
                         name_, record + 1, time, before));
   }
-  return CheckUnits();
+  SigmaColumns columns = {.angle = "arc minutes",
+                          .radians = kArcMinute,
+                          .if_unknown =
+                              "leave the file out, and the errors of a good trajectory are taken, or state "
+                              "them by [sigma] of a survey file"};
+  for (std::size_t field = 0; field < columns.names.size(); ++field) columns.names[field] = kFields[field + 1].name;
+  return CheckSigmaUnits(name_, columns, size(), [this](std::size_t record) { return SigmaOf(record); });
 }
 
 double SmrmsgFile::TimeAt(std::size_t record) const {

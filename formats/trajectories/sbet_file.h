@@ -63,7 +63,7 @@ class SbetFile : public Trajectory {
 // down [m], of the velocity north, east and down [m/s], of roll, pitch and heading [arc-minutes, 1/60 degree].
 
 // An opened and checked file: at least one record, times that increase, sigmas that are finite, not negative and
-// plausible. Immutable: any number of threads may read it at a time.
+// plausible (CheckSigmaUnits). Immutable: any number of threads may read it at a time.
 class SmrmsgFile {
  public:
   static constexpr std::size_t kRecordSize = 80;
@@ -97,7 +97,6 @@ class SmrmsgFile {
   double Number(std::size_t record, std::size_t field) const;
   absl::Status Check();
   absl::Status CheckSigmas(std::size_t record) const;
-  absl::Status CheckUnits() const;
 
   std::string name_;
   std::optional<MappedFile> file_;

@@ -215,6 +215,35 @@ TEST(AsciiTrajectory, HasNoGridPositionOrSigmaWhereAllAreZero) {
   EXPECT_TRUE(std::isnan(positions_alone->SigmaAt(5)->roll));
 }
 
+TEST(AsciiTrajectory, DoubtsSigmasThatNoTrajectoryHas) {
+  // Of 0.0025 and 0.0026 degrees.
+  const auto with_attitude_in = [](double unit) {
+    return ErrorAfter([unit](FlightLine& line) {
+      for (double* sigma : {&line.sigma_roll, &line.sigma_pitch, &line.sigma_heading}) *sigma *= unit;
+    });
+  };
+  EXPECT_THAT(
+      with_attitude_in(std::numbers::pi / 180),
+      HasSubstr("flight.txt: column 13 'sigma roll' is at most 4.4e-05 degrees, less than any navigation system "
+                "of laser bathymetry has (they may be radians); convert it to degrees"));
+  EXPECT_THAT(with_attitude_in(60),
+              HasSubstr("column 13 'sigma roll' is at least 0.15 degrees, more than any navigation system of laser "
+                        "bathymetry has (they may be arc minutes)"));
+  EXPECT_THAT(ErrorAfter([](FlightLine& line) {
+                for (double* sigma : {&line.sigma_x, &line.sigma_y, &line.sigma_z}) *sigma *= 1000;
+              }),
+              HasSubstr("column 11 'sigma Y' is at least 30 m, more than any navigation system of laser bathymetry has "
+                        "(they may be millimetres or centimetres); convert it to m"));
+  EXPECT_THAT(
+      ErrorAfter([](FlightLine& line) { line.sigma_z = 0; }),
+      HasSubstr("column 12 'sigma Z' is 0 throughout, which no trajectory has; write what it is, or, if that is "
+                "not known, write 0 in all three columns of the position"));
+  EXPECT_THAT(ErrorAfter([](FlightLine& line) { line.sigma_heading = 0; }),
+              HasSubstr("column 15 'sigma heading' is 0"));
+  EXPECT_THAT(ErrorOf(FlightText({.columns = 20, .change = [](FlightLine& line) { line.sigma_pitch = 0; }})),
+              HasSubstr("column 19 'pitch SD' is 0"));
+}
+
 TEST(AsciiTrajectory, CrossesTheLongitudeOf180Degrees) {
   const auto trajectory = Read(FlightText({.longitude = 179.9999, .course = 90, .change = [](FlightLine& line) {
                                              if (line.longitude > 180) line.longitude -= 360;

@@ -301,11 +301,22 @@ TEST(Smrmsg, RefusesWhatIsNoSmrmsg) {
 }
 
 TEST(Smrmsg, DoubtsErrorsThatNoTrajectoryHas) {
-  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, .02, .02, .05, .01, .01, .01, .005, .005, .02})),
-              HasSubstr("0.005 arc minutes, less than any inertial system has (they are in degrees or radians)"));
-  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0})), HasSubstr("all its errors of position are 0"));
+  EXPECT_THAT(
+      ErrorOfSmrmsg(Bytes({100, .02, .02, .05, .01, .01, .01, .005, .005, .02})),
+      HasSubstr("errors.out: sigma of roll is at most 0.005 arc minutes, less than any navigation system of laser "
+                "bathymetry has (they may be degrees); convert it to arc minutes, or, if it is not known, "
+                "leave the file out"));
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, .02, .02, .05, .01, .01, .01, 9, 9, 18})),
+              HasSubstr("at least 9 arc minutes, more than any navigation system of laser bathymetry has (they may be "
+                        "arc seconds)"));
+  EXPECT_THAT(
+      ErrorOfSmrmsg(Bytes({100, .02, .02, 50, .01, .01, .01, .2, .2, .3})),
+      HasSubstr("sigma down is at least 50 m, more than any navigation system of laser bathymetry has (they may "
+                "be millimetres or centimetres)"));
+  EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0})),
+              HasSubstr("sigma north is 0 throughout, which no trajectory has"));
   EXPECT_THAT(ErrorOfSmrmsg(Bytes({100, .02, .02, .05, 0, 0, 0, 0, 0, .5})),
-              HasSubstr("all its errors of roll and pitch are 0"));
+              HasSubstr("sigma of roll is 0 throughout"));
   // One record without errors is no such file, nor are velocities without.
   EXPECT_TRUE(SmrmsgFile::Parse("errors.out",
                                 Bytes({100, 0, 0, 0, 0, 0, 0, 0, 0, 0, 101, .02, .02, .05, 0, 0, 0, .15, .15, .3}))
