@@ -18,7 +18,6 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr double kMetresOfFoot = 0.3048;  // m, exact.
 constexpr double kLargestReading = 1000;  // In m or feet above any datum of a gauge, the Great Lakes included.
 constexpr char kAdvice[] = "; get another copy of the file";
 

@@ -24,6 +24,8 @@
 
 namespace albtpu::formats {
 
+inline constexpr double kMetresOfFoot = 0.3048;  // exact
+
 struct CoopsLevel {
   double time = 0;  // GPS time, s since 1980, if the zone of the file is UTC.
   double level = 0;

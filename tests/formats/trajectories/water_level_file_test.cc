@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -165,6 +167,51 @@ TEST(WaterLevels, AreNotNumbersThatStandForMissingLevels) {
     const auto levels = ReadWaterLevels(path);
     EXPECT_THAT(std::string(levels.status().message()), HasSubstr("goes from -23.5 to")) << missing;
   }
+}
+
+// A row of levels, `seconds` apart.
+std::string LevelText(const std::vector<double>& levels, double seconds) {
+  std::string text = "time,water_level\n";
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    absl::StrAppend(&text, seconds * static_cast<double>(i), ",", levels[i], "\n");
+  return text;
+}
+
+TEST(WaterLevels, AreNotAlonePastBothNeighbours) {
+  for (const double missing : {9.999, -9.99, 0.0, -20.5})
+    for (const double seconds : {60, 360})
+      EXPECT_THAT(ErrorOfLevels(LevelText({-23.5, -23.5, missing, -23.4, -23.4}, seconds)),
+                  HasSubstr(absl::StrFormat("tide.csv: goes from -23.5 to %g and back to -23.4 within ", missing)));
+  EXPECT_THAT(ErrorOfLevels(LevelText({-23.5, -23.5, 0, -23.5}, 3600)),
+              HasSubstr("within 120 minutes, which no water does: 0 stands for a missing level; remove it"));
+}
+
+TEST(WaterLevels, DoNotStepToAnotherDatum) {
+  for (const double seconds : {360, 3600})
+    EXPECT_THAT(ErrorOfLevels(LevelText({0.3, 0.3, -23.5, -23.5}, seconds)),
+                HasSubstr("goes from 0.3 to -23.5 within"));
+  EXPECT_THAT(
+      ErrorOfLevels(LevelText({9.999, -23.5, -23.5}, 360)),
+      HasSubstr("within 6 minutes, which no water does: one of them stands for a missing level, or another datum "
+                "begins there; remove it, or give the levels of one datum"));
+}
+
+// The greatest tide, 16.3 m or 53.5 feet in half of 12.42 h, in steps of a minute to two hours, with a bore of 1.6 m
+// when it rises fastest.
+TEST(WaterLevels, RiseAsTheGreatestTidesDo) {
+  for (const double seconds : {60, 360, 900, 3600, 7200}) {
+    for (const double range : {16.3, 53.5}) {
+      std::vector<double> levels;
+      for (double time = 0; time < 2 * 44712; time += seconds)
+        levels.push_back(range / 2 * std::sin(2 * std::numbers::pi * time / 44712) + (time > 44712 ? range / 10 : 0));
+      EXPECT_EQ(ErrorOfLevels(LevelText(levels, seconds)), "") << seconds << " " << range;
+    }
+  }
+}
+
+// Nothing is interpolated between levels of different days.
+TEST(WaterLevels, OfLakesMayDifferFromDayToDay) {
+  EXPECT_EQ(ErrorOfLevels(LevelText({178.3, 188.1, 178.3}, 86400)), "");
 }
 
 }  // namespace
