@@ -96,6 +96,11 @@ absl::StatusOr<UncertaintyTable::Axes> MakeWaterAxes(const Nodes& nodes) {
     const std::string problem = NodesProblem(kWaterAxisKeys[axis], nodes[axis]);
     if (!problem.empty()) return absl::InvalidArgumentError(problem);
   }
+  const std::vector<double>& incidence = nodes[Index(WaterAxis::kIncidence)];
+  if (incidence.front() != 0) {
+    return absl::InvalidArgumentError(absl::StrCat("the first node of 'axes.incidence' is ", incidence.front(),
+                                                   " degrees; a table of the water column begins at 0, the vertical"));
+  }
   return AxesOfKind(kWaterColumn, nodes);
 }
 

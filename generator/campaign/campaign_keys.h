@@ -173,7 +173,7 @@ inline constexpr CampaignKey kScatteringOverAbsorption = {
     Required{}, "Scattering over absorption of the water: 4 at an albedo of 0.8."};
 inline constexpr CampaignKey kIncidenceOnWater = {
     "axes", "incidence", NodeRange{0, true, 50, "footprints would be far longer than wide"}, "degree", Required{},
-    "Angle of the beam from the vertical, in air."};
+    "Angle of the beam from the vertical, in air. The first is 0."};
 inline constexpr CampaignKey kOpticalDepth = {
     "axes", "optical_depth", NodeRange{0.01, true, 8, "hardly any echo comes back"}, "", Required{},
     "sqrt(a^2 + 6 B a b) times the depth, of absorption a, scattering b and backscatter fraction B."};

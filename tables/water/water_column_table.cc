@@ -191,6 +191,10 @@ absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
     return absl::InvalidArgumentError("variable 'energy' has a value of 0; an echo has energy");
   if (!(AxisOf(table.axes(), WaterAxis::kOpticalDepth).nodes().front() > 0))
     return absl::InvalidArgumentError("axis 'optical_depth' begins at 0; its first node must be above");
+  if (const double first = AxisOf(table.axes(), WaterAxis::kIncidence).nodes().front(); first != 0) {
+    return absl::InvalidArgumentError(absl::StrCat("axis 'incidence' begins at ", first,
+                                                   " degrees; a table of the water column begins at 0, the vertical"));
+  }
   if (absl::Status status = CheckDistances(table.axes()); !status.ok()) return status;
   WaterColumnTable water(std::move(table));
   const auto wrong = std::ranges::find_if(water.values_, [](float v) { return !(std::abs(v) <= format::kMaxValue); });

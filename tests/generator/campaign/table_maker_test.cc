@@ -111,7 +111,7 @@ title = "One water"
 [axes]
 backscatter_fraction = [0.01]
 scattering_over_absorption = [2]
-incidence = [10]
+incidence = [0]
 optical_depth = [0.2]
 field_of_view = [3]
 pulse_length = [0.3]

@@ -92,6 +92,7 @@ class WaterTableTest(FolderTest):
                 ("[0.1, 0.5, 1.5]", "[0, 1]", "axes.optical_depth", "0.01"),
                 ("[0.1, 0.5, 1.5]", "[0.1, 50]", "axes.optical_depth", "above 8"),
                 ("[0, 15]", "[0, 80]", "axes.incidence", "above 50"),
+                ("[0, 15]", "[5, 15]", "axes.incidence", "is 5 degrees", "begins at 0"),
                 ("[0.01, 0.05, 0.3]", "[0]", "axes.pulse_length"),
                 ("[2, 6]", "[6, 2]", "scattering_over_absorption"),
                 ("photons = 4000", "photons = 1", "effort.photons"),

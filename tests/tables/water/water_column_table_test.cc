@@ -165,6 +165,14 @@ TEST(WaterColumnTable, NeedsAllQuantitiesAndLight) {
   uneven[Index(WaterAxis::kIncidence)] =
       *Axis::Create(kWaterColumn.axes[Index(WaterAxis::kIncidence)], {0, 4, 4.00390625, 16, 25});
   EXPECT_THAT(problem(Values(), uneven), HasSubstr("axis 'incidence' has nodes at 4 and 4.00391, which are too close"));
+
+  // Answered with the first node below it.
+  Table::Axes oblique = Axes();
+  oblique[Index(WaterAxis::kIncidence)] =
+      *Axis::Create(kWaterColumn.axes[Index(WaterAxis::kIncidence)], {10, 12, 14, 16, 25});
+  EXPECT_THAT(
+      problem(Values(), oblique),
+      HasSubstr("axis 'incidence' begins at 10 degrees; a table of the water column begins at 0, the vertical"));
 }
 
 }  // namespace
