@@ -254,11 +254,10 @@ void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answ
                 .footprint = pulses.axis[Index(AxisId::kFootprint)]},
                water);
   if (water.bias_along.empty()) return;
-  const auto add_to = [](float& bias, float more) { bias = (std::isfinite(bias) ? bias : 0) + more; };
   for (std::size_t i = 0; i < pulses.size; ++i) {
     if (!answers.interpolated(i)) continue;
-    add_to(along[i], water.bias_along[i]);
-    add_to(vertical[i], water.bias_vertical[i]);
+    along[i] = BiasInWater(along[i], water.bias_along[i]);
+    vertical[i] = BiasInWater(vertical[i], water.bias_vertical[i]);
     if (!water.is_beyond(i)) continue;
     answers.outcomes[i] = kNoWater;
     along[i] = vertical[i] = NAN;  // Those of the sea alone are not the point's.

@@ -93,7 +93,7 @@ BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::si
 void Sum(const float* sea, std::span<const float> water, std::size_t begin, std::size_t count, float* column) {
   if (column == nullptr) return;
   for (std::size_t i = 0; i < count; ++i)
-    column[begin + i] = sea[i] + (water.empty() ? 0 : water[water.size() == 1 ? 0 : i]);
+    column[begin + i] = water.empty() ? sea[i] : BiasInWater(sea[i], water[water.size() == 1 ? 0 : i]);
 }
 
 // From the biases of the table to those of the reported point.

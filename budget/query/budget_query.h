@@ -22,7 +22,7 @@ enum class BudgetQuantity : std::uint8_t {
   kTvuAir,           // m
   kThuSea,           // m, of sea surface and unseen waves.
   kTvuSea,           // m
-  kBiasAlongBeam,    // m, of the reported point, that of the water included; in no covariance. NaN if not in the table.
+  kBiasAlongBeam,    // m, of the reported point, that of the water included; in no covariance. NaN if not known.
   kBiasVertical,     // m
   kCovarianceTotal,  // m^2, 1 sigma: six columns in the order of kCovarianceNames.
   kCovarianceAir,    // As BudgetOutputs::air.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "budget/total/error_ellipse.h"
+#include "budget/total/reported_point.h"
 
 // The code below is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -239,12 +240,11 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
     if (outputs.best_orders.empty()) continue;
     AtP95(block.total, thu, tvu);
     const auto in = [&](BudgetInput input) { return block.input[static_cast<std::size_t>(input)]; };
-    const auto known = [](float bias) { return std::isnan(bias) ? 0 : bias; };
     for (std::size_t i = 0; i < count; ++i) {
-      outputs.best_orders[begin + i] =
-          BestOrderMet(thu[i], tvu[i], known(in(BudgetInput::kBiasAlongBeam)[i]) + in(BudgetInput::kWaterBiasAlong)[i],
-                       known(in(BudgetInput::kBiasVertical)[i]) + in(BudgetInput::kWaterBiasVertical)[i],
-                       in(BudgetInput::kDepth)[i]);
+      outputs.best_orders[begin + i] = BestOrderMet(
+          thu[i], tvu[i], BiasInWater(in(BudgetInput::kBiasAlongBeam)[i], in(BudgetInput::kWaterBiasAlong)[i]),
+          BiasInWater(in(BudgetInput::kBiasVertical)[i], in(BudgetInput::kWaterBiasVertical)[i]),
+          in(BudgetInput::kDepth)[i]);
     }
   }
 }

@@ -22,4 +22,8 @@ inline float ReportedBiasAlong(float along, float vertical, double incidence, do
   return static_cast<float>(along - sine / std::sqrt(1 - sine * sine) * vertical);
 }
 
+// The mean error of a point, m, from that by the sea, which not every table states, and that by the water below it.
+// What is not known of the sea counts as none beside the water, as it does in orders.
+inline float BiasInWater(float sea, float water) { return (std::isnan(sea) ? 0 : sea) + water; }
+
 }  // namespace albtpu

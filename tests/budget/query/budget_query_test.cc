@@ -141,6 +141,21 @@ TEST_F(BudgetQueries, CompareWithS44WithoutABiasThatTheTableLacks) {
   }
 }
 
+// As files do (annotate/totals/water_column.h).
+TEST_F(BudgetQueries, StateTheBiasOfTheWaterWhereTheTableLacksThatOfTheSea) {
+  const ColumnInterpolator published(testing::SyntheticTable({.published = true}));
+  BudgetPulseMemory pulses = testing::RandomBudgetPulses(100);
+  pulses[BudgetInput::kWaterBiasAlong] = {0.25f};
+  pulses[BudgetInput::kWaterBiasVertical] = {-30};
+  BudgetMemory answers(100);
+  QueryBudgetOnAllCores(published, pulses.columns(), testing::UsualOptions(), answers.columns());
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(answers.at(BudgetQuantity::kBiasAlongBeam, i), 0.25f);
+    EXPECT_EQ(answers.at(BudgetQuantity::kBiasVertical, i), -30);
+    EXPECT_EQ(answers.best_s44_orders[i], 0);  // None allows 30 m.
+  }
+}
+
 TEST_F(BudgetQueries, AreFiniteAtTheGreatestNumbers) {
   BudgetPulseMemory pulses = testing::RandomBudgetPulses(100);
   const auto greatest = static_cast<float>(kGreatestBudgetNumber);
