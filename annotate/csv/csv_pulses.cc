@@ -315,23 +315,30 @@ absl::Status CsvAircraft::Append(const formats::CsvRecord& record, CsvAircraftBa
 }
 
 void WaveHeightsOfWinds(const PulseBatch& pulses, const std::string& spectrum, std::vector<float>& heights) {
-  std::map<std::pair<float, float>, float> known;
+  constexpr double kSteps = 50;
+  std::map<std::pair<double, double>, double> known;
+  const auto at_node = [&](double wind, double fetch) {
+    const auto [at, is_new] = known.try_emplace({wind, fetch}, 0.0);
+    const auto metres = std::isfinite(fetch) ? std::optional<float>(std::exp(fetch / kSteps)) : std::nullopt;
+    return is_new ? at->second = WaveHeightOfWind(wind / kSteps, metres, spectrum) : at->second;
+  };
+  // Linear between nodes 0.02 m/s and 2 % of the fetch apart. The height grows with the square of the wind and the root
+  // of the fetch at most: from 1 m/s on, it is off by 1e-4 of itself at most. A number of single precision may be a
+  // little beside its node.
+  const auto between = [](double place, const auto& at) {
+    const double below = std::floor(place + 1e-3), part = place - below;
+    return part > 1e-3 ? std::lerp(at(below), at(below + 1), part) : at(below);
+  };
   const std::vector<float>& winds = pulses.axis[Index(AxisId::kWindSpeed)];
   const std::vector<float>& fetches = pulses.axis[Index(AxisId::kFetch)];
   heights.resize(winds.size() <= 1 && fetches.size() <= 1 ? 1 : pulses.size);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const float wind = winds.empty() ? 0 : winds[winds.size() == 1 ? 0 : i];
     const float fetch = fetches.empty() ? INFINITY : fetches[fetches.size() == 1 ? 0 : i];
-    // Winds that differ little use one spectrum: the height grows with the square of the wind.
-    const std::pair<float, float> key = {std::round(wind * 50) / 50,
-                                         std::isfinite(fetch) && fetch > 0 ? std::round(std::log(fetch) * 50) : 0};
-    const auto [at, is_new] = known.try_emplace(key, 0.0f);
-    if (is_new && std::isfinite(wind) && fetch > 0) {
-      const bool developed = !std::isfinite(fetch);
-      at->second = WaveHeightOfWind(
-          key.first, developed ? std::nullopt : std::optional<float>(std::exp(key.second / 50)), spectrum);
-    }
-    heights[i] = at->second;
+    heights[i] = 0;
+    if (!std::isfinite(wind) || !(fetch > 0)) continue;
+    const auto over_wind = [&](double f) { return between(kSteps * wind, [&](double w) { return at_node(w, f); }); };
+    heights[i] = static_cast<float>(between(kSteps * std::log(static_cast<double>(fetch)), over_wind));
   }
 }
 

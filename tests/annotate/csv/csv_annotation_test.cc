@@ -2,7 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <optional>
+#include <vector>
+
 #include "absl/strings/str_cat.h"
+#include "annotate/csv/csv_pulses.h"
+#include "annotate/totals/plan_total.h"
 #include "formats/text/text.h"
 #include "service/client/local_source.h"
 #include "tests/annotate/answers/test_sources.h"
@@ -302,6 +308,24 @@ TEST_F(CsvAnnotation, KeepsTheOrderOfRecordsAcrossChunks) {
     at = annotated.find('\n', at) + 1;
   }
   EXPECT_EQ(at, annotated.size());
+}
+
+TEST(WaveHeightsOfWinds, AreThoseOfEachPulse) {
+  const std::string spectrum = "Elfouhaily et al. (1997)";
+  PulseBatch pulses;
+  pulses.axis[Index(AxisId::kWindSpeed)] = {5, 1.0096f, 5.0103f, 9.987f, 9.987f, 12, 0, -1, NAN};
+  pulses.axis[Index(AxisId::kFetch)] = {INFINITY, INFINITY, INFINITY, 3210, 51234, 5000, INFINITY, 5000, 5000};
+  pulses.size = 9;
+  std::vector<float> heights;
+  WaveHeightsOfWinds(pulses, spectrum, heights);
+  EXPECT_EQ(heights[0], WaveHeightOfWind(5, {}, spectrum));
+  for (std::size_t i = 1; i < 6; ++i) {
+    const float fetch = pulses.axis[Index(AxisId::kFetch)][i];
+    const std::optional<float> metres = std::isfinite(fetch) ? std::optional<float>(fetch) : std::nullopt;
+    const float exact = WaveHeightOfWind(pulses.axis[Index(AxisId::kWindSpeed)][i], metres, spectrum);
+    EXPECT_NEAR(heights[i], exact, 1e-4 * exact) << i;
+  }
+  for (std::size_t i = 6; i < 9; ++i) EXPECT_EQ(heights[i], 0);
 }
 
 }  // namespace
