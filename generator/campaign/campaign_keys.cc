@@ -1,5 +1,8 @@
 #include "generator/campaign/campaign_keys.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "absl/strings/str_cat.h"
 
 namespace albtpu {
@@ -40,6 +43,9 @@ std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key) {
 
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes) {
   const auto& range = std::get<NodeRange>(key.values);
+  const auto wrong = std::ranges::find_if(nodes, [](double node) { return std::isnan(node); });
+  if (wrong != nodes.end())
+    return absl::StrCat("node ", wrong - nodes.begin(), " of '", FullName(key), "' is not a number; correct it");
   if (range.includes_least ? nodes.front() < range.least : nodes.front() <= range.least) {
     return absl::StrCat("node 0 of '", FullName(key), "' must be ", range.includes_least ? "at least " : "above ",
                         range.least);

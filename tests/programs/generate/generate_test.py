@@ -157,6 +157,7 @@ class Table(GenerateTest):
                                (CAMPAIGN.replace('version = "1"', 'version = ""'), "version"),
                                (CAMPAIGN.replace("realizations", "realisations"), "did you mean realizations?"),
                                (CAMPAIGN.replace("0.25", "0.0009"), "'axes.footprint' must be at least 0.001"),
+                               (CAMPAIGN.replace("[0, 20]", "[0, nan]"), "node 1 of 'axes.incidence' is not a number"),
                                ("\x00\xff", "not TOML"), ("", "missing")):
             self.campaign = self.write("bad.toml", text)
             for command in (("plan",), ("table", "--output", self.folder / "x.h5")):
