@@ -14,6 +14,8 @@ import signal
 import subprocess
 import sys
 import unittest
+import urllib.error
+import urllib.request
 
 import grpc
 import numpy as np
@@ -148,6 +150,13 @@ class Metrics(TablesTest):
         most = sum(int(re.search(rf"int {name} = (\d+);", limits)[1])
                    for name in ("kMaxConnections", "kOwnDescriptors"))
         self.assertIn(f'clamp_max(process_max_fds{{job="albtpu"}}, {most})', (MONITORING / "alerts.yaml").read_text())
+
+    def test_are_at_one_path_alone(self):
+        address = self.server.wait_for("metrics on").removesuffix("/metrics").rpartition("/")[2]
+        urllib.request.urlopen(f"http://{address}/metrics", timeout=PATIENCE).close()
+        for path in ("/metricsx", "/metrics/calls", "/"):
+            with self.subTest(path), self.assertRaisesRegex(urllib.error.HTTPError, "404"):
+                urllib.request.urlopen(f"http://{address}{path}", timeout=PATIENCE)
 
     def test_need_a_free_address_on_this_machine(self):
         taken = self.server.wait_for("metrics on").removesuffix("/metrics").rpartition("/")[2]

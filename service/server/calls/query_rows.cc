@@ -206,6 +206,27 @@ grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& r
       request, response, [&](const auto& asked, auto& answers) { return QueryBudget(sources, asked, answers, tally); });
 }
 
+grpc::Status HandleListTables(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                              OutcomeTally& /*tally*/) {
+  return HandleParsed<v1::ListTablesRequest, v1::ListTablesResponse>(
+      request, response, [&](const auto& /*asked*/, auto& answers) {
+        for (const auto& entry : sources.catalog().entries()) *answers.add_tables() = WriteSummary(*entry);
+        const absl::StatusOr<const TableCatalog::Entry*> default_entry = sources.catalog().Find("");
+        if (default_entry.ok()) answers.set_default_table((*default_entry)->name);
+        return absl::OkStatus();
+      });
+}
+
+grpc::Status HandleGetTable(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                            OutcomeTally& /*tally*/) {
+  return HandleParsed<v1::GetTableRequest, v1::GetTableResponse>(
+      request, response, [&](const auto& asked, auto& answers) {
+        const absl::StatusOr<const TableCatalog::Entry*> entry = sources.catalog().Find(asked.table());
+        if (entry.ok()) *answers.mutable_table() = WriteTableMessage(**entry);
+        return entry.status();
+      });
+}
+
 grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                               OutcomeTally& /*tally*/) {
   return HandleParsed<v1::CompileSeaRequest, v1::CompileSeaResponse>(

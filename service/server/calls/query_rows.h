@@ -19,8 +19,8 @@ namespace albtpu::server {
 absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response,
                        OutcomeTally& tally);
 
-// Handlers of the methods that take many pulses, from serialized request to serialized response. Parsing and
-// serializing a long message take as long as the query itself, so a worker does all three.
+// Handlers of the methods, from serialized request to serialized response. Parsing and serializing a long message take
+// as long as the query itself, so a worker does all three; gRPC answers bytes that do not parse by UNIMPLEMENTED.
 
 // If the status is OK, `response` is set and its pulses are counted in `tally`. Bytes that do not parse as the request
 // message of the method are INVALID_ARGUMENT. If `sources.wanted()` has a value afterwards, nothing has happened: the
@@ -35,6 +35,10 @@ grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& 
 grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                OutcomeTally& tally);
 
+grpc::Status HandleListTables(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                              OutcomeTally& tally);
+grpc::Status HandleGetTable(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+                            OutcomeTally& tally);
 grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                               OutcomeTally& tally);
 

@@ -54,6 +54,7 @@ class AnswerSources {
   // The compiled water, which `known` has read. FAILED_PRECONDITION: the server cannot compile it.
   absl::StatusOr<const ServedWater*> Find(const v1::WaterState& water, const KnownWater& known);
 
+  const TableCatalog& catalog() const { return catalog_; }
   const std::optional<std::variant<WantedTable, WantedWater>>& wanted() const { return wanted_; }
 
  private:

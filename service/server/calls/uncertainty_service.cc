@@ -245,25 +245,13 @@ ByteStream* UncertaintyService::StreamColumns(grpc::CallbackServerContext* conte
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::ListTables(grpc::CallbackServerContext* context,
-                                                         const v1::ListTablesRequest* /*request*/,
-                                                         v1::ListTablesResponse* response) {
-  CallRecord record(recorders_, Method::kListTables, *context);
-  const std::shared_ptr<const TableCatalog> catalog = tables_.current();
-  for (const auto& entry : catalog->entries()) *response->add_tables() = WriteSummary(*entry);
-  const absl::StatusOr<const TableCatalog::Entry*> default_entry = catalog->Find("");
-  if (default_entry.ok()) response->set_default_table((*default_entry)->name);
-  return Deliver(unread_, *context, record, response->ByteSizeLong());
+                                                         const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
+  return Handle(Method::kListTables, HandleListTables, kMaxInlineBytes, *context, *request, *response);
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::GetTable(grpc::CallbackServerContext* context,
-                                                       const v1::GetTableRequest* request,
-                                                       v1::GetTableResponse* response) {
-  CallRecord record(recorders_, Method::kGetTable, *context);
-  const std::shared_ptr<const TableCatalog> catalog = tables_.current();
-  const absl::StatusOr<const TableCatalog::Entry*> entry = catalog->Find(request->table());
-  if (!entry.ok()) return Fail(*context, record, ToGrpcStatus(entry.status()));
-  *response->mutable_table() = WriteTableMessage(**entry);
-  return Deliver(unread_, *context, record, response->ByteSizeLong());
+                                                       const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
+  return Handle(Method::kGetTable, HandleGetTable, kMaxInlineBytes, *context, *request, *response);
 }
 
 }  // namespace albtpu::server

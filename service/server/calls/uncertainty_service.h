@@ -73,13 +73,13 @@ class UnreadAnswers {
   PeriodicTask dropping_;  // Last, so that it is destroyed first.
 };
 
-// Messages with many pulses are received and sent as bytes, so that a worker parses and serializes them.
+// Messages are received and sent as bytes: a worker parses and serializes those with many pulses.
 using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_QueryPulses<
     v1::UncertaintyService::WithRawCallbackMethod_QueryColumns<
         v1::UncertaintyService::WithRawCallbackMethod_StreamColumns<
             v1::UncertaintyService::WithRawCallbackMethod_QueryBudget<
-                v1::UncertaintyService::WithCallbackMethod_ListTables<
-                    v1::UncertaintyService::WithCallbackMethod_GetTable<
+                v1::UncertaintyService::WithRawCallbackMethod_ListTables<
+                    v1::UncertaintyService::WithRawCallbackMethod_GetTable<
                         v1::UncertaintyService::WithRawCallbackMethod_CompileSea<v1::UncertaintyService::Service>>>>>>>;
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
@@ -105,10 +105,10 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
       grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* QueryBudget(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
-  grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context, const v1::ListTablesRequest* request,
-                                       v1::ListTablesResponse* response) override;
-  grpc::ServerUnaryReactor* GetTable(grpc::CallbackServerContext* context, const v1::GetTableRequest* request,
-                                     v1::GetTableResponse* response) override;
+  grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                       grpc::ByteBuffer* response) override;
+  grpc::ServerUnaryReactor* GetTable(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                     grpc::ByteBuffer* response) override;
   grpc::ServerUnaryReactor* CompileSea(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                        grpc::ByteBuffer* response) override;
 

@@ -39,7 +39,8 @@ class WaterReader {
       water.bias = Bias();
     ReadReceiver(water);
     RETURN_IF_ERROR(violations_.ToStatus());
-    if (water.bias.has_value() || water.green_surface) RETURN_IF_ERROR(CheckOptics(water.optics));
+    if (water.bias.has_value() || water.green_surface || TellsClarity(water.optics))
+      RETURN_IF_ERROR(CheckOptics(water.optics));
     return water;
   }
 
@@ -170,6 +171,12 @@ class WaterReader {
     else if (!given && handling == its)
       Add(field, absl::StrCat("is missing (", name, " needs it); give it"));
     return given && handling == its;
+  }
+
+  // Whether it is said how clear the water is, needed or not.
+  static bool TellsClarity(const OpticsInput& optics) {
+    return optics.kd.has_value() || optics.kd_kind.has_value() || optics.secchi.has_value() ||
+           optics.jerlov.has_value() || optics.absorption.has_value() || optics.scattering.has_value();
   }
 
   // The one field to which a problem of the optics belongs; else the whole water.

@@ -111,7 +111,8 @@ absl::StatusOr<std::unique_ptr<MetricsEndpoint>> MetricsEndpoint::Start(
     auto exposer = std::make_unique<prometheus::Exposer>(
         std::vector<std::string>{"listening_ports", address.ToString(), "num_threads", std::to_string(kMetricsThreads),
                                  "request_timeout_ms", std::to_string(kMetricsTimeout.count())});
-    for (const auto& source : sources) exposer->RegisterCollectable(source);
+    // Without the end of the pattern, every path that begins so has them.
+    for (const auto& source : sources) exposer->RegisterCollectable(source, "/metrics$");
     std::string bound = address.WithPort(exposer->GetListeningPorts().front());
     return std::unique_ptr<MetricsEndpoint>(new MetricsEndpoint(std::move(exposer), std::move(bound)));
   } catch (const std::exception& error) {

@@ -39,7 +39,8 @@ class Water:
     absorption, scattering: 1/m at 532 nm.
     kd_sigma:    1/m, standard deviation of the attenuation; None: what its kind is good for.
     omega0, omega0_sigma: single-scattering albedo and its standard deviation; None: 0.8 and 0.1.
-    backscatter_fraction: the fraction of scattered light that turns back; None: between 0.01 and 0.03.
+    backscatter_fraction: the fraction of scattered light that turns back; None: between 0.01 and 0.03, the range of
+                 the shipped table of the water column, which refuses others, and an omega0 above 0.96.
     detector:    how the receiver reads the time of an echo: "peak", "half" or "centroid".
     field_of_view: m, diameter of what the receiver sees on the surface, across the beam.
     pulse_length: ns, full width at half of the maximum.

@@ -217,7 +217,7 @@ TEST_F(StreamColumns, IsRefusedWhenTooManyAreOpen) {
 }
 
 TEST_F(StreamColumns, AndOtherMethodsRejectBytesThatAreNotAMessage) {
-  for (const std::string method : {"QueryPulses", "QueryColumns", "StreamColumns"}) {
+  for (const std::string method : {"QueryPulses", "QueryColumns", "StreamColumns", "GetTable", "ListTables"}) {
     grpc::GenericStub generic(channel_);
     grpc::ClientContext context;
     context.set_wait_for_ready(true);

@@ -115,6 +115,15 @@ TEST(WaterRequest, NamesWhatContradictsItself) {
   EXPECT_THAT(PathsIn(state), ElementsAre("water.green_surface"));
 }
 
+TEST(WaterRequest, NamesOpticsThatContradictEachOtherAlsoWhereNoneAreNeeded) {
+  v1::WaterState state;
+  state.set_without_column(true);
+  state.set_secchi(6);
+  EXPECT_TRUE(ReadWater(state).ok());
+  state.set_jerlov(v1::JERLOV_TYPE_II);
+  EXPECT_THAT(PathsIn(state), ElementsAre("water"));
+}
+
 TEST(WaterRequest, NamesOpticsThatCannotBe) {
   v1::WaterState state = Coastal();
   state.set_secchi(5);

@@ -152,9 +152,11 @@ class UncertaintyServiceServicer(object):
         number that is not a value of its enum; no `BudgetOptions.located`; a field of `BudgetOptions` or `AirErrors`
         that is out of its range or not finite.
         * NOT_FOUND, FAILED_PRECONDITION, and the errors of a sea: as for `QueryPulses`.
-        * With a water, INVALID_ARGUMENT: a field of the water is missing, out of its range or contradicts another, with a
-        path such as `water.secchi`; or a column of the water is given, too. FAILED_PRECONDITION: the server has no table
-        of the water column. RESOURCE_EXHAUSTED: too many other waters are waiting to be computed; wait and try again.
+        * With a water, INVALID_ARGUMENT: a field of the water is missing or out of its range, with a path such as
+        `water.secchi`; or fields contradict each other, or the table of the water column does not cover the water, with
+        the path `water` where no single field is to blame; or a column of the water is given, too. FAILED_PRECONDITION:
+        the server has no table of the water column. RESOURCE_EXHAUSTED: too many other waters are waiting to be
+        computed; wait and try again.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
