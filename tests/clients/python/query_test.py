@@ -56,6 +56,7 @@ class Queries(unittest.TestCase):
             warnings.simplefilter("error")
             for depth in (1e300, [1e300, 8]):
                 self.assertEqual(self.query(depth=depth).outcome.flat[0], "INVALID")
+            self.assertEqual(self.query(depth=[1e300, 8], incidence=[[5], [10]]).outcome[0, 0], "INVALID")
 
     def test_return_only_what_was_requested(self):
         answer = self.query(quantities="tvu")

@@ -21,6 +21,7 @@ FLOWN = dict(**PULSE, altitude=400, beam_azimuth=90, located="local")
 POINT = dict(east=1, north=2, height=400, depth=3)
 CALM = Sea.calm()
 F = [0.1, 0.2]
+ASKED = dict(sea=CALM, footprint=0.5)
 
 
 def columns(call, given):
@@ -43,7 +44,10 @@ ARGUMENTS = {
         (TABLE.query, PULSE | dict(depth="8"), "it should be numbers, in m$"),
         (TABLE.query, PULSE | dict(depth=[1, 2], incidence=[1, 2, 3]), r"incidence \(3,\), depth \(2,\)"),
         (SERVICE.query_budget, FLOWN | dict(depth=[1, 2], altitude=[1, 2, 3]), r"depth \(2,\), altitude \(3,\)"),
-        (geometry.beams, POINT | dict(north=[1, 2], depth=[1, 2, 3]), "the shapes do not broadcast: north")],
+        (geometry.beams, POINT | dict(north=[1, 2], depth=[1, 2, 3]), "the shapes do not broadcast: north"),
+        (geometry.footprint, dict(slant_range=F, divergence_mrad=[1, 2, 3]), "the shapes do not broadcast: slant_"),
+        (geometry.azimuth_from_downwind, dict(beam_azimuth=F, wind_from=[1, 2, 3]), "the shapes do not broadcast"),
+        (geometry.azimuth_on_sea, dict(beam_azimuth=F, x_azimuth=[1, 2, 3]), "the shapes do not broadcast")],
     "names that nothing has": [
         (TABLE.query, PULSE | dict(windspeed=5),
          r"no argument 'windspeed' \(did you mean 'wind_speed'\?\); its arguments are wind_"),
@@ -76,6 +80,10 @@ ARGUMENTS = {
         (SERVICE.query_budget, FLOWN | dict(errors=dict(position=1)), "three numbers: north, east, down"),
         (SERVICE.query_budget, FLOWN | dict(datum="x"), "datum is 'x': it should be a number"),
         (SERVICE.query_budget, FLOWN | dict(extra_vertical="x"), "extra_vertical is 'x': it should be a number"),
+        *((call, given | dict(refractive_index=index), f"refractive_index is {index}: it should be 1 to 2")
+          for call, given in ((TABLE.query, PULSE), (SERVICE.query, PULSE), (SERVICE.query_budget, FLOWN),
+                              (SERVICE.sea_table, dict(sea=CALM)), (SERVICE.compile, dict(sea=CALM)))
+          for index in (2.1, -1.34, np.nan)),
         (geometry.beams, POINT | dict(index=0.75), "index is 0.75"),
         (geometry.beams, POINT | dict(index=np.nan), "index is nan"),
         (geometry.beams, POINT | dict(index="water"), "index is 'water'"),
@@ -88,6 +96,10 @@ ARGUMENTS = {
         *((Sea.spectrum, dict(frequencies=F, energy=F, r2=[0.5, r2], alpha2=F), f"r2 has {r2}: it should be 0 to 1")
           for r2 in (-0.2, 1.1)),
         (Sea.spectrum(F, F).__add__, dict(other=CALM), "only seas given by heights"),
+        (SERVICE.correlation, ASKED | dict(dx=(1, 0), dt=[]), "dt has 0 numbers"),
+        (SERVICE.correlation, ASKED | dict(dx="far"), "dx is of type <U3: it should be numbers"),
+        (SERVICE.correlation, ASKED | dict(dx=(1, 0), orientation=3), "orientation has no effect with dx"),
+        (SERVICE.correlation, ASKED | dict(cell=[1], dt=5), "dt has no effect with cell"),
         (SERVICE.query, PULSE | dict(sea="calm"), "it should be an albtpu.Sea"),
         (SERVICE.query, PULSE | dict(sea=CALM, table="synthetic"), "omit one of them"),
         (TABLE.query, PULSE | dict(sea=CALM), "sea.compile")],

@@ -73,6 +73,14 @@ def read_optional(name: str, value: Any) -> float | None:
     return None if value is None else read_number(name, value)
 
 
+def read_index(value: Any) -> float | None:
+    """A refractive index of water, or None."""
+    index = read_optional("refractive_index", value)
+    if index is not None and not 1 <= index <= 2:
+        raise ArgumentError(f"refractive_index is {index}: it should be 1 to 2")
+    return index
+
+
 def read_vector(name: str, values: Any, axes: Sequence[str]) -> dict[str, float]:
     """Three numbers by the names of their axes."""
     try:
@@ -93,6 +101,11 @@ def read_column(name: str, values: ArrayLike | None, units: str = "") -> NDArray
     if isinstance(array, np.ma.MaskedArray):
         return np.where(np.ma.getmaskarray(array), np.nan, np.ma.getdata(array))
     return np.asarray(array)
+
+
+def read_doubles(name: str, values: ArrayLike | None) -> NDArray[np.float64]:
+    """The same in double precision."""
+    return np.asarray(read_column(name, values), np.float64)
 
 
 def common_shape(arrays: Mapping[str, NDArray[Any]], given: Mapping[str, Any]) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import check_name, read_number, read_optional, read_vector
+from .arguments import check_name, read_index, read_number, read_optional, read_vector
 from .errors import ArgumentError
 from .geometry import SEA_WATER_INDEX
 from .query import Query, read_query
@@ -95,7 +95,7 @@ def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[
     options: dict[str, Any] = dict(
         table=table, coverage=COVERAGES[coverage], errors=_read_errors(errors or {}),
         located=LOCATIONS.index(located) + 1, lever_arm=read_vector("lever_arm", lever_arm, _ERRORS["boresight"]),
-        refractive_index=read_optional("refractive_index", refractive_index), datum=read_number("datum", datum),
+        refractive_index=read_index(refractive_index), datum=read_number("datum", datum),
         extra_horizontal=read_number("extra_horizontal", extra_horizontal),
         extra_vertical=read_number("extra_vertical", extra_vertical),
         sea_axis=read_optional("sea_axis", sea_axis))

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import common_shape, read_column
+from .arguments import common_shape, read_doubles
 from .errors import ArgumentError
 from .schema import Doubles
 
@@ -65,7 +65,7 @@ def beams(*, east: ArrayLike, north: ArrayLike, height: ArrayLike, depth: ArrayL
     if not isinstance(index, (int, float, np.number)) or not 1 <= float(index) < math.inf:
         raise ArgumentError(f"index is {index!r}: it should be a number from 1, such as {SEA_WATER_INDEX}")
     given = {"east": east, "north": north, "height": height, "depth": depth, "convergence": convergence}
-    arrays = {name: _doubles(name, values) for name, values in given.items()}
+    arrays = {name: read_doubles(name, values) for name, values in given.items()}
     if np.any(np.abs(arrays["convergence"]) > 180):
         raise ArgumentError("convergence is beyond 180 degrees: it should be that of the grid, in degrees")
     shape = common_shape(arrays, given)
@@ -83,8 +83,9 @@ def footprint(slant_range: ArrayLike, divergence_mrad: ArrayLike, aperture: Arra
     >>> footprint(400, divergence_mrad=1, aperture=0.05)
     array(0.45)
     """
-    divergence = _doubles("divergence_mrad", divergence_mrad) * 1e-3
-    return np.asarray(_doubles("slant_range", slant_range) * divergence + _doubles("aperture", aperture))
+    distance, divergence, diameter = _together(slant_range=slant_range, divergence_mrad=divergence_mrad,
+                                               aperture=aperture)
+    return np.asarray(distance * (divergence * 1e-3) + diameter)
 
 
 def azimuth_from_downwind(beam_azimuth: ArrayLike, wind_from: ArrayLike) -> Doubles:
@@ -96,7 +97,8 @@ def azimuth_from_downwind(beam_azimuth: ArrayLike, wind_from: ArrayLike) -> Doub
     >>> azimuth_from_downwind([0, 90, 180], wind_from=270)
     array([270.,   0.,  90.])
     """
-    return _full_turn(_doubles("beam_azimuth", beam_azimuth) - (_doubles("wind_from", wind_from) + 180))
+    beam, wind = _together(beam_azimuth=beam_azimuth, wind_from=wind_from)
+    return _full_turn(beam - (wind + 180))
 
 
 def azimuth_on_sea(beam_azimuth: ArrayLike, x_azimuth: ArrayLike) -> Doubles:
@@ -108,11 +110,15 @@ def azimuth_on_sea(beam_azimuth: ArrayLike, x_azimuth: ArrayLike) -> Doubles:
     >>> azimuth_on_sea([0, 90, 180], x_azimuth=45)
     array([ 45., 315., 225.])
     """
-    return _full_turn(_doubles("x_azimuth", x_azimuth) - _doubles("beam_azimuth", beam_azimuth))
+    x, beam = _together(x_azimuth=x_azimuth, beam_azimuth=beam_azimuth)
+    return _full_turn(x - beam)
 
 
-def _doubles(name: str, values: ArrayLike) -> Doubles:
-    return np.asarray(read_column(name, values), np.float64)
+def _together(**given: ArrayLike) -> list[Doubles]:
+    """Columns that broadcast to one shape."""
+    arrays = {name: read_doubles(name, values) for name, values in given.items()}
+    common_shape(arrays, given)
+    return list(arrays.values())
 
 
 def _full_turn(angle: Doubles) -> Doubles:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import check_name, common_shape, read_column, read_optional, read_quantities
+from .arguments import check_name, common_shape, read_column, read_index, read_quantities
 from .errors import ArgumentError
 from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS, Floats
 from .sea import Sea
@@ -72,9 +72,10 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
               for name, values in pulses.items() if values is not None or name not in optional}
     shape = common_shape(arrays, pulses)
     # reshape(-1) copies a broadcast array, which takes the least memory in single precision.
-    flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
-            else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()
-            if not (sea is not None and axis in ("wind_speed", "fetch"))}
+    with np.errstate(over="ignore"):
+        flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
+                else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()
+                if not (sea is not None and axis in ("wind_speed", "fetch"))}
     check_table(table)
     _check_sea(sea, table)
     check_name("coverage", coverage, COVERAGES)
@@ -84,7 +85,7 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
                  columns=flat, quantities=read_quantities(quantities, known), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
                  best_s44_order=bool(best_s44_order), table=table, sea=sea,
-                 refractive_index=read_optional("refractive_index", refractive_index))
+                 refractive_index=read_index(refractive_index))
 
 
 def check_table(name: str | None) -> None:

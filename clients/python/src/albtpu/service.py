@@ -9,7 +9,7 @@ import grpc
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import read_number, read_optional, refuse_unknown_keywords
+from .arguments import read_doubles, read_index, read_number, refuse_unknown_keywords
 from .budget import Budget, read_budget_query
 from .calls import BudgetCalls, ColumnStream
 from .connection import File, Retries, open_channel
@@ -78,7 +78,7 @@ class Service(UncertaintySource):
         Its attributes describe the sea with the assumptions made, for example `x_azimuth` and `share_measured`.
         """
         request = wire.CompileSeaRequest(sea=sea.message(),
-                                         refractive_index=read_optional("refractive_index", refractive_index))
+                                         refractive_index=read_index(refractive_index))
         return _table(self._call(self._stub.CompileSea, request).table)
 
     def compile(self, sea: Sea, refractive_index: float | None = None) -> TableFile:
@@ -88,7 +88,7 @@ class Service(UncertaintySource):
         """
         from .table_file import TableFile
         request = wire.CompileSeaRequest(sea=sea.message(), with_file=True,
-                                         refractive_index=read_optional("refractive_index", refractive_index))
+                                         refractive_index=read_index(refractive_index))
         return TableFile("sea", self._call(self._stub.CompileSea, request).file)
 
     @refuse_unknown_keywords
@@ -112,20 +112,25 @@ class Service(UncertaintySource):
         question = sea_wire.CorrelationQuery(
             incidence=read_number("incidence", incidence), azimuth=read_number("azimuth", azimuth),
             footprint=read_number("footprint", footprint), gaussian=gaussian,
-            refractive_index=read_optional("refractive_index", refractive_index), waves_travel_both_ways=both_ways)
+            refractive_index=read_index(refractive_index), waves_travel_both_ways=both_ways)
         if (dx is None) == (cell is None):
             raise ArgumentError("dx and cell are both given or both missing (pairs of pulses, or the means over "
                                 "cells): give one of them")
+        turn, later = read_number("orientation", orientation), read_doubles("dt", dt).ravel()
         if cell is not None:
-            for side in np.atleast_1d(np.asarray(cell, dtype=float)).ravel():
-                question.cells.add(side=side, orientation=read_number("orientation", orientation))
+            if np.any(later != 0):
+                raise ArgumentError("dt has no effect with cell (the mean over a cell has no time): omit it")
+            for side in read_doubles("cell", cell).ravel():
+                question.cells.add(side=side, orientation=turn)
         else:
-            apart = np.asarray(dx, dtype=float)
+            if turn != 0:
+                raise ArgumentError("orientation has no effect with dx (it is that of cells): omit it")
+            apart = read_doubles("dx", dx)
             if apart.shape[-1:] != (2,) or apart.ndim > 2 or apart.size == 0:
                 raise ArgumentError(f"dx has the shape {apart.shape} (expected two numbers, or an array of such "
                                     "pairs): give x and y of each")
-            pairs, later = np.atleast_2d(apart), np.asarray(dt, dtype=float).ravel()
-            if later.size not in (1, len(pairs)) and len(pairs) != 1:
+            pairs = np.atleast_2d(apart)
+            if later.size == 0 or (later.size not in (1, len(pairs)) and len(pairs) != 1):
                 raise ArgumentError(f"dt has {later.size} numbers (expected 1 or {len(pairs)}, as dx has): give one "
                                     "for each pair")
             count = max(later.size, len(pairs))

@@ -83,7 +83,7 @@ class UncertaintySource(ABC):
         """Axes, quantities and provenance of a table; without a name, of the default table."""
 
     def close(self) -> None:
-        """Releases its resources. It accepts no further queries."""
+        """Releases its resources. A service accepts no further queries; a table file is in memory and answers on."""
 
     def __enter__(self: Self) -> Self:
         return self

@@ -88,8 +88,6 @@ class TableFile(UncertaintySource):
     def _at(self, index: float | None) -> TableContent:
         """The table in water of this index, or of sea water. The last one is kept."""
         wanted = SEA_WATER_INDEX if index is None else index
-        if not 1 <= wanted <= 2:
-            raise ArgumentError(f"refractive_index is {wanted}: it should be 1 to 2")
         last = self._scaled
         if last is None or last[0] != wanted:
             self._scaled = last = (wanted, at_index(self._content, wanted))
