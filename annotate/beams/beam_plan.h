@@ -17,7 +17,7 @@
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/track_spline.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 #include "formats/trajectories/sbet_record.h"
 #include "formats/trajectories/trajectory_errors.h"
 #include "formats/trajectories/trajectory_timeline.h"

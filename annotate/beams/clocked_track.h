@@ -8,7 +8,7 @@
 
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/track_spline.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 
 namespace albtpu::annotate {
 

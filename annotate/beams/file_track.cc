@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "annotate/beams/clocked_track.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 #include "sea/angle.h"
 #include "sea/samples.h"
 #include "status/status_macros.h"

@@ -16,11 +16,11 @@
 #include "budget/beams/ray_track.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/track_spline.h"
+#include "formats/clocks/point_clock.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/crs/local_frame.h"
 #include "formats/crs/map_frame.h"
-#include "formats/trajectories/point_clock.h"
 #include "formats/trajectories/trajectory_checks.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::annotate {
 

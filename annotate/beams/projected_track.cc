@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/trajectories/point_clock.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/point_clock.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::annotate {
 namespace {

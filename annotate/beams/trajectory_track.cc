@@ -14,7 +14,7 @@
 #include "annotate/beams/clocked_track.h"
 #include "annotate/beams/projected_track.h"
 #include "budget/beams/track_check.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 #include "formats/trajectories/trajectory_timeline.h"
 #include "sea/angle.h"
 #include "status/status_macros.h"
@@ -148,11 +148,6 @@ std::optional<double> WeekOf(const formats::TrajectoryTimeline& timeline) {
 
 constexpr double kHalfDay = 43200;  // s
 
-// "2016-05-11", of a GPS time since 1980.
-std::string DateOf(double gps) {
-  return gps >= 0 && gps < 1e11 ? formats::UtcText(gps).substr(0, 10) : "a date before 1980";
-}
-
 void NoteRemarks(const formats::TrajectoryTimeline& timeline, FileTrack& found) {
   for (const formats::TimelineRun& run : timeline.runs()) {
     const std::string& remark = run.trajectory->remark();
@@ -171,7 +166,7 @@ void NoteLeapSeconds(const formats::TrajectoryTimeline& timeline, FileTrack& fou
           ? absl::StrFormat(
                 "GPS - UTC of the trajectory is taken as %d s, that of %s, when the file was created by its "
                 "header",
-                formats::GpsMinusUtc(*points.created), DateOf(*points.created + kHalfDay))
+                formats::GpsMinusUtc(*points.created), formats::DateText(*points.created + kHalfDay))
           : absl::StrFormat("GPS - UTC of the trajectory is taken as %g s, that since 2017, because the header of the "
                             "file does not state when it was created",
                             formats::kGpsMinusUtcNow));
@@ -261,10 +256,11 @@ std::string OneFlagOf(std::span<const formats::PointClock> clocks) {
 // The date of a day of the week that was found by what fits, as far as trajectory or header tell it.
 std::string DayText(const formats::PointClock& clock, const formats::PointTimes& times, std::optional<double> date) {
   if (!clock.is_of_day()) return "";
-  if (date.has_value()) return absl::StrCat("; by the trajectory, the day is ", DateOf(*date));
+  if (date.has_value()) return absl::StrCat("; by the trajectory, the day is ", formats::DateText(*date));
   if (!times.created.has_value()) return "";
   const double noon = *times.created + kHalfDay;
-  return absl::StrCat("; by its header, the file was created on ", formats::DayOfWeek(noon), ", ", DateOf(noon));
+  return absl::StrCat("; by its header, the file was created on ", formats::DayOfWeek(noon), ", ",
+                      formats::DateText(noon));
 }
 
 // Where no clock fits: what times of a day would be, which are nothing else by themselves.
@@ -279,11 +275,11 @@ absl::Status OrOfDay(const TrackedFile& file, const BeamPlan& plan, const absl::
       absl::StrCat(std::string(failure.message()), "; or, if its times are seconds of the day, ",
                    formats::HoursText(file.times.span),
                    file.times.created.has_value()
-                       ? absl::StrCat(" (its header states ", DateOf(*file.times.created + kHalfDay), ")")
+                       ? absl::StrCat(" (its header states ", formats::DateText(*file.times.created + kHalfDay), ")")
                        : "",
                    ", the trajectory of that hour (", first.name(), " has ",
                    formats::HoursText({gps, gps + span.last - span.first}), " of ",
-                   date.has_value() ? DateOf(gps) : absl::StrCat("a ", formats::DayOfWeek(gps)),
+                   date.has_value() ? formats::DateText(gps) : absl::StrCat("a ", formats::DayOfWeek(gps)),
                    "), with --time-format day, or utc-day for UTC"));
 }
 

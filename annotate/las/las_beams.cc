@@ -8,10 +8,10 @@
 #include "absl/strings/str_format.h"
 #include "annotate/beams/trajectory_track.h"
 #include "annotate/beams/water_heights.h"
+#include "formats/clocks/mixed_clocks.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/las/header_bounds.h"
 #include "formats/las/las_points.h"
-#include "formats/trajectories/mixed_clocks.h"
-#include "formats/trajectories/trajectory_time.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

@@ -18,9 +18,9 @@
 #include "annotate/las/las_place.h"
 #include "annotate/las/las_prescan.h"
 #include "budget/beams/track_spline.h"
+#include "formats/clocks/dated_clock.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_reader.h"
-#include "formats/trajectories/dated_clock.h"
 
 namespace albtpu::annotate {
 

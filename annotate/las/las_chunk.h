@@ -20,10 +20,10 @@
 #include "annotate/totals/terrain_totals.h"
 #include "annotate/totals/total_summary.h"
 #include "budget/beams/terrain_planes.h"
+#include "formats/clocks/dated_clock.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
-#include "formats/trajectories/dated_clock.h"
 
 namespace albtpu::annotate {
 

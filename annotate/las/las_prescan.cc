@@ -8,9 +8,9 @@
 
 #include "annotate/beams/water_heights.h"
 #include "budget/beams/pulse_sample.h"
+#include "formats/clocks/point_clock.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_points.h"
-#include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
 
 namespace albtpu::annotate {

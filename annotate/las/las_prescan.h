@@ -14,9 +14,9 @@
 #include "budget/beams/return_pair.h"
 #include "budget/beams/terrain_planes.h"
 #include "budget/beams/water_surface.h"
+#include "formats/clocks/time_tally.h"
 #include "formats/las/header_bounds.h"
 #include "formats/las/las_reader.h"
-#include "formats/trajectories/time_tally.h"
 
 namespace albtpu::annotate {
 

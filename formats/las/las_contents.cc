@@ -5,7 +5,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

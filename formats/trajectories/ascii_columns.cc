@@ -8,7 +8,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "formats/trajectories/trajectory_errors.h"
+#include "formats/trajectories/trajectory_sigmas.h"
 
 namespace albtpu::formats {
 namespace {

@@ -9,11 +9,11 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/ascii_columns.h"
-#include "formats/trajectories/trajectory_errors.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/trajectories/trajectory_sigmas.h"
 #include "sea/angle.h"
 #include "status/status_macros.h"
 

@@ -10,9 +10,9 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/text/text.h"
-#include "formats/trajectories/trajectory_time.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

@@ -21,10 +21,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/crs/foot.h"
 
 namespace albtpu::formats {
-
-inline constexpr double kMetresOfFoot = 0.3048;  // exact
 
 struct CoopsLevel {
   double time = 0;  // GPS time, s since 1980, if the zone of the file is UTC.

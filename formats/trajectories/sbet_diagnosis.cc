@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/crs/foot.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "sea/angle.h"
 
@@ -80,11 +81,11 @@ constexpr std::array kSbetMistakes = {
                   return WithVelocities(record, record.velocity_x, record.velocity_y, -record.velocity_z);
                 }},
     SbetMistake{"its velocities are in feet per second",
-                [](SbetRecord record) { return WithVelocitiesTimes(record, kFoot); }},
+                [](SbetRecord record) { return WithVelocitiesTimes(record, kMetresOfFoot); }},
     SbetMistake{"its velocities are in knots", [](SbetRecord record) { return WithVelocitiesTimes(record, kKnot); }},
     SbetMistake{"its heights are in feet",
                 [](SbetRecord record) {
-                  record.height *= kFoot;
+                  record.height *= kMetresOfFoot;
                   return record;
                 }},
 };
@@ -241,7 +242,7 @@ absl::Status CheckSbetMotion(const std::string& name, std::span<const SbetPair> 
   if (!velocities.has_value() || velocities->empty()) return absl::OkStatus();
   if (frame == VelocityFrame::kNone) return CheckHeadings(name, pairs, *velocities);
   const std::optional<ClimbSlope> climb = SlopeOfClimb(*velocities);
-  if (climb.has_value() && climb->is(1 / kFoot)) {
+  if (climb.has_value() && climb->is(1 / kMetresOfFoot)) {
     return absl::InvalidArgumentError(
         absl::StrFormat("%s: its heights change 3.28 times as fast as its vertical velocities state (its "
                         "heights are in feet); "

@@ -16,7 +16,7 @@
 #include "formats/text/text.h"
 #include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/sbet_diagnosis.h"
-#include "formats/trajectories/trajectory_errors.h"
+#include "formats/trajectories/trajectory_sigmas.h"
 #include "status/status_macros.h"
 
 namespace albtpu::formats {

@@ -10,10 +10,10 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/files/file_access.h"
 #include "formats/trajectories/sbet_record.h"
 #include "formats/trajectories/trajectory.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 

@@ -10,8 +10,6 @@
 
 namespace albtpu::formats {
 
-inline constexpr double kFoot = 0.3048;  // m, exact; the US survey foot differs by 2e-6 of it.
-
 inline constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 
 // The reference point of the navigation system, and how the body of the system is turned. Position and time are always

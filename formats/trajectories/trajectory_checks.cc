@@ -11,6 +11,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/crs/foot.h"
 #include "sea/angle.h"
 
 namespace albtpu::formats {
@@ -98,7 +99,7 @@ std::vector<Change> Changes(const MapFrame& frame) {
   const double unit = frame.unit();
   changes.push_back(
       {"the points are in feet, but their coordinate system states metres", unchanged, [unit](MapPosition p) {
-         return MapPosition{p.x * unit / kFoot, p.y * unit / kFoot};
+         return MapPosition{p.x * unit / kMetresOfFoot, p.y * unit / kMetresOfFoot};
        }});
   changes.push_back(
       {"the points are in metres, but their coordinate system states another unit", unchanged, [unit](MapPosition p) {

@@ -1,5 +1,4 @@
-// How well the trajectories of a survey are known: their error files (SMRMSG) by time, and whether the standard
-// deviations of a file can be those of a navigation system, in the unit of their format.
+// How well the trajectories of a survey are known: their error files (SMRMSG) by time.
 #pragma once
 
 #include <array>
@@ -12,25 +11,11 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/clocks/span_index.h"
 #include "formats/trajectories/sbet_file.h"
-#include "formats/trajectories/span_index.h"
 #include "formats/trajectories/trajectory_timeline.h"
 
 namespace albtpu::formats {
-
-// How a format states standard deviations, for messages.
-struct SigmaColumns {
-  std::array<std::string, kSigmaFields.size()> names = {};  // "column 13 'sigma roll'"
-  std::string angle;                                        // The unit of angles: "degrees".
-  double radians = 1;                                       // Of this unit.
-  std::string if_unknown;                                   // What to do where they are not known.
-};
-
-// InvalidArgument, with the column, what it states and what would be right, where a column states only zeros, or
-// positions, rolls or pitches that no navigation system has: in another unit. What is not stated counts for nothing,
-// and velocities are not looked at. `of_record` is asked for the records below `size`.
-absl::Status CheckSigmaUnits(const std::string& name, const SigmaColumns& columns, std::size_t size,
-                             const std::function<TrajectorySigma(std::size_t)>& of_record);
 
 // The error files of one run of a timeline.
 struct ErrorsOfRun {

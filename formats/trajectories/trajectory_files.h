@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/clocks/span_index.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/trajectories/sbet_record.h"
-#include "formats/trajectories/span_index.h"
 #include "formats/trajectories/trajectory.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 

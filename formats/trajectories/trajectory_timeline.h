@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/trajectories/trajectory.h"
 #include "formats/trajectories/trajectory_files.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 

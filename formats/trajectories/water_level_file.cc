@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "formats/crs/foot.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/files/file_access.h"
 #include "formats/text/text.h"
@@ -18,8 +19,8 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr char kTime[] = "time", kLevel[] = "water_level";
-constexpr double kLargestTime = 1e11;       // s; later than any GPS time.
+constexpr char kTimeColumn[] = "time", kLevelColumn[] = "water_level";
+constexpr double kLatestTime = 1e11;        // s; later than any GPS time.
 constexpr double kLargestLevel = 1e5;       // In any unit of heights.
 constexpr std::size_t kMostOfHeader = 200;  // Characters of it in messages.
 constexpr std::size_t kLargestFile = 64 << 20;
@@ -161,7 +162,7 @@ class WaterLevelReader {
     std::optional<std::size_t> time, level;
     for (std::size_t cell = 0; cell < record.cell_count(); ++cell) {
       const std::string name = CellText(record, cell);
-      std::optional<std::size_t>* const column = name == kTime ? &time : name == kLevel ? &level : nullptr;
+      std::optional<std::size_t>* const column = name == kTimeColumn ? &time : name == kLevelColumn ? &level : nullptr;
       if (column == nullptr) continue;
       if (column->has_value()) return CellError(record, name.c_str(), "occurs twice; remove one of the columns");
       *column = cell;
@@ -169,10 +170,10 @@ class WaterLevelReader {
     if (!time.has_value() || !level.has_value()) {
       std::vector<std::string> found;
       for (std::size_t cell = 0; cell < record.cell_count(); ++cell) found.push_back(CellText(record, cell));
-      return absl::InvalidArgumentError(
-          absl::StrCat(name_, " line ", record.line, ": there is no column '", time.has_value() ? kLevel : kTime,
-                       "' (columns found: ", OneLine(absl::StrJoin(found, ", ")).substr(0, kMostOfHeader),
-                       "); name the columns time and water_level in the first line"));
+      return absl::InvalidArgumentError(absl::StrCat(
+          name_, " line ", record.line, ": there is no column '", time.has_value() ? kLevelColumn : kTimeColumn,
+          "' (columns found: ", OneLine(absl::StrJoin(found, ", ")).substr(0, kMostOfHeader),
+          "); name the columns time and water_level in the first line"));
     }
     time_column_ = *time;
     level_column_ = *level;
@@ -193,7 +194,7 @@ class WaterLevelReader {
     const std::string level_text = CellText(record, level_column_);
     const std::optional<double> level = NumberIn(level_text);
     if (!level.has_value() || !(std::abs(*level) <= kLargestLevel)) {
-      return CellError(record, kLevel,
+      return CellError(record, kLevelColumn,
                        absl::StrCat("'", level_text, "' is not a water level; write a number in the ",
                                     "unit of the heights of the points"));
     }
@@ -201,7 +202,7 @@ class WaterLevelReader {
     RETURN_IF_ERROR(ReadTime(record, time));
     if (series_.size() > 0 && !(time > series_.times_.back())) {
       return CellError(
-          record, kTime,
+          record, kTimeColumn,
           absl::StrCat("'", CellText(record, time_column_), "' is not after the time in the line above; sort by time"));
     }
     series_.times_.push_back(time);
@@ -218,14 +219,14 @@ class WaterLevelReader {
   absl::Status ReadTime(const CsvRecord& record, double& time) {
     const std::string text = CellText(record, time_column_);
     const std::optional<double> utc = ParseUtc(text), number = NumberIn(text);
-    if (!utc.has_value() && !(number.has_value() && std::abs(*number) <= kLargestTime)) {
-      return CellError(record, kTime,
+    if (!utc.has_value() && !(number.has_value() && std::abs(*number) <= kLatestTime)) {
+      return CellError(record, kTimeColumn,
                        absl::StrCat("'", text, "' is not a time; write UTC such as 2016-05-11T14:00:00Z, or the GPS ",
                                     "time of the points in seconds"));
     }
     if (series_.size() == 0) utc_ = utc.has_value();
     if (utc_ != utc.has_value()) {
-      return CellError(record, kTime,
+      return CellError(record, kTimeColumn,
                        absl::StrCat("'", text, "' is ", utc_ ? "a number" : "a date",
                                     ", unlike the times above; write all in one form"));
     }

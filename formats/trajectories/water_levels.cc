@@ -13,10 +13,7 @@
 namespace albtpu::formats {
 namespace {
 
-std::string UtcOf(double adjusted) {
-  const double gps = adjusted + kAdjustedGpsOffset;
-  return gps >= 0 && gps < 1e11 ? UtcText(gps) : "a time before 1980";
-}
+std::string UtcOf(double adjusted) { return InstantText(adjusted + kAdjustedGpsOffset); }
 
 // The clocks of dates, other than that of the points, by which numbers can be read as times.
 std::vector<PointClock> ClocksOfDates(const TimeSpan& numbers, PointTimeForm form) {

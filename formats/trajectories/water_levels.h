@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/trajectories/dated_clock.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/dated_clock.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::formats {
 

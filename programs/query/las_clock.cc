@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 
 namespace albtpu::programs {
 namespace {
@@ -16,12 +16,12 @@ using formats::PointClock;
 using formats::PointTimeForm;
 using formats::PointTimes;
 
-constexpr double kDay = 86400;
 constexpr double kFirstSurvey = 315e6;  // GPS time of 1990; airborne lasers have been placed by GPS since about then.
 
 bool IsPossible(const PointTimes& times, double latest) {
   const auto& [first, last] = times.span;
-  if (times.form == PointTimeForm::kWeekSeconds) return first >= 0 && last <= formats::kSecondsPerWeek + kDay;
+  if (times.form == PointTimeForm::kWeekSeconds)
+    return first >= 0 && last <= formats::kSecondsPerWeek + formats::kSecondsPerDay;
   return first + kAdjustedGpsOffset >= kFirstSurvey && last + kAdjustedGpsOffset <= latest;
 }
 
@@ -34,10 +34,11 @@ struct Judgement {
 Judgement Judge(const PointTimes& points, double now) {
   const std::vector<PointClock> clocks = formats::ClocksOf(points, formats::TimeFormat::kAuto);
   const auto is_possible = [&](const PointClock& clock, double latest) {
-    return IsPossible(clock(points.span), latest + kDay);
+    return IsPossible(clock(points.span), latest + formats::kSecondsPerDay);
   };
   // The date of the header is that of some place, up to half a day from UTC.
-  const double created = std::min(now, points.created.has_value() ? *points.created + kDay / 2 : now);
+  const double created =
+      std::min(now, points.created.has_value() ? *points.created + formats::kSecondsPerDay / 2 : now);
   Judgement judgement;
   judgement.is_header_possible = is_possible(clocks.front(), now);
   judgement.is_after_creation = judgement.is_header_possible && !is_possible(clocks.front(), created);

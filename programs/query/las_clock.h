@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::programs {
 

@@ -10,10 +10,10 @@
 
 #include "absl/status/statusor.h"
 #include "config/survey_draft.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/las/las_contents.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_reader.h"
-#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::programs {
 

@@ -14,11 +14,11 @@
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/run/file_jobs.h"
+#include "formats/clocks/point_clock.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
-#include "formats/trajectories/point_clock.h"
 #include "status/status_macros.h"
 #include "tables/digest.h"
 

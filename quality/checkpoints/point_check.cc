@@ -9,13 +9,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "formats/crs/foot.h"
 #include "sea/samples.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
 namespace {
 
-constexpr double kFoot = 0.3048;                 // m, exact; the US survey foot differs by 2e-6.
+using formats::kMetresOfFoot;
 constexpr double kPlain = 2, kMuchNearer = 0.1;  // m; of what elevations differ by as they are.
 
 Difference DifferenceAt(const SurfaceAtPoint& surface, const CheckPoint& point) {
@@ -52,7 +53,8 @@ absl::Status CheckElevations(const PointCheck& check, const AnnotatedLasFile& fi
   };
   std::vector<Reading> readings = {{"count downwards", -1}};
   if (metres)
-    readings.push_back({"are feet", kFoot}), readings.push_back({"are feet and count downwards", -kFoot});
+    readings.push_back({"are feet", kMetresOfFoot}),
+        readings.push_back({"are feet and count downwards", -kMetresOfFoot});
   else
     readings.push_back({"are metres", 1 / unit}), readings.push_back({"are metres and count downwards", -1 / unit});
   for (const Reading& reading : readings) {
@@ -94,9 +96,9 @@ absl::Status NoSurface(const PointCheck& check, const PlaneBox& box, const Annot
   for (const CheckPoint& point : points) of_points.Add(point.x, point.y);
   if (inside([](const CheckPoint& p) { return std::pair(p.y, p.x); }))
     why = "; x and y seem to be exchanged";
-  else if (inside([](const CheckPoint& p) { return std::pair(p.x * kFoot, p.y * kFoot); }))
+  else if (inside([](const CheckPoint& p) { return std::pair(p.x * kMetresOfFoot, p.y * kMetresOfFoot); }))
     why = "; they seem to be in feet, and the files are not";
-  else if (inside([](const CheckPoint& p) { return std::pair(p.x / kFoot, p.y / kFoot); }))
+  else if (inside([](const CheckPoint& p) { return std::pair(p.x / kMetresOfFoot, p.y / kMetresOfFoot); }))
     why = "; they seem to be in metres, and the files are not";
   return absl::FailedPreconditionError(absl::StrCat(
       check.name, ": all check points lie outside of the survey (", BoxText(of_points), "; the annotated points have ",

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::quality {
 namespace {

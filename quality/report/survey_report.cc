@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "annotate/answers/batch.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 #include "quality/report/bottom_coverage.h"
 #include "quality/report/length_histogram.h"
 #include "quality/report/limit_margins.h"

@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "budget/total/error_ellipse.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/surface/point_tiles.h"
 #include "quality/surface/survey_surface.h"

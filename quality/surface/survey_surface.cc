@@ -11,7 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 #include "quality/surface/surface_file.h"
 #include "quality/surface/surface_tally.h"
 #include "status/status_macros.h"

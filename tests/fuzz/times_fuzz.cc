@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "absl/strings/match.h"
-#include "formats/trajectories/dated_clock.h"
-#include "formats/trajectories/point_clock.h"
-#include "formats/trajectories/span_index.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/dated_clock.h"
+#include "formats/clocks/point_clock.h"
+#include "formats/clocks/span_index.h"
+#include "formats/clocks/trajectory_time.h"
 #include "programs/query/las_clock.h"
 #include "tests/fuzz/fuzz_target.h"
 

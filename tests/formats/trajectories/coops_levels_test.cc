@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "absl/strings/str_replace.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/trajectories/water_level_file.h"
 
 namespace albtpu::formats {

@@ -83,7 +83,8 @@ class DatedClocksTest(ClockedSurvey):
         self.assertEqual(self.las(of_day, level=tide).returncode, 0)
         sea = self.write_sea(flight + 2 * 86400, -1, 0, 1)
         for source in (self.survey.las, of_day):
-            self.assert_fails(self.las(source, None, "--sea", sea, level=tide), 1, "were measured outside of ", "sea.csv")
+            result = self.las(source, None, "--sea", sea, level=tide)
+            self.assert_fails(result, 1, "were measured outside of ", "sea.csv")
 
     def test_sources_of_different_days_are_refused(self):
         """Without a trajectory, levels and sea say what seconds of the day mean, and must say the same."""

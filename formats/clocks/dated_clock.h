@@ -9,8 +9,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "formats/trajectories/point_clock.h"
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/point_clock.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::formats {
 

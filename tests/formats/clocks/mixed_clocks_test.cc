@@ -1,8 +1,8 @@
-#include "formats/trajectories/mixed_clocks.h"
+#include "formats/clocks/mixed_clocks.h"
 
 #include <gmock/gmock.h>
 
-#include "tests/formats/trajectories/written_times.h"
+#include "tests/formats/clocks/written_times.h"
 
 namespace albtpu::formats {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::formats {
 

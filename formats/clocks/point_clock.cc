@@ -1,4 +1,4 @@
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,7 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr double kSecondsPerDay = 86400;  // exact
-constexpr double kMillisecond = 1e-3;     // s, exact.
-constexpr double kUnixEpoch = 315964800;  // 1980-01-06T00:00:00Z in s since 1970; exact.
+constexpr double kMillisecond = 1e-3;  // s, exact.
 // GPS times of 1990 and 2060. Airborne lasers have been placed by GPS since about 1990.
 constexpr double kEarliest = 315e6, kLatest = 2525e6;
 // A flight that began before the end of a week or a day goes on for less than a day.
@@ -56,10 +54,10 @@ void AddClocks(const TimeSpan& span, double scale, double leap_seconds, std::vec
     clocks.push_back(
         Adjusted(format(TimeFormat::kGps), scale, -kAdjustedGpsOffset, absl::StrCat("GPS ", unit, " since 1980")));
   }
-  if (IsWithin(span, kEarliest + kUnixEpoch, kLatest + kUnixEpoch)) {
-    const double leap = LeapSecondsAtUtc(span.first - kUnixEpoch);
-    clocks.push_back(Adjusted(format(TimeFormat::kUnix), scale, leap - kUnixEpoch - kAdjustedGpsOffset,
-                              absl::StrCat("Unix ", unit)));
+  if (IsWithin(span, kEarliest + kGpsEpoch, kLatest + kGpsEpoch)) {
+    const double leap = LeapSecondsAtUtc(span.first - kGpsEpoch);
+    clocks.push_back(
+        Adjusted(format(TimeFormat::kUnix), scale, leap - kGpsEpoch - kAdjustedGpsOffset, absl::StrCat("Unix ", unit)));
   }
   if (!IsOfDay(span)) return;
   for (std::size_t day = 0; day < kDays.size(); ++day) {
@@ -106,7 +104,7 @@ std::string DayOfWeek(double time) {
 std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format, std::optional<double> date) {
   std::vector<PointClock> possible;
   if (!date.has_value()) date = stated.created;
-  const double leap_seconds = date.has_value() ? *date + kUnixEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
+  const double leap_seconds = date.has_value() ? *date + kGpsEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
   AddClocks(stated.span, 1, leap_seconds, possible);
   const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
   const double duration = std::max(milliseconds.last - milliseconds.first, kShortest);

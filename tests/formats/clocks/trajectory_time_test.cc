@@ -1,4 +1,4 @@
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

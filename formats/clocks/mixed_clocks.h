@@ -5,7 +5,7 @@
 #include <string>
 
 #include "absl/status/status.h"
-#include "formats/trajectories/time_tally.h"
+#include "formats/clocks/time_tally.h"
 
 namespace albtpu::formats {
 

@@ -1,4 +1,4 @@
-#include "formats/trajectories/time_tally.h"
+#include "formats/clocks/time_tally.h"
 
 #include <gtest/gtest.h>
 

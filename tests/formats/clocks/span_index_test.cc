@@ -1,4 +1,4 @@
-#include "formats/trajectories/span_index.h"
+#include "formats/clocks/span_index.h"
 
 #include <gmock/gmock.h>
 

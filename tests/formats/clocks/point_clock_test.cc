@@ -1,12 +1,12 @@
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "formats/trajectories/dated_clock.h"
+#include "formats/clocks/dated_clock.h"
 #include "sea/sea_time.h"
-#include "tests/formats/trajectories/written_times.h"
+#include "tests/formats/clocks/written_times.h"
 
 namespace albtpu::formats {
 namespace {

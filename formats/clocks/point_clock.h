@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/trajectories/trajectory_time.h"
+#include "formats/clocks/trajectory_time.h"
 
 namespace albtpu::formats {
 

@@ -1,9 +1,9 @@
-#include "formats/trajectories/dated_clock.h"
+#include "formats/clocks/dated_clock.h"
 
 #include <gmock/gmock.h>
 
 #include "sea/sea_time.h"
-#include "tests/formats/trajectories/written_times.h"
+#include "tests/formats/clocks/written_times.h"
 
 namespace albtpu::formats {
 namespace {

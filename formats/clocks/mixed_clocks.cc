@@ -1,4 +1,4 @@
-#include "formats/trajectories/mixed_clocks.h"
+#include "formats/clocks/mixed_clocks.h"
 
 #include <cmath>
 #include <vector>
@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 
 namespace albtpu::formats {
 namespace {

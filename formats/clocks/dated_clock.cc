@@ -1,4 +1,4 @@
-#include "formats/trajectories/dated_clock.h"
+#include "formats/clocks/dated_clock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,7 @@
 namespace albtpu::formats {
 namespace {
 
-constexpr double kDay = 86400;  // exact
-constexpr double kHalfDay = kDay / 2;
+constexpr double kHalfDay = kSecondsPerDay / 2;
 
 // s; sources in UTC are read as GPS time where nothing changes within the seconds between the two.
 constexpr double kSameInstant = 60;
@@ -29,8 +28,8 @@ TimeSpan SpanOf(const DatedClock& clock, const TimeSpan& stated) { return {clock
 // Seconds of the week that start again from 0 where the next one begins.
 bool BeginAgain(const PointTimes& points) {
   const TimeSpan& span = points.span;
-  return points.form == PointTimeForm::kWeekSeconds && span.first >= 0 && span.last <= kSecondsPerWeek + kDay &&
-         span.last - span.first > kSecondsPerWeek / 2;
+  return points.form == PointTimeForm::kWeekSeconds && span.first >= 0 &&
+         span.last <= kSecondsPerWeek + kSecondsPerDay && span.last - span.first > kSecondsPerWeek / 2;
 }
 
 std::vector<PointClock> ChosenClocks(const PointTimes& points, const ClockChoice& choice) {
@@ -62,10 +61,7 @@ std::vector<DatedClock> FittingClocks(const PointTimes& points, const ClockChoic
   return fitting;
 }
 
-std::string DateOf(double adjusted) {
-  const double gps = adjusted + kAdjustedGpsOffset;
-  return gps >= 0 && gps < 1e11 ? UtcText(gps).substr(0, 10) : "a date before 1980";
-}
+std::string DateOf(double adjusted) { return DateText(adjusted + kAdjustedGpsOffset); }
 
 std::string DatedText(const DatedClock& clock, const PointTimes& points) {
   return absl::StrCat(clock.clock.description, " (", DateOf(clock(points.span.first)), ")");
@@ -86,19 +82,19 @@ void KeepByCreation(const PointTimes& points, std::vector<DatedClock>& clocks, s
     if (!kept.empty()) clocks = std::move(kept);
   };
   const std::size_t before = clocks.size();
-  keep(-INFINITY, created + kDay + kHalfDay);
-  if (clocks.size() > 1) keep(created, created + kDay);
-  if (clocks.size() > 1) keep(created - kHalfDay, created + kDay + kHalfDay);
+  keep(-INFINITY, created + kSecondsPerDay + kHalfDay);
+  if (clocks.size() > 1) keep(created, created + kSecondsPerDay);
+  if (clocks.size() > 1) keep(created - kHalfDay, created + kSecondsPerDay + kHalfDay);
   if (clocks.size() < before)
     evidence = absl::StrCat("the creation of the file on ", DateOf(created + kHalfDay), " by its header");
 }
 
 // "2016-05-12T11:06:22Z by levels.csv"
-std::string InstantText(const ClockReading& reading, double stated) {
-  const double time = reading(stated), gps = time + kAdjustedGpsOffset;
+std::string ReadingText(const ClockReading& reading, double stated) {
+  const double time = reading(stated);
   if (reading.form == PointTimeForm::kWeekSeconds)
     return absl::StrCat(HourText(time), " of a ", DayOfWeek(time), " by ", reading.of);
-  return absl::StrCat(gps >= 0 && gps < 1e11 ? UtcText(gps) : "a time before 1980", " by ", reading.of);
+  return absl::StrCat(InstantText(time + kAdjustedGpsOffset), " by ", reading.of);
 }
 
 bool AreSame(const ClockReading& a, const ClockReading& b, double stated) {
@@ -126,8 +122,8 @@ absl::Status CheckReadingsAgree(const std::string& name, const PointTimes& point
     for (std::size_t k = 0; k < i; ++k) {
       if (AreSame(readings[k], readings[i], first)) continue;
       return absl::FailedPreconditionError(
-          absl::StrCat(name, ": its first point is at ", InstantText(readings[k], first), ", but at ",
-                       InstantText(readings[i], first),
+          absl::StrCat(name, ": its first point is at ", ReadingText(readings[k], first), ", but at ",
+                       ReadingText(readings[i], first),
                        "; give both of the day of the flight, or say how the times of the points "
                        "are meant by --time-format"));
     }
@@ -140,8 +136,8 @@ std::string CreationNote(const PointTimes& points, std::span<const ClockReading>
   const double created = *points.created - kAdjustedGpsOffset;
   for (const ClockReading& reading : readings) {
     if (reading.form != PointTimeForm::kAdjustedStandard) continue;
-    if (reading(points.span.first) < created + kDay + kHalfDay) continue;
-    return absl::StrCat("the points were measured at ", InstantText(reading, points.span.first),
+    if (reading(points.span.first) < created + kSecondsPerDay + kHalfDay) continue;
+    return absl::StrCat("the points were measured at ", ReadingText(reading, points.span.first),
                         ", after their file was created on ", DateOf(created + kHalfDay),
                         " by its header: one of the two is wrong");
   }

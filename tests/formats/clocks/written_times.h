@@ -1,7 +1,7 @@
 // One half hour by every clock that files of points are written with.
 #pragma once
 
-#include "formats/trajectories/point_clock.h"
+#include "formats/clocks/point_clock.h"
 #include "sea/sea_time.h"
 
 namespace albtpu::formats {
