@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 double Gps(const char* text) { return ParseUtc(text).value(); }
 
-PointTimes Adjusted(const char* first, const char* last) {
+PointTimes StandardTimes(const char* first, const char* last) {
   return {{Gps(first) - kAdjustedGpsOffset, Gps(last) - kAdjustedGpsOffset}, PointTimeForm::kAdjustedStandard};
 }
 
@@ -31,7 +31,7 @@ std::string ErrorOf(const PointTimes& points, const TimeSpan& known) {
 TEST(UtcOfPoints, TakesLeapSecondsAwayFromStandardTimes) {
   const TimeSpan known = Span("2016-01-01T00:00Z", "2021-01-01T00:00Z");
   for (const char* text : {"2016-05-11T14:00:00Z", "2020-06-08T03:50:00Z"}) {
-    const PointTimes points = Adjusted(text, text);
+    const PointTimes points = StandardTimes(text, text);
     EXPECT_EQ(UtcOffset("in.las", points, known, "sea.csv").value() + points.span.first, Utc(text)) << text;
   }
 }
@@ -58,7 +58,7 @@ TEST(UtcOfPoints, AreNotGuessed) {
 TEST(UtcOfPoints, LieOutsideOfWhatIsKnown) {
   const TimeSpan known = Span("2020-06-07T12:00Z", "2020-06-09T12:00Z");
   EXPECT_THAT(ErrorOf(OfWeek(400000, 410000), known), HasSubstr("measured outside of sea.csv"));
-  EXPECT_THAT(ErrorOf(Adjusted("2020-06-10T00:00:00Z", "2020-06-10T02:00:00Z"), known),
+  EXPECT_THAT(ErrorOf(StandardTimes("2020-06-10T00:00:00Z", "2020-06-10T02:00:00Z"), known),
               HasSubstr("the file 2020-06-07T12:00:00Z to 2020-06-09T12:00:00Z"));
 }
 
