@@ -7,8 +7,8 @@
 
 #include "formats/las/las_points.h"
 #include "quality/crosscheck/cross_check.h"
+#include "quality/seas/sea_sharing.h"
 #include "quality/surface/cell_plane.h"
-#include "quality/surface/sea_sharing.h"
 #include "quality/surface/surface_part.h"
 #include "quality/surface/surface_point.h"
 #include "quality/surface/survey_surface.h"

@@ -167,7 +167,7 @@ absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileS
 std::optional<CrossCheck> CheckPatches(OverlapPatches& patches, const SharedWaves& waves) {
   std::vector<Patch> taken = patches.Take();
   PatchPairs pairs;
-  for (Patch& patch : taken) AppendPairs(patch, pairs);
+  for (Patch& patch : taken) AppendPairs(patch, waves, pairs);
   std::optional<CrossCheck> check = CheckPairs(pairs, patches.side(), waves);
   if (!check.has_value()) return check;
   for (LineDifference& each : check->line.differences) {

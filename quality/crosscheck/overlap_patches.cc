@@ -152,52 +152,62 @@ std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
   return slope;
 }
 
-PulseOnWater PulseAt(double x, double y, const PatchPoint& point) {
-  return PulseOnWater::Of({.x = x,
-                           .y = y,
-                           .depth = point.depth,
-                           .incidence = point.incidence,
-                           .azimuth = point.azimuth,
-                           .footprint = point.footprint},
-                          point.time, point.sea);
+PointOfBeam BeamOf(const Patch& patch, const PatchPoint& point) {
+  return {.x = patch.x + double{point.x},
+          .y = patch.y + double{point.y},
+          .depth = point.depth,
+          .incidence = point.incidence,
+          .azimuth = point.azimuth,
+          .footprint = point.footprint};
 }
 
 // Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
 // lies too far down the slope is too high above it. What is not of the sea is divided among air side and line as the
 // variance of the height is.
-PairedPoint AboveSlope(const Patch& patch, const PatchPoint& point, const Slope& slope) {
+PairedPoint AboveSlope(const PointOfBeam& beam, const PatchPoint& point, const Slope& slope, const SharedWaves& waves) {
   const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy + 2 * slope.x * slope.y * point.xy -
                        2 * (slope.x * point.xz + slope.y * point.yz);
   const double air = point.variance_air, sea = point.variance_sea, line = point.variance_line;
-  PairedPoint above{.pulse = PulseAt(patch.x + double{point.x}, patch.y + double{point.y}, point)};
+  PairedPoint above{.pulse = PulseOnWater::Of(beam, point.time, point.sea)};
+  const double heights = waves.PartsAt(beam, sea, point.sea).heights;
   if (added < 0) {
     const double level = air + sea + line, left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
     above.variance_air = static_cast<float>(left * air);
     above.variance_sea = static_cast<float>(left * sea);
     above.variance_line = static_cast<float>(left * line);
+    above.variance_heights = static_cast<float>(left * heights);
     return above;
   }
   const double rest = (1 - point.sea_in_horizontal) * added, to_line = air + line > 0 ? line / (air + line) : 0;
   above.variance_air = static_cast<float>(air + (1 - to_line) * rest);
   above.variance_sea = static_cast<float>(sea + point.sea_in_horizontal * added);
   above.variance_line = static_cast<float>(line + to_line * rest);
+  above.variance_heights = static_cast<float>(heights);
   return above;
 }
 
-CrossPair PairOf(const Patch& patch, const PatchPoint& a, const PatchPoint& b, const Slope& slope) {
+// What pairs of a patch have in common.
+struct Bottom {
+  const Patch& patch;
+  Slope slope;
+  const SharedWaves& waves;
+};
+
+CrossPair PairOf(const Bottom& bottom, const PatchPoint& a, const PatchPoint& b) {
+  const Slope& slope = bottom.slope;
   const double dx = a.x - b.x, dy = a.y - b.y;
   const double slope_error = slope.xx * dx * dx + slope.yy * dy * dy + 2 * slope.xy * dx * dy;
   return {.line_a = a.line,
           .line_b = b.line,
-          .x = patch.x,
-          .y = patch.y,
+          .x = bottom.patch.x,
+          .y = bottom.patch.y,
           .difference = static_cast<float>(a.z - b.z - slope.x * dx - slope.y * dy),
           .distance = static_cast<float>(std::hypot(dx, dy)),
           .variance_slope = static_cast<float>(slope_error),
           .depth = (a.depth + b.depth) / 2,
           .incidence = (a.incidence + b.incidence) / 2,
-          .a = AboveSlope(patch, a, slope),
-          .b = AboveSlope(patch, b, slope)};
+          .a = AboveSlope(BeamOf(bottom.patch, a), a, slope, bottom.waves),
+          .b = AboveSlope(BeamOf(bottom.patch, b), b, slope, bottom.waves)};
 }
 
 // Null where there are none.
@@ -228,7 +238,7 @@ Nearest NearestOf(const Line& line) {
 
 }  // namespace
 
-void AppendPairs(Patch& patch, PatchPairs& pairs) {
+void AppendPairs(Patch& patch, const SharedWaves& waves, PatchPairs& pairs) {
   std::ranges::stable_sort(patch.points, {}, &PatchPoint::line);
   std::vector<Line> lines;
   for (std::size_t begin = 0; begin < patch.points.size();) {
@@ -240,9 +250,10 @@ void AppendPairs(Patch& patch, PatchPairs& pairs) {
   if (lines.size() < 2) return;
   const std::optional<Slope> slope = FitSlope(lines);
   if (!slope.has_value()) return;
+  const Bottom bottom = {patch, *slope, waves};
   const auto append = [&](const Nearest& nearest, std::vector<CrossPair>& list) {
     if (nearest.a == nullptr) return;
-    const CrossPair pair = PairOf(patch, *nearest.a, *nearest.b, *slope);
+    const CrossPair pair = PairOf(bottom, *nearest.a, *nearest.b);
     if (pair.variance_air() + pair.variance_sea() > 0) list.push_back(pair);
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {

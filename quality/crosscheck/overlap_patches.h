@@ -86,6 +86,7 @@ class OverlapPatches {
 struct PairedPoint {
   PulseOnWater pulse;
   float variance_air = 0, variance_sea = 0, variance_line = 0;
+  float variance_heights = 0;  // Of the sea's: that of the heights of unseen waves.
 };
 
 // Of two lines, whose numbers are a < b, or both of one line.
@@ -115,6 +116,6 @@ struct PatchPairs {
 // of planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
 // does not tilt it. None where the points do not define a slope.
 inline constexpr std::size_t kMinPoints = 3;
-void AppendPairs(Patch& patch, PatchPairs& pairs);
+void AppendPairs(Patch& patch, const SharedWaves& waves, PatchPairs& pairs);
 
 }  // namespace albtpu::quality

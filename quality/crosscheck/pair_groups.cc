@@ -1,5 +1,6 @@
 #include "quality/crosscheck/pair_groups.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -25,11 +26,6 @@ std::map<Key, std::vector<std::size_t>> InSquares(const std::vector<CrossPair>& 
   return squares;
 }
 
-// What the sea does to both points of one line, m^2.
-double Shared(const PairedPoint& a, const PairedPoint& b, const SharedWaves& waves) {
-  return std::sqrt(double{a.variance_sea} * b.variance_sea) * waves(a.pulse, b.pulse);
-}
-
 PairGroup GroupOf(const std::vector<CrossPair>& pairs, const Key& key, std::vector<std::size_t> numbers,
                   const SharedWaves& waves) {
   PairGroup group{.line_a = std::get<0>(key), .line_b = std::get<1>(key), .pairs = std::move(numbers)};
@@ -44,7 +40,7 @@ PairGroup GroupOf(const std::vector<CrossPair>& pairs, const Key& key, std::vect
     group.sea_rows[i] += pair.variance_sea();
     for (std::size_t j = 0; j < i; ++j) {
       const CrossPair& other = pairs[group.pairs[j]];
-      const double shared = Shared(pair.a, other.a, waves) + Shared(pair.b, other.b, waves);
+      const double shared = CovarianceOfSea(pair.a, other.a, waves) + CovarianceOfSea(pair.b, other.b, waves);
       group.sea_rows[i] += shared;
       group.sea_rows[j] += shared;
     }
@@ -62,6 +58,15 @@ PairGroup GroupOf(const std::vector<CrossPair>& pairs, const Key& key, std::vect
 
 Place PlaceOf(const CrossPair& pair, double side) {
   return {static_cast<int>(std::floor(pair.x / side)), static_cast<int>(std::floor(pair.y / side))};
+}
+
+double CovarianceOfSea(const PairedPoint& a, const PairedPoint& b, const SharedWaves& waves) {
+  const SeaParts shared = waves(a.pulse, b.pulse);
+  const auto slopes = [](const PairedPoint& point) {
+    return std::max(double{point.variance_sea} - point.variance_heights, 0.0);
+  };
+  return shared.slopes * std::sqrt(slopes(a) * slopes(b)) +
+         shared.heights * std::sqrt(double{a.variance_heights} * b.variance_heights);
 }
 
 PairGroups GroupPairs(const std::vector<CrossPair>& across, double patch, const SharedWaves& waves) {

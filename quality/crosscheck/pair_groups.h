@@ -57,6 +57,11 @@ struct PairGroups {
 inline constexpr int kCellsAlongPlace = 4;
 inline constexpr double kPairsOfCell = 4;
 inline constexpr double kLook = 2;  // s
+static_assert(SharedWaves::kPause >= kLook);
+
+// What the sea does to both points of one line, m^2: the covariance of its shares in their heights.
+double CovarianceOfSea(const PairedPoint& a, const PairedPoint& b, const SharedWaves& waves);
+
 PairGroups GroupPairs(const std::vector<CrossPair>& across, double patch, const SharedWaves& waves);
 
 }  // namespace albtpu::quality

@@ -191,13 +191,11 @@ std::vector<SquaredDifference> SquaredDifferences(const PatchPairs& pairs, const
   }
   for (const CrossPair& pair : pairs.within) {
     if (pair.a.pulse.sea == PulseOnWater::kNoSea) continue;
-    const double shared =
-        std::sqrt(double{pair.a.variance_sea} * pair.b.variance_sea) * waves(pair.a.pulse, pair.b.pulse);
     samples.push_back({.place = PlaceOf(pair, groups.place),
                        .across = false,
                        .square = std::pow(pair.difference, 2),
                        .air = pair.variance_air(),
-                       .sea = std::max(pair.variance_sea() - 2 * shared, 0.0),
+                       .sea = std::max(pair.variance_sea() - 2 * CovarianceOfSea(pair.a, pair.b, waves), 0.0),
                        .slope = pair.variance_slope,
                        .distance = std::pow(pair.distance, 2)});
   }

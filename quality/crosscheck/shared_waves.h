@@ -1,13 +1,17 @@
-// What two pulses of one line share of the waves: the correlation of the sea's share in their heights.
+// What two pulses of one line share of the waves: the correlations of the sea's shares in their heights.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
 #include <vector>
 
+#include "quality/seas/sea_of_pulses.h"
+#include "quality/seas/sea_sharing.h"
 #include "quality/seas/seas_of_files.h"
 #include "sea/correlation/moving_waves.h"
 
@@ -39,34 +43,51 @@ struct PulseOnWater {
 // The height of a point errs in proportion to the slope of the water along its beam, of which u C(dx, dt) u' is the
 // covariance (sea/correlation), u and u' the directions of the two beams. At nadir, where the height errs by squares of
 // slopes alone, their correlation is the square of this one; in between, by the tangent of the incidence, it is that of
-// the sum of both. Distances are rounded to 5 cm, from 1 m on to 0.25 m, from 4 m on to 1 m and from 16 m on to 4 m,
-// directions to 5 degrees, times to 0.1 s, footprints to 10 %. Not for several threads at a time.
+// the sum of both. Where the waves under a pulse are unseen, it errs by their height as well, in proportion to it.
+// Distances are rounded to 5 cm, from 1 m on to 0.25 m, from 4 m on to 1 m, from 16 m on to 4 m and from 64 m on to
+// 8 m, directions to 5 degrees, times to 0.1 s, footprints to 10 %. Not for several threads at a time.
 class SharedWaves {
  public:
-  // Beyond these they are taken to share nothing.
-  static constexpr double kReach = 40, kPause = 1;  // m, s
+  // Beyond these they are taken to share nothing. Slopes have forgotten each other long before. The heights of a swell
+  // of 12 s, 225 m long (JONSWAP, spread by the squared cosine), correlate by at most 0.06 from 400 m on, those of one
+  // of 7 s by 0.02 from 200 m on. Nobody asks for longer pauses (kLook).
+  static constexpr double kReach = 400, kPause = 2;  // m, s
 
   std::uint16_t Add(const SeaOfSource& sea);
   std::size_t seas() const { return seas_.size(); }
 
-  double operator()(const PulseOnWater& a, const PulseOnWater& b) const;
+  // The correlations of what slopes do to the heights of two points, and of what heights of unseen waves do.
+  SeaParts operator()(const PulseOnWater& a, const PulseOnWater& b) const;
+
+  // The parts of the variance `stated` of the sea in the height of `point`, m^2. All is of slopes without a sea.
+  SeaParts PartsAt(const PointOfBeam& point, double stated, std::uint16_t sea) const;
 
  private:
-  // Of one footprint: the covariance of slopes, on the map, of one pulse and, by steps of time, distance and
-  // direction, of two.
+  static constexpr std::size_t kDirections = 72;  // in a turn
+  // By direction: the covariance of slopes on the map and that of heights, of two pulses at one distance and time.
+  struct Ring {
+    std::array<Eigen::Matrix2f, kDirections> slopes;
+    std::array<float, kDirections> heights;
+  };
+  // Of one footprint, the same of one pulse and, by steps of time and distance, of two.
   struct Footprint {
     FootprintWaves waves;
     Eigen::Matrix2d whole;
-    std::vector<Eigen::Matrix2f> known;  // NaN: not yet.
+    double height;
+    std::vector<std::unique_ptr<const Ring>> known;  // Null: not yet.
   };
   struct Sea {
     std::unique_ptr<const MovingWaves> waves;
     Eigen::Matrix2d to_map;
     double slope_variance;                           // Of one component, the mean of both.
     mutable std::map<int, Footprint> of_footprints;  // By steps of the logarithm.
+
+    Footprint& FootprintOf(double width) const;
+    const Ring& RingOf(Footprint& footprint, int distance, int time) const;
   };
 
   std::vector<Sea> seas_;
+  std::unique_ptr<SeaSharing> pulses_ = std::make_unique<SeaSharing>(0);  // Of single pulses, which need no cell.
 };
 
 }  // namespace albtpu::quality

@@ -54,16 +54,14 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   if (!(beam.sea > 0)) return sea;
   const SeaOfPulses waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint,
                                         PlacesOf(points, sources.metres_per_unit));
-  // Slopes of waves shift points with the depth. What the stated variance has beyond that is the height of unseen
-  // waves, of a surface that is not that of the pulse.
   const double of_slopes = beam.squared_depth * waves.pulse.errors(2, 2);
-  const double of_heights = waves.pulse.height > 0 ? std::max(beam.sea - of_slopes, 0.0) : 0;
-  const double scale = of_slopes > 0 ? (beam.sea - of_heights) / of_slopes * beam.squared_depth : 0;
+  const SeaParts parts = PartsOfSea(beam.sea, beam.squared_depth, waves.pulse);
+  const double scale = of_slopes > 0 ? parts.slopes / of_slopes * beam.squared_depth : 0;
   sea.whole = scale * waves.pulse.errors;
-  sea.whole(2, 2) += of_heights;
+  sea.whole(2, 2) += parts.heights;
   sea.of_point = g.dot(sea.whole * g);
   sea.of_pairs = scale * g.dot(waves.pairs.errors * g);
-  if (of_heights > 0) sea.of_pairs += of_heights * waves.pairs.height / waves.pulse.height;
+  if (parts.heights > 0) sea.of_pairs += parts.heights * waves.pairs.height / waves.pulse.height;
   return sea;
 }
 

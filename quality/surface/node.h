@@ -17,19 +17,10 @@
 #include <span>
 #include <vector>
 
+#include "quality/seas/sea_of_pulses.h"
 #include "quality/surface/surface_point.h"
 
 namespace albtpu::quality {
-
-// What the sea does to the pulses of one pass: to one of them, and the sum of the covariances of ordered pairs. On the
-// axes east, north, up.
-struct SeaOfPulses {
-  struct Variances {
-    Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();  // Per depth^2.
-    double height = 0;                                 // Of the water, m^2.
-  };
-  Variances pulse, pairs;
-};
 
 // Of the horizontal variance of points without the sea's share: the fractions of the groups, which add up to 1.
 struct HorizontalGroups {

@@ -13,7 +13,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "quality/annotated/annotated_points.h"
-#include "quality/surface/sea_sharing.h"
+#include "quality/seas/sea_sharing.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -194,17 +195,47 @@ TEST(SharedWaves, AreThoseOfCorrelatedPulses) {
     const CorrelatedPulses slow(sea, {.incidence = 20 * std::numbers::pi / 180,
                                       .azimuth = std::numbers::pi / 2 - azimuth * std::numbers::pi / 180,
                                       .footprint = 0.5});
-    for (const auto& [x, y, later] : {std::tuple{0.0, 0.0, 0.0}, {0.5, 0.25, 0.0}, {2.0, 3.0, 0.1}, {8.0, 0.0, 0.4}}) {
+    for (const auto& [x, y, later] :
+         {std::tuple{0.0, 0.0, 0.0}, {0.5, 0.25, 0.0}, {2.0, 3.0, 0.1}, {8.0, 0.0, 0.4}, {20.0, 0.0, 1.7}}) {
       const PointOfBeam at{.depth = 5, .incidence = 20, .azimuth = azimuth, .footprint = 0.5};
       PointOfBeam other = at;
       other.x = x, other.y = y;
-      const double shared = waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(other, 100 + later, 0));
-      EXPECT_NEAR(shared, slow.Between(x, y, later).vertical, 0.03) << azimuth << " " << x << " " << later;
+      const SeaParts shared = waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(other, 100 + later, 0));
+      const PulseCorrelation twin = slow.Between(x, y, later);
+      EXPECT_NEAR(shared.slopes, twin.vertical, 0.03) << azimuth << " " << x << " " << later;
+      EXPECT_NEAR(shared.heights, twin.height, 0.02) << azimuth << " " << x << " " << later;
     }
   }
   const PointOfBeam at{.incidence = 20, .footprint = 0.5};
-  EXPECT_EQ(waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(at, 100, 1)), 0);
-  EXPECT_EQ(waves(PulseOnWater::Of(at, 100, 0), PulseOnWater::Of(at, 130, 0)), 0);
+  for (const PulseOnWater& other : {PulseOnWater::Of(at, 100, 1), PulseOnWater::Of(at, 130, 0)}) {
+    const SeaParts shared = waves(PulseOnWater::Of(at, 100, 0), other);
+    EXPECT_EQ(std::max(std::abs(shared.slopes), std::abs(shared.heights)), 0);
+  }
+}
+
+// Near the shore most of the sea's share is the height of waves that nobody saw. It is shared by points that share
+// nothing of slopes.
+TEST(SharedWaves, HaveTheHeightsOfUnseenWaves) {
+  const WindSea wind{.wind_speed_10m = 8, .model = &kElfouhailyModel};
+  const HarmonicSpectrum sea = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics);
+  SharedWaves waves;
+  waves.Add({.spectrum = sea, .x_azimuth = std::numbers::pi / 2, .water_index = 1.34});
+  const PointOfBeam at{.depth = 0.01, .incidence = 20, .footprint = 0.5};
+  PointOfBeam far = at;
+  far.x = 5;
+  const SeaParts shallow = waves.PartsAt(at, 0.01, 0), unknown = waves.PartsAt(at, 0.01, PulseOnWater::kNoSea);
+  EXPECT_NEAR(shallow.heights, 0.01, 1e-6);
+  EXPECT_EQ(unknown.heights, 0);
+  EXPECT_EQ(unknown.slopes, 0.01);
+  PairedPoint a{.pulse = PulseOnWater::Of(at, 100, 0), .variance_sea = 0.01F, .variance_heights = 0.01F};
+  PairedPoint b = a;
+  b.pulse = PulseOnWater::Of(far, 100, 0);
+  const CorrelatedPulses slow(sea, {.incidence = 20 * std::numbers::pi / 180, .footprint = 0.5});
+  const double height = slow.Between(5, 0, 0).height;
+  EXPECT_GT(height, 0.5);
+  EXPECT_NEAR(CovarianceOfSea(a, b, waves), 0.01 * height, 1e-4);
+  a.variance_heights = b.variance_heights = 0;
+  EXPECT_LT(CovarianceOfSea(a, b, waves), 0.002);
 }
 
 Patch TwoPlanes(double slope_x, double slope_y, double step) {
@@ -223,7 +254,7 @@ Patch TwoPlanes(double slope_x, double slope_y, double step) {
 TEST(CrossPairs, AreFreeOfTheSlope) {
   Patch patch = TwoPlanes(0.3, -0.2, 0.07);
   PatchPairs of_patch;
-  AppendPairs(patch, of_patch);
+  AppendPairs(patch, SharedWaves(), of_patch);
   const std::vector<CrossPair>& pairs = of_patch.across;
   ASSERT_EQ(pairs.size(), 1U);
   ASSERT_EQ(of_patch.within.size(), 2U);
@@ -242,14 +273,14 @@ TEST(CrossPairs, HaveTheVarianceAboveTheSlope) {
     point.sea_in_horizontal = 0.25F;
   }
   PatchPairs of_patch;
-  AppendPairs(patch, of_patch);
+  AppendPairs(patch, SharedWaves(), of_patch);
   const std::vector<CrossPair>& pairs = of_patch.across;
   ASSERT_EQ(pairs.size(), 1U);
   EXPECT_NEAR(pairs[0].variance_air(), 2 * (0.01 + 0.75 * 0.0026), 1e-6);
   EXPECT_NEAR(pairs[0].variance_sea(), 2 * 0.25 * 0.0026, 1e-6);
   for (PatchPoint& point : patch.points) point.xz = 0.02F;  // Down the slope is too low: less than on a level bottom.
   of_patch = {};
-  AppendPairs(patch, of_patch);
+  AppendPairs(patch, SharedWaves(), of_patch);
   EXPECT_NEAR(pairs[0].variance(), 2 * (0.0126 - 2 * 0.3 * 0.016), 1e-6);
   EXPECT_EQ(pairs[0].variance_sea(), 0);
 }
@@ -258,10 +289,10 @@ TEST(CrossPairs, NeedTwoLinesAndASlope) {
   PatchPairs pairs;
   Patch one = TwoPlanes(0, 0, 0);
   for (PatchPoint& point : one.points) point.line = 1;
-  AppendPairs(one, pairs);
+  AppendPairs(one, SharedWaves(), pairs);
   Patch row = TwoPlanes(0, 0, 0);
   for (PatchPoint& point : row.points) point.y = point.x;  // All in one straight line.
-  AppendPairs(row, pairs);
+  AppendPairs(row, SharedWaves(), pairs);
   EXPECT_TRUE(pairs.across.empty());
 }
 

@@ -47,9 +47,15 @@ Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double
   return depth / tilted.z() * (level - tilted);
 }
 
-// The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
-// its own. `slopes`: the covariance of those along and across an axis. The beam is turned from it to the left by
-// `azimuth`, rad.
+// What the water does where it lies a metre above where it is taken to be: the true path in air ends 1 / cos(incidence)
+// earlier, and of what is left of the light's time an nth is laid along the beam in the water. Reported less true.
+Eigen::Vector3d ErrorOfHeight(const Eigen::Vector3d& beam) {
+  return (beam - Refract(beam, {0, 0, -1}) / kIndexOfWater) / beam.z();
+}
+
+// The standard deviations of what slopes do along the beam, across it and down, in m for a depth of 1 m, by a
+// simulation of its own. `slopes`: the covariance of those along and across an axis. The beam is turned from it to
+// the left by `azimuth`, rad.
 Eigen::Vector3d SigmasOfSlopes(const Eigen::Matrix2d& slopes, double azimuth) {
   RandomNumbers random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));
@@ -152,18 +158,20 @@ class Line {
                                std::cos(kIncidence * kDegree));
     const double gps_time = start_ + time;
     Eigen::Vector2d slope;  // North, east.
+    double height = 0;      // Of the water above where it is taken to be.
     if (sea_ == nullptr) {
       slope.x() = options_.wave_slope * random_.Normal();
       slope.y() = options_.wave_slope * random_.Normal();
     } else {
       const double back = depth * std::tan(std::asin(std::sin(kIncidence * kDegree) / kIndexOfWater));
-      const Eigen::Vector2d of_sea =
-          sea_->SlopeAt(x - back * std::sin(azimuth * kDegree), y - back * std::cos(azimuth * kDegree), gps_time);
-      slope = {of_sea.y(), of_sea.x()};
+      const TravellingSea::Water water =
+          sea_->At(x - back * std::sin(azimuth * kDegree), y - back * std::cos(azimuth * kDegree), gps_time);
+      slope = {water.slope.y(), water.slope.x()};
+      if (options_.unseen_heights) height = water.height;
     }
     // Still water would refract the pulse to (x, y), where it is reported but for errors of the air side; waves refract
     // it to another place. What is reported therefore lies where the pulse met the water, whatever the waves do.
-    const Eigen::Vector3d of_waves = ErrorOfSlope(beam, slope.x(), slope.y(), depth);
+    const Eigen::Vector3d of_waves = ErrorOfSlope(beam, slope.x(), slope.y(), depth) + height * ErrorOfHeight(beam);
     const double east = x - of_waves.y(), north = y - of_waves.x();
     const Eigen::Vector3d error =
         ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none);
@@ -208,9 +216,12 @@ class Line {
 
 // What the budget predicts. The axis of the sea is taken as that of each beam, because its
 // errors are known along and across it.
-void Predict(const AirErrors& errors, const SeaSigmas& sigmas, const std::vector<double>& headings,
+void Predict(const AirErrors& errors, const SimulatedLines& options, const std::vector<double>& headings,
              std::vector<quality::AnnotatedPoint>& points) {
+  const SeaSigmas& sigmas = SigmasOf(options);
   TotalInputs inputs;
+  if (options.unseen_heights)
+    inputs[BudgetInput::kWaveHeight] = {static_cast<float>(SigmaOfHeights(options.wind_speed))};
   inputs[BudgetInput::kIncidence] = {kIncidence};
   inputs[BudgetInput::kAltitude] = {kAltitude};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -289,7 +300,7 @@ std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options) {
   for (double& each : declared.attitude) each *= options.declared;
   for (double* const each : {&declared.scan, &declared.bottom_range, &declared.surface_range})
     *each *= options.declared;
-  Predict(declared, SigmasOf(options), headings, points);
+  Predict(declared, options, headings, points);
   return points;
 }
 

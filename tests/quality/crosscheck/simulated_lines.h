@@ -22,11 +22,13 @@ struct SimulatedLines {
   double square = 10, period = 30;  // m
   double wave_slope = 0.05;         // One sigma of each component of the slope of the surface, where there is no wind:
   double wind_speed = 0;            // m/s. Then waves travel (TravellingSea), and pulses share them.
-  double declared_wind = 0;         // m/s, where it is another one.
-  double bottom_slope = 0;          // Root mean square in the direction of x, of ridges, beside gentle slopes.
-  double bottom_waves = 0;          // m, one sigma of a rough bottom whose waves are some metres long.
-  double roll_of_scanner = 0;       // degree: a boresight that nobody knows of.
-  double declared = 1;              // What is declared of the air side, by what it is.
+  bool unseen_heights =
+      false;                   // Each pulse takes the surface where it is on average; otherwise its own return is seen.
+  double declared_wind = 0;    // m/s, where it is another one.
+  double bottom_slope = 0;     // Root mean square in the direction of x, of ridges, beside gentle slopes.
+  double bottom_waves = 0;     // m, one sigma of a rough bottom whose waves are some metres long.
+  double roll_of_scanner = 0;  // degree: a boresight that nobody knows of.
+  double declared = 1;         // What is declared of the air side, by what it is.
   double scan = 1, trajectory = 1;  // What the errors of the scanner and of the trajectory are, by what is declared.
   bool lasting = false;             // The errors of the trajectory last for whole lines, otherwise for tens of seconds.
 };

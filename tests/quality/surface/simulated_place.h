@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "quality/seas/sea_sharing.h"
 #include "quality/surface/node.h"
-#include "quality/surface/sea_sharing.h"
 #include "sea/spectra/harmonic_spectrum.h"
 #include "tests/quality/surface/waves_of_two_passes.h"
 

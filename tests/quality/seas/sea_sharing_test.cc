@@ -1,4 +1,4 @@
-#include "quality/surface/sea_sharing.h"
+#include "quality/seas/sea_sharing.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace albtpu::quality {
 namespace {
 
-constexpr double kIndex = 1.34, kSide = 1;
+constexpr double kIndex = 1.34, kSideOfCell = 1;
 
 // Steps of the logarithm of the footprint are 0.04 wide; this one is a step. The cubic leaves out what grows with the
 // fourth power of the incidence, at 2.5 degrees 9/4 (5 degrees)^2 = 1.7 % of what grows with its square. What a pair
@@ -22,7 +22,7 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
   const WindSea wind{.wind_speed_10m = 6, .fetch = 20'000, .model = &kElfouhailyModel};
   const HarmonicSpectrum sea = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics);
   const WaveCorrelation waves(sea);
-  SeaSharing sharing(kSide);
+  SeaSharing sharing(kSideOfCell);
   sharing.Add({.spectrum = sea, .x_azimuth = std::numbers::pi / 2, .water_index = kIndex});
   for (const double incidence : {0.0, 0.43, 1.0, 2.5, 4.0, 8.5, 14.0, 20.0, 27.5, 29.0}) {
     for (const double azimuth : {0.0, 11.25, 77.0, 190.0}) {
@@ -33,7 +33,7 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
           waves,
           {.incidence = RadiansOfDegrees(incidence), .azimuth = RadiansOfDegrees(90 - azimuth), .footprint = footprint},
           kIndex);
-      const SharedWaves pulse = beam.pulse(), pair = beam.Between(places[1], 0);
+      const albtpu::SharedWaves pulse = beam.pulse(), pair = beam.Between(places[1], 0);
       const Eigen::Matrix3d errors = pulse.errors(), of_pair = pair.errors();
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {

@@ -1,6 +1,7 @@
 // The seas over which the points of a survey were measured, and what pulses in one cell share of each.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
+#include "quality/seas/sea_of_pulses.h"
 #include "quality/seas/seas_of_files.h"
-#include "quality/surface/node.h"
 #include "sea/correlation/pulse_correlation.h"
 #include "sea/correlation/pulse_pairs.h"
 

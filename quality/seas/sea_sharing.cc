@@ -1,4 +1,4 @@
-#include "quality/surface/sea_sharing.h"
+#include "quality/seas/sea_sharing.h"
 
 #include <algorithm>
 #include <cmath>
