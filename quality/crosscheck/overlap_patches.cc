@@ -169,20 +169,23 @@ PairedPoint AboveSlope(const PointOfBeam& beam, const PatchPoint& point, const S
                        2 * (slope.x * point.xz + slope.y * point.yz);
   const double air = point.variance_air, sea = point.variance_sea, line = point.variance_line;
   PairedPoint above{.pulse = PulseOnWater::Of(beam, point.time, point.sea)};
-  const double heights = waves.PartsAt(beam, sea, point.sea).heights;
+  const SeaOfPulses of_sea = waves.At(beam, point.sea);
+  const double on_slope = HeightsOnSlope({-slope.x, -slope.y, 1}, of_sea);
+  const double heights = on_slope * on_slope * PartsOfSea(sea, beam.depth * beam.depth, of_sea).heights;
+  const auto heights_in = [heights](double variance) { return static_cast<float>(std::min(heights, variance)); };
   if (added < 0) {
     const double level = air + sea + line, left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
     above.variance_air = static_cast<float>(left * air);
     above.variance_sea = static_cast<float>(left * sea);
     above.variance_line = static_cast<float>(left * line);
-    above.variance_heights = static_cast<float>(left * heights);
+    above.variance_heights = heights_in(left * sea);
     return above;
   }
   const double rest = (1 - point.sea_in_horizontal) * added, to_line = air + line > 0 ? line / (air + line) : 0;
   above.variance_air = static_cast<float>(air + (1 - to_line) * rest);
   above.variance_sea = static_cast<float>(sea + point.sea_in_horizontal * added);
   above.variance_line = static_cast<float>(line + to_line * rest);
-  above.variance_heights = static_cast<float>(heights);
+  above.variance_heights = heights_in(above.variance_sea);
   return above;
 }
 

@@ -123,10 +123,9 @@ SeaParts SharedWaves::operator()(const PulseOnWater& a, const PulseOnWater& b) c
           .heights = ring.heights[direction] / footprint.height};
 }
 
-SeaParts SharedWaves::PartsAt(const PointOfBeam& point, double stated, std::uint16_t sea) const {
-  if (sea == PulseOnWater::kNoSea) return {.slopes = stated};
-  const SeaOfPulses of = (*pulses_)(sea, point.incidence, point.azimuth, point.footprint, {});
-  return PartsOfSea(stated, point.depth * point.depth, of.pulse);
+SeaOfPulses SharedWaves::At(const PointOfBeam& point, std::uint16_t sea) const {
+  if (sea == PulseOnWater::kNoSea) return {};
+  return (*pulses_)(sea, point.incidence, point.azimuth, point.footprint, {});
 }
 
 }  // namespace albtpu::quality

@@ -59,8 +59,8 @@ class SharedWaves {
   // The correlations of what slopes do to the heights of two points, and of what heights of unseen waves do.
   SeaParts operator()(const PulseOnWater& a, const PulseOnWater& b) const;
 
-  // The parts of the variance `stated` of the sea in the height of `point`, m^2. All is of slopes without a sea.
-  SeaParts PartsAt(const PointOfBeam& point, double stated, std::uint16_t sea) const;
+  // What `sea` does to the pulse of `point`: nothing without a sea.
+  SeaOfPulses At(const PointOfBeam& point, std::uint16_t sea) const;
 
  private:
   static constexpr std::size_t kDirections = 72;  // in a turn

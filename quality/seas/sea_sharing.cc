@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "budget/air/air_sources.h"
 #include "sea/angle.h"
 #include "sea/catmull_rom.h"
 
@@ -64,8 +65,14 @@ SeaOfPulses SeaSharing::operator()(std::uint16_t source, double incidence, doubl
       pulse += weight * each.row(0).transpose().cast<double>();
       if (places.size() > 1) pairs += weight * (each.transpose() * weights).cast<double>();
     }
-  const double x_azimuth = seas_[source]->x_azimuth;
-  return {.pulse = OnMap(pulse, x_azimuth), .pairs = OnMap(pairs, x_azimuth)};
+  const Sea& sea = *seas_[source];
+  const Eigen::Vector3d raised = ErrorOfSurfaceHeight({.incidence = incidence,
+                                                       .beam_azimuth = azimuth,
+                                                       .altitude = 1,
+                                                       .index = sea.water_index});  // North, east, down.
+  return {.pulse = OnMap(pulse, sea.x_azimuth),
+          .pairs = OnMap(pairs, sea.x_azimuth),
+          .by_height = {raised.y(), raised.x(), -raised.z()}};
 }
 
 SeaSharing::Beams& SeaSharing::BeamsOf(const Key& key) const {

@@ -55,13 +55,17 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   const SeaOfPulses waves = sources.sea(points.front().source, beam.incidence, beam.azimuth, beam.footprint,
                                         PlacesOf(points, sources.metres_per_unit));
   const double of_slopes = beam.squared_depth * waves.pulse.errors(2, 2);
-  const SeaParts parts = PartsOfSea(beam.sea, beam.squared_depth, waves.pulse);
+  const SeaParts parts = PartsOfSea(beam.sea, beam.squared_depth, waves);
   const double scale = of_slopes > 0 ? parts.slopes / of_slopes * beam.squared_depth : 0;
   sea.whole = scale * waves.pulse.errors;
-  sea.whole(2, 2) += parts.heights;
+  const Eigen::Vector3d by_height = waves.by_height / waves.by_height.z();
+  sea.whole += parts.heights * by_height * by_height.transpose();
   sea.of_point = g.dot(sea.whole * g);
   sea.of_pairs = scale * g.dot(waves.pairs.errors * g);
-  if (parts.heights > 0) sea.of_pairs += parts.heights * waves.pairs.height / waves.pulse.height;
+  if (parts.heights > 0) {
+    const double here = parts.heights * std::pow(HeightsOnSlope(g, waves), 2);
+    sea.of_pairs += here * waves.pairs.height / waves.pulse.height;
+  }
   return sea;
 }
 

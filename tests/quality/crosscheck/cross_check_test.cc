@@ -223,7 +223,9 @@ TEST(SharedWaves, HaveTheHeightsOfUnseenWaves) {
   const PointOfBeam at{.depth = 0.01, .incidence = 20, .footprint = 0.5};
   PointOfBeam far = at;
   far.x = 5;
-  const SeaParts shallow = waves.PartsAt(at, 0.01, 0), unknown = waves.PartsAt(at, 0.01, PulseOnWater::kNoSea);
+  const double squared_depth = at.depth * at.depth;
+  const SeaParts shallow = PartsOfSea(0.01, squared_depth, waves.At(at, 0)),
+                 unknown = PartsOfSea(0.01, squared_depth, waves.At(at, PulseOnWater::kNoSea));
   EXPECT_NEAR(shallow.heights, 0.01, 1e-6);
   EXPECT_EQ(unknown.heights, 0);
   EXPECT_EQ(unknown.slopes, 0.01);
@@ -283,6 +285,29 @@ TEST(CrossPairs, HaveTheVarianceAboveTheSlope) {
   AppendPairs(patch, SharedWaves(), of_patch);
   EXPECT_NEAR(pairs[0].variance(), 2 * (0.0126 - 2 * 0.3 * 0.016), 1e-6);
   EXPECT_EQ(pairs[0].variance_sea(), 0);
+}
+
+// Beams from the west over a bottom that rises by 0.3 to the east, at 20 degrees: with b = 0.232 and a = 0.161,
+// heights err by (b + 0.3 a) / b = 1.208 times as much as on a level bottom.
+TEST(CrossPairs, HaveMoreOfTheHeightsOfWavesWhereBeamsGoUpTheSlope) {
+  const WindSea wind{.wind_speed_10m = 8, .model = &kElfouhailyModel};
+  SharedWaves waves;
+  waves.Add({.spectrum = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics), .water_index = 1.34});
+  const auto heights = [&](double slope) {
+    Patch patch = TwoPlanes(slope, 0, 0);
+    for (PatchPoint& point : patch.points) {
+      point.variance_sea = 0.01F, point.sea_in_horizontal = 1;
+      const double by_height = -0.161 / 0.232 * 0.01;
+      point.xz = static_cast<float>(by_height), point.xx = static_cast<float>(by_height * by_height / 0.01);
+      point.incidence = 20, point.azimuth = 90, point.footprint = 0.5, point.depth = 0.01F, point.sea = 0;
+    }
+    PatchPairs pairs;
+    AppendPairs(patch, waves, pairs);
+    return pairs.across.at(0).a.variance_heights;
+  };
+  EXPECT_NEAR(heights(0), 0.01, 1e-5);
+  EXPECT_NEAR(heights(0.3), 0.01 * 1.208 * 1.208, 1e-4);
+  EXPECT_NEAR(heights(-0.3), 0.01 * 0.792 * 0.792, 1e-4);
 }
 
 TEST(CrossPairs, NeedTwoLinesAndASlope) {

@@ -49,5 +49,26 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
   }
 }
 
+// By paths: the light meets water that lies h too high 1 / cos(incidence) h earlier. Of the optical path that is left,
+// processing lays an nth along the ray of still water from where it takes the water to be.
+TEST(SeaSharing, HasWhatHeightsDoByPathsOfLight) {
+  const WindSea wind{.wind_speed_10m = 6, .model = &kElfouhailyModel};
+  SeaSharing sharing(kSideOfCell);
+  sharing.Add({.spectrum = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics), .water_index = kIndex});
+  for (const double incidence : {0.0, 20.0}) {
+    const double theta = RadiansOfDegrees(incidence), azimuth = RadiansOfDegrees(50), h = 0.3;
+    const double refracted = std::asin(std::sin(theta) / kIndex);
+    const Eigen::Vector3d air(std::sin(theta) * std::sin(azimuth), std::sin(theta) * std::cos(azimuth),
+                              -std::cos(theta));
+    const Eigen::Vector3d water(std::sin(refracted) * std::sin(azimuth), std::sin(refracted) * std::cos(azimuth),
+                                -std::cos(refracted));
+    const double to_level = 400 / std::cos(theta), to_water = (400 - h) / std::cos(theta), in_water = 7;
+    const double left = to_water + kIndex * in_water - to_level;
+    const Eigen::Vector3d truth = to_water * air + in_water * water, reported = to_level * air + left / kIndex * water;
+    const Eigen::Vector3d by_height = sharing(0, incidence, 50, 0.6, {}).by_height;
+    EXPECT_LT((by_height + (reported - truth) / h).norm(), 1e-9) << incidence;
+  }
+}
+
 }  // namespace
 }  // namespace albtpu::quality

@@ -109,6 +109,28 @@ TEST(Node, TakesTheHeightOfUnseenWavesForWhatTheSlopesDoNotExplain) {
   EXPECT_NEAR(VarianceOf(points, Eigen::Vector2d::Zero(), sources).sea, 0.2 * (kSea - 0.001) + 0.9 * 0.001, 2e-6);
 }
 
+// Water that lies h too high makes a point too deep by b h, and too far along the beam by a h: at 20 degrees b = 0.232
+// and a = 0.161. Up a slope of 0.3 the height at a fixed place errs by (b + 0.3 a) h, down it by (b - 0.3 a) h.
+TEST(Node, OnASlopeHasWhatHeightsDoAlongTheBeam) {
+  NodeSources sources = Sharing(0, Eigen::Matrix3d::Zero());
+  sources.sea = [](auto, auto, auto, auto, std::span<const Eigen::Vector2d> places) {
+    const auto n = static_cast<double>(places.size());
+    return SeaOfPulses{
+        .pulse = {.height = 0.01}, .pairs = {.height = n * (n - 1) * 0.009}, .by_height = {-0.161, 0, 0.232}};
+  };
+  SurfacePoint point = PointAt(0);
+  point.xz = static_cast<float>(-0.161 / 0.232 * kSea), point.xx = point.xz * point.xz / static_cast<float>(kSea);
+  for (const double slope : {0.3, -0.3}) {
+    const double at_place = kSea * std::pow((0.232 + slope * 0.161) / 0.232, 2);
+    const std::vector<SurfacePoint> points(1000, point);
+    const NodeVariance node = VarianceOf(points, Eigen::Vector2d(slope, 0), sources);
+    EXPECT_NEAR(node.sea, (0.9 + 0.1 / 1000) * at_place, 1e-7);
+    EXPECT_NEAR(node.of_point, at_place + kPulse + kLine, 1e-7);
+    // All of the horizontal error is the sea's.
+    EXPECT_NEAR(node.line, kLine, 1e-7);
+  }
+}
+
 // Six points under water and four beside it, of one pass.
 TEST(Node, OfLandAndWaterHasTheWavesOfThePointsUnderWater) {
   std::vector<SurfacePoint> points;
