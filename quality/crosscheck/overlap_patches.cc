@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "sea/angle.h"
 #include "sea/samples.h"
 
 namespace albtpu::quality {
@@ -93,9 +94,10 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points, std::uint16_t 
     const float of_height =
         point.variance_z > 0 ? static_cast<float>(std::sqrt(std::min(own / point.variance_z, 1.0))) : 0;
     const double sea_in_horizontal = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;
-    patch.points.push_back({.x = static_cast<float>(x - patch.x),
-                            .y = static_cast<float>(y - patch.y),
-                            .z = static_cast<float>(point.z),
+    const double azimuth = RadiansOfDegrees(point.beam_azimuth), outwards = point.bias_along_beam;
+    patch.points.push_back({.x = static_cast<float>(x - outwards * std::sin(azimuth) - patch.x),
+                            .y = static_cast<float>(y - outwards * std::cos(azimuth) - patch.y),
+                            .z = static_cast<float>(point.z - point.bias_vertical),
                             .variance_air = static_cast<float>(air),
                             .variance_sea = static_cast<float>(sea),
                             .variance_line = static_cast<float>(of_line),

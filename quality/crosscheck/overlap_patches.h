@@ -15,7 +15,8 @@
 
 namespace albtpu::quality {
 
-// A point of a line in a patch. Lengths in m, variances in m^2 at 1 sigma.
+// A point of a line in a patch. Lengths in m, variances in m^2 at 1 sigma. Its predicted bias is taken away: beams of
+// other incidences have other ones.
 struct PatchPoint {
   float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
   // Of the height: what is drawn anew for each pulse (air side and sea), and what its line shares.
