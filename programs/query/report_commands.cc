@@ -48,7 +48,8 @@ absl::Status RunCrossCheck(const CrossCheckOptions& options) {
 }
 
 struct ReportCommandOptions {
-  std::string annotated, output, s44_order, specification, wanted_class, survey, surface;
+  SurveyFlags flags;
+  std::string annotated, output, s44_order, specification, wanted_class, surface;
   double cell = 1, patch = quality::kDefaultPatch, pass_share = quality::kDefaultPassShare;
   quality::CheckPointErrors check_points;
   bool no_page = false, resume = false, json = false;
@@ -90,7 +91,8 @@ void NoteLand(const quality::Specification& of_land, const std::string& order) {
 }
 
 // All installed specifications, a specification from a file of the user, and the required class.
-absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags) {
+absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags,
+                                               const config::SurveySettings& survey) {
   quality::ReportOptions options{.cell = flags.cell,
                                  .specifications = {},
                                  .specification = "s44",
@@ -99,12 +101,9 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
                                  .patch = flags.patch,
                                  .check_points = flags.check_points};
   if (!flags.s44_order.empty() && !flags.wanted_class.empty()) return TwoClasses();
-  if (!flags.survey.empty()) {
-    ASSIGN_OR_RETURN(const config::SurveySettings survey, config::ReadSurvey(flags.survey));
-    const nlohmann::ordered_json project = ProjectJson(survey.project);
-    for (const auto& [key, text] : project.items()) options.project.emplace_back(key, text.get<std::string>());
-    options.vertical_datum = survey.datum.name.value_or("");
-  }
+  const nlohmann::ordered_json project = ProjectJson(survey.project);
+  for (const auto& [key, text] : project.items()) options.project.emplace_back(key, text.get<std::string>());
+  options.vertical_datum = survey.datum.name.value_or("");
   if (!flags.surface.empty()) {
     ASSIGN_OR_RETURN(options.surface, SurfaceOf(flags.surface));
   }
@@ -138,17 +137,21 @@ absl::StatusOr<quality::ReportOptions> Options(const ReportCommandOptions& flags
 }
 
 // Where a file of the report would replace one that is read for it.
-absl::Status CheckReplacesNone(const ReportCommandOptions& flags) {
+absl::Status CheckReplacesNone(const ReportCommandOptions& flags, const config::SurveySettings& survey) {
   ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> annotated, quality::FilesOfAnnotated({flags.annotated}));
   formats::FilesRead read;
   read.Add(annotated);
-  for (const std::string& file : {flags.survey, flags.specification}) read.Add(file);
+  read.Add(FilesOf(flags.flags, survey));
+  read.Add(flags.specification);
   return read.CheckNotReplacedIn(flags.output, quality::kReportFiles);
 }
 
 absl::Status RunReport(const ReportCommandOptions& flags) {
-  RETURN_IF_ERROR(CheckReplacesNone(flags));
-  ASSIGN_OR_RETURN(const quality::ReportOptions options, Options(flags));
+  ASSIGN_OR_RETURN(const config::SurveySettings survey, SettingsOf(flags.flags));
+  RETURN_IF_ERROR(CheckReplacesNone(flags, survey));
+  ASSIGN_OR_RETURN(quality::ReportOptions options, Options(flags, survey));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(survey));
+  options.seas = seas.has_value() ? &*seas : nullptr;
   if (!flags.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(flags.annotated));
   if (flags.resume && quality::HasReport(flags.output, files, options, !flags.no_page)) {
@@ -227,11 +230,6 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
       ->check(NumberIn(0.5, 100, "m"))
       ->capture_default_str();
   command
-      ->add_option("--survey", options->survey,
-                   "Survey file whose [project] and [datum] name stand in place of those of the annotation")
-      ->type_name("FILE.toml")
-      ->check(NotEmpty("file"));
-  command
       ->add_option("--surface", options->surface,
                    "Folder that albtpu-query surface wrote of the same files: the verdict of its nodes, too")
       ->check(NotEmpty("folder"));
@@ -243,10 +241,13 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   Group(*command, "What was asked for",
         {"--s44-order", "--spec", "--class", "--pass", "--check-points-horizontal", "--check-points-vertical"});
   Group(*command, "How points are gathered", {"--cell", "--patch"});
-  Group(*command, "What is reported beside", {"--survey", "--surface"});
+  Group(*command, "What is reported beside", {"--surface"});
   Group(*command, "Output", {"--output", "--no-page", "--json", "--resume", "--overwrite"});
+  AddSeaFlags(*command, options->flags, kStatedOfWinds);
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"
+          "[project] and [datum] name of --survey stand in place of those of the annotation. Where the files were\n"
+          "annotated with waves, not with a wind, overlapping lines need these again.\n"
           "Exit code: 0 if the report was made, whatever it says.",
           "annotated --output report --s44-order 1b", "annotated --output report --spec usgs --class QL2B --cell 2");
   command->callback([options, &run] { run = [options] { return RunReport(*options); }; });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "annotate/answers/batch.h"
+#include "config/sea_settings.h"
 #include "formats/clocks/trajectory_time.h"
 #include "quality/report/bottom_coverage.h"
 #include "quality/report/length_histogram.h"
@@ -85,6 +86,7 @@ class Reporter {
         patches_(options.patch, first_.metres_per_unit(), first_.coverage()) {}
 
   absl::StatusOr<SurveyReport> Make() {
+    ASSIGN_OR_RETURN(const FileSeas seas, SeasOf(files_, options_.seas));
     annotate::FileProgress progress = ProgressOver(files_);
     for (const AnnotatedLasFile& file : files_) {
       progress.NextFile();
@@ -101,7 +103,6 @@ class Reporter {
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
     const BottomCoverage coverage = BottomCoverage::Of(grid_, land_cells_, first_.metres_per_unit());
-    ASSIGN_OR_RETURN(const FileSeas seas, SeasOf(files_, nullptr));
     RETURN_IF_ERROR(FillPatches(files_, seas, patches_));
     const std::optional<CrossCheck> check = CheckPatches(patches_, seas.waves);
     return SurveyReport{.json = annotate::JsonBox(ToJson(check, coverage)),
@@ -329,6 +330,7 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
   if (!options.project.empty()) json["project"] = options.project;
   if (!options.vertical_datum.empty()) json["vertical_datum"] = options.vertical_datum;
   if (!options.surface->is_null()) json["surface"] = *options.surface;
+  if (options.seas != nullptr) json["sea"] = config::Parameters(options.seas->settings());
   json["check_points"] = Json::array({options.check_points.horizontal, options.check_points.vertical});
   for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
   for (const AnnotatedLasFile& file : files)

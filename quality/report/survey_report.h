@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/json_box.h"
+#include "annotate/seas/sea_timeline.h"
 #include "quality/annotated/annotated_points.h"
 #include "quality/crosscheck/cross_check.h"
 #include "quality/report/grid_file.h"
@@ -31,6 +32,8 @@ struct ReportOptions {
   std::vector<std::pair<std::string, std::string>> project = {};
   std::string vertical_datum = {};
   annotate::JsonBox surface = {};  // surface.json of the same files; null: not given.
+  // The waves that the files were annotated with; null: those of the winds that they state.
+  const annotate::SeaTimeline* seas = nullptr;
 };
 
 // Everything that determines the report: the files by name and size, and the options. It is `made_from` in the JSON.

@@ -61,12 +61,15 @@ MORE = (
     ("strict.json", "report", "annotated", "--output", "strict", "--no-page", "--s44-order", "exclusive", "--json"),
     ("noisy.json", "report", "sloped", "--output", "of_noisy", "--no-page", "--survey", "sloped.toml", "--json"),
     ("alone.json", "report", "annotated/flight_1.las", "--output", "alone", "--no-page", "--json"),
+    ("", "las", "lines/flight_1.las", "swell.las", "--survey", "sloped.toml", *WAVES),
+    ("swell.json", "report", "swell.las", "--output", "of_swell", "--no-page", "--survey", "sloped.toml", *WAVES[:-2],
+     "--json"),
     ("checkpoints.json", "checkpoints", "annotated", "points.csv", "--radius", "20", "--json"))
 WRITTEN = {
     "summary": ("annotated/flight_1.las.json", "sea.laz.json", "answers.csv.json", "total_answers.csv.json",
                 "wet.csv.json", "sloped/flight_1.las.json", "channel.las.json", "returns.las.json",
                 "constant.las.json", "swung.las.json", "track.las.json", "scanner.las.json", "green.csv.json"),
-    "report": ("report/report.json", "report.json", "strict.json", "noisy.json", "alone.json"),
+    "report": ("report/report.json", "report.json", "strict.json", "noisy.json", "alone.json", "swell.json"),
     "surface": ("surface/surface.json", "surface.json"), "plan": ("plan.json", "hours.json"),
     "crosscheck": ("crosscheck.json",), "checkpoints": ("checkpoints.json",), "pulse": ("pulse.json", "waves.json"),
     "total": ("total.json", "wet.json", "deep.json"), "seas": ("sea.json", "series.json"),

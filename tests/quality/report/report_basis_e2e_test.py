@@ -177,5 +177,30 @@ class Annotation(Basis):
         self.assert_fails(result, 1, "surface.json is none of albtpu-query surface", "make it again")
 
 
+class Sea(Basis):
+    WAVES = "[[sea.waves]]\nhs = 0.4\ntp = 3\nwaves_from = 250\n"
+
+    def test_is_given_again_where_files_were_annotated_with_waves(self):
+        survey = self.folder / "waves.toml"
+        survey.write_text(reported_survey.SURVEY.format(flight=self.flight, datum=0.05, coverage="p95").replace(
+            "[sea]\nwind_speed = 5\nwind_from = 250\n", self.WAVES))
+        folder, flags = self.folder / "waves", ("--hs", 0.4, "--tp", 3, "--waves-from", 250)
+        folder.mkdir()
+        query("las", self.flight, "--output-dir", folder, "--survey", survey, check=0)
+        without, by_survey, by_flags = (self.report(folder, *given) for given in ((), ("--survey", survey), flags))
+        self.assertFalse(without["crosscheck"]["sea_known"])
+        self.assertTrue(by_survey["crosscheck"]["sea_known"])
+        self.assertEqual(by_survey["crosscheck"], by_flags["crosscheck"])
+        checked = json.loads(query("crosscheck", folder, "--json", "--survey", survey, check=0).stdout)
+        self.assertEqual({key: by_survey["crosscheck"][key] for key in checked}, checked)
+        # Waves are a part of what a report is made from.
+        for again, said in ((flags, True), ((*flags, "--tail", "none"), False)):
+            stderr = query("report", folder, "--output", self.folder / "report", "--no-page", "--resume", *again,
+                           check=0).stderr
+            self.assertEqual("already" in stderr, said, again)
+        result = query("report", self.annotated, "--output", self.folder / "of_winds", "--no-page", *flags)
+        self.assert_fails(result, 1, "was annotated for a wind, not for the waves that are given")
+
+
 if __name__ == "__main__":
     programs.main()
