@@ -151,15 +151,17 @@ absl::StatusOr<FileSeas> SeasOf(const std::vector<AnnotatedLasFile>& files, cons
   return of;
 }
 
-absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileSeas& seas, OverlapPatches& patches) {
+absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileSeas& seas, OverlapPatches& patches,
+                         const AnnotatedLasFile::Visit& also) {
   patches.Choose();
   annotate::FileProgress progress = ProgressOver(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.NextFile();
-    RETURN_IF_ERROR(
-        files[i]
-            .ForEach(progress, [&](std::span<const AnnotatedPoint> points) { patches.Fill(points, seas.of_files[i]); })
-            .status());
+    const auto visit = [&](std::span<const AnnotatedPoint> points) {
+      patches.Fill(points, seas.of_files[i]);
+      if (also) also(points);
+    };
+    RETURN_IF_ERROR(files[i].ForEach(progress, visit).status());
   }
   return absl::OkStatus();
 }

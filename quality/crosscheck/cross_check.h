@@ -87,8 +87,10 @@ struct FileSeas {
 // the files.
 absl::StatusOr<FileSeas> SeasOf(const std::vector<AnnotatedLasFile>& files, const annotate::SeaTimeline* seas);
 
-// After `patches` have seen all points once: the second reading.
-absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileSeas& seas, OverlapPatches& patches);
+// After `patches` have seen all points once: the second reading. All points are shown to `also`, too, if given; the
+// flight lines of `patches` are known then.
+absl::Status FillPatches(const std::vector<AnnotatedLasFile>& files, const FileSeas& seas, OverlapPatches& patches,
+                         const AnnotatedLasFile::Visit& also = {});
 
 // After that. Absent if no lines overlap (FlightLines::NothingToCompare). `patches` has no points then.
 std::optional<CrossCheck> CheckPatches(OverlapPatches& patches, const SharedWaves& waves);

@@ -63,8 +63,13 @@ std::string OverlapText(const nlohmann::ordered_json& check) {
         lines, {}, [](const nlohmann::ordered_json& line) { return std::abs(line["z"].get<double>()); });
     double sum = 0;
     for (const auto& line : lines) sum += std::abs(line["mean_difference"].get<double>());
+    const auto name = [&worst](const std::string& end) {
+      const auto begin = worst->find(end + "_begin");
+      return (*worst)[end].dump() +
+             (begin == worst->end() ? "" : absl::StrFormat(" from %.0f s on", begin->get<double>()));
+    };
     absl::StrAppendFormat(&text, "; two lines differ by %.3f m in the mean, at worst %s and %s by %.3f m, %.1f sigma",
-                          sum / static_cast<double>(lines.size()), (*worst)["a"].dump(), (*worst)["b"].dump(),
+                          sum / static_cast<double>(lines.size()), name("a"), name("b"),
                           std::abs((*worst)["mean_difference"].get<double>()), std::abs((*worst)["z"].get<double>()));
   }
   return text + ")\n";

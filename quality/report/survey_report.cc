@@ -12,7 +12,7 @@
 #include "quality/report/bottom_coverage.h"
 #include "quality/report/length_histogram.h"
 #include "quality/report/limit_margins.h"
-#include "quality/report/line_path.h"
+#include "quality/report/line_tallies.h"
 #include "quality/report/stated_by_files.h"
 #include "quality/report/surface_nodes.h"
 #include "status/status_macros.h"
@@ -103,7 +103,10 @@ class Reporter {
     }
     if (all_.points() == 0) return NoBathymetricPoint(files_);
     const BottomCoverage coverage = BottomCoverage::Of(grid_, land_cells_, first_.metres_per_unit());
-    RETURN_IF_ERROR(FillPatches(files_, seas, patches_));
+    RETURN_IF_ERROR(FillPatches(files_, seas, patches_, [&](std::span<const AnnotatedPoint> points) {
+      for (const AnnotatedPoint& point : points)
+        lines_.Add(point, patches_.lines(), judge_.Met(point), first_.coverage());
+    }));
     const std::optional<CrossCheck> check = CheckPatches(patches_, seas.waves);
     return SurveyReport{.json = annotate::JsonBox(ToJson(check, coverage)),
                         .grid = std::move(grid_),
@@ -126,8 +129,6 @@ class Reporter {
         of_file.first_time = std::min(of_file.first_time, point.time);
         of_file.last_time = std::max(of_file.last_time, point.time);
       }
-      lines_[point.line].Add(point, met, coverage);
-      paths_[point.line].Add(point);
       grid_.Add(point, orders_.Best(met));
       if (!point.has_number) continue;
       depths_.Add(point, met, coverage);
@@ -265,7 +266,7 @@ class Reporter {
                  {"all", all_.Json(classes_)},
                  {"by_depth", depths_.Json(classes_)},
                  {"depth_bands", depths_.Json(classes_, BandEnds())},
-                 {"lines", Json::array()},
+                 {"lines", lines_.Json(patches_.lines(), classes_)},
                  {"files", FilesJson()},
                  {"histograms", {{"thu", thu_.ToJson()}, {"tvu", tvu_.ToJson()}}},
                  {"numbers", NumbersOf(files_)},
@@ -274,12 +275,6 @@ class Reporter {
                  {"bottom", coverage.Json()},
                  {"land", land_.Json(options_.specifications, options_.check_points)},
                  {"crosscheck", nullptr}};
-    for (const auto& [line, tally] : lines_) {
-      Json of_line = {{"line", line}};
-      of_line.update(tally.Json(classes_));
-      of_line["path"] = paths_.at(line).Json();
-      json["lines"].push_back(std::move(of_line));
-    }
     json["wanted"]["with_factor"] = WithFactorJson(check);
     const Specification& specification = specifications_[wanted_.specification];
     json["wanted"]["nodes"] =
@@ -308,8 +303,7 @@ class Reporter {
   PointTally all_;
   LandTable land_;
   DepthTallies depths_;
-  std::map<int, PointTally> lines_;
-  std::map<int, LinePath> paths_;
+  LineTallies lines_;
   LimitMargins margins_;
   std::vector<OfFile> of_files_;
   LengthHistogram thu_{kThuStep}, tvu_{kTvuStep};

@@ -283,6 +283,19 @@ class Lines(Files):
         text = query("crosscheck", self.ids(lambda _: 0), check=0).stdout
         self.assertRegex(text, r"line 0 from \d+ s on lies 0\.\d+ m (above|below) line 0 from \d+ s on")
 
+    def test_of_one_id_have_numbers_of_their_own_in_reports(self):
+        """In week time, another day's flights have the same IDs at times far apart."""
+        parts = ("points", "with_number", "thu", "tvu", "meeting", "path")
+        right = {line["line"]: {part: line[part] for part in parts} for line in self.json["lines"]}
+        report, _ = self.report(self.ids(lambda _: 7))
+        self.assertEqual({line["line"] for line in report["lines"]}, {7})
+        begins = [line["begin"] for line in report["lines"]]
+        self.assertEqual(begins, sorted(set(begins)))
+        self.assertEqual([{part: line[part] for part in parts} for line in report["lines"]],
+                         [right[number] for number in sorted(right)])
+        self.assertEqual({each["a_begin"] for each in report["crosscheck"]["lines"]} - set(begins), set())
+        self.assertNotIn("begin", self.json["lines"][0])
+
     @staticmethod
     def move(records, _):
         records[:, :4] = (records[:, :4].copy().view("<i4") + 5).view(np.uint8)

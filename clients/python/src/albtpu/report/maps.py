@@ -15,6 +15,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from ..schema import Doubles
 from .charts import BLUE, GREEN, ORANGE, ORDERS, PURPLE, RED, SHARE_COLOURS, SHARES, image
+from .markup import line_name
 from .verdict import CONTRIBUTIONS, Report
 
 MEANS = ("elevation", "depth", "thu", "tvu")  # Means of cells; the others are counts and codes.
@@ -163,7 +164,7 @@ def plan_of_lines(report: Report, overview: Overview) -> str:
         x, y = zip(*places)
         axes.plot(x, y, "-" if len(places) > 1 else ".", color=colour, linewidth=1.4, zorder=4)
         if len(lines) <= MOST_NAMED_LINES:
-            axes.annotate(str(line["line"]), (x[0], y[0]), fontsize=8, color=colour, zorder=5, ha="center", va="center",
+            axes.annotate(line_name(line), (x[0], y[0]), fontsize=8, color=colour, zorder=5, ha="center", va="center",
                           bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": colour, "lw": 0.6})
     void = report["bottom"]["largest_void"]
     if void is not None:

@@ -90,6 +90,12 @@ document.querySelectorAll('.sortable').forEach(table => {
 """
 
 
+def line_name(of: dict[str, Any], end: str = "") -> str:
+    """A flight line, or one `end` of a difference of two, by its ID; where that stands for several, with its begin."""
+    name, begin = str(of[end or "line"]), of.get(f"{end}_begin" if end else "begin")
+    return name if begin is None else f"{name} from {begin:.0f} s on"
+
+
 def write_document(path: pathlib.Path, title: str, body: str, foot: str = "") -> None:
     """A page that needs nothing from outside. `foot` stands at the foot of printed pages, beside their number. An
     earlier page is replaced by a whole one, or stays."""

@@ -7,7 +7,7 @@ import pathlib
 from typing import Any
 
 from . import appendix, charts, maps, project, verdict
-from .markup import numbers_table, percent, table, text, tiles, verdict_box, write_document
+from .markup import line_name, numbers_table, percent, table, text, tiles, verdict_box, write_document
 from .verdict import CONTRIBUTIONS, COVERAGES, Report, limit_text
 
 
@@ -211,7 +211,7 @@ def _lines(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
     for line in report["lines"]:
-        row = [str(line["line"]), f"{line['points']:,}".replace(",", ""),
+        row = [line_name(line), f"{line['points']:,}".replace(",", ""),
                percent(1 - line["with_number"] / line["points"])]
         for name in ("tvu", "thu"):
             row += [f"{line[name][key]:.3f}" if name in line else "–" for key in ("median", "p95")]
@@ -224,7 +224,7 @@ def _lines(report: Report) -> str:
     return ("<h2>Lines</h2><p class='soft screen'>Click the head of a column to sort.</p>"
             + table(head, rows, "sortable")
             + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
-            + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
+            + _class_matrix(report, "line", [(line_name(each), each["meeting"], each["points"])
                                              for each in report["lines"]]))
 
 
@@ -242,7 +242,7 @@ def _crosscheck(report: Report) -> str:
             ["σ of lines would have to be multiplied by", verdict.estimate_text(check["factor_line"])
              if check["factor_line"] is not None else "no error of a trajectory is predicted"],
             ["beyond 3 σ", f"{percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
-    lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
+    lines = [[" – ".join(line_name(each, end) for end in "ab"), str(each["pairs"]), f"{each['mean_difference']:+.3f}",
               f"{each['standard_error']:{'.1g' if each['standard_error'] < 0.0005 else '.3f'}}",
               f"{each['predicted']:.3f}", verdict.difference_text(each)]
              for each in check["lines"][:40]]

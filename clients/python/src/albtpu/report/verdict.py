@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .markup import percent
+from .markup import line_name, percent
 
 Report = dict[str, Any]
 
@@ -120,16 +120,16 @@ def _differences(report: Report) -> tuple[str, str, str]:
     mean = sum(abs(each["mean_difference"]) for each in lines) / len(lines)
     worst = max(lines, key=lambda each: abs(each["z"]))
     return ("Differences between lines", f"{mean:.3f} m",
-            f"in the mean of {len(lines)} pairs of lines. The worst pair, {worst['a']} and {worst['b']}, differs by"
-            f" {abs(worst['mean_difference']):.3f} m, {difference_text(worst)}.{_standing_out(lines)}")
+            f"mean of {len(lines)} pairs of lines. The worst pair, {line_name(worst, 'a')} and {line_name(worst, 'b')},"
+            f" differs by {abs(worst['mean_difference']):.3f} m, {difference_text(worst)}.{_standing_out(lines)}")
 
 
 def _standing_out(lines: list[dict[str, Any]]) -> str:
     """The line that lies above, or below, each of at least two others, and by the most in the mean."""
-    above: dict[object, list[float]] = {}
+    above: dict[str, list[float]] = {}
     for each in lines:
-        above.setdefault(each["a"], []).append(each["mean_difference"])
-        above.setdefault(each["b"], []).append(-each["mean_difference"])
+        above.setdefault(line_name(each, "a"), []).append(each["mean_difference"])
+        above.setdefault(line_name(each, "b"), []).append(-each["mean_difference"])
     of_line = {line: sum(values) / len(values) for line, values in above.items()
                if len(values) > 1 and (min(values) > 0 or max(values) < 0)}
     if not of_line:
@@ -274,10 +274,10 @@ def _lines(report: Report) -> list[str]:
     fraction = worst["meeting"][index] / worst["points"]
     if fraction < 1:
         gaps = 1 - worst["with_number"] / worst["points"]
-        return [f"The worst line is {worst['line']}: {100 * fraction:.1f} % of its points meet it,"
+        return [f"The worst line is {line_name(worst)}: {100 * fraction:.1f} % of its points meet it,"
                 f" {100 * gaps:.1f} % have no uncertainty computed."]
     worst = max((line for line in lines if "tvu" in line), key=lambda line: line["tvu"]["p95"])
-    return [f"No line fails; line {worst['line']} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
+    return [f"No line fails; line {line_name(worst)} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
             " percentile)."]
 
 
