@@ -37,6 +37,7 @@ absl::Status BuiltWithout() {
 
 absl::Status CheckGdal() { return BuiltWithout(); }
 absl::Status WriteCog(const Raster&, const std::filesystem::path&) { return BuiltWithout(); }
+bool HasVerticalSystem(const std::filesystem::path&) { return false; }
 absl::Status WriteBag(const Raster&, const std::string&, const std::filesystem::path&) { return BuiltWithout(); }
 
 #else
@@ -60,6 +61,7 @@ struct Gdal {
   decltype(&GDALOpen) open;
   decltype(&GDALClose) close;
   decltype(&GDALSetProjection) set_projection;
+  decltype(&GDALGetProjectionRef) projection;
   decltype(&GDALSetGeoTransform) set_geo_transform;
   decltype(&GDALSetMetadataItem) set_metadata_item;
   decltype(&GDALSetDescription) set_description;
@@ -94,6 +96,7 @@ struct Gdal {
     find(open, "GDALOpen");
     find(close, "GDALClose");
     find(set_projection, "GDALSetProjection");
+    find(projection, "GDALGetProjectionRef");
     find(set_geo_transform, "GDALSetGeoTransform");
     find(set_metadata_item, "GDALSetMetadataItem");
     find(set_description, "GDALSetDescription");
@@ -305,6 +308,15 @@ absl::Status WriteCog(const Raster& raster, const fs::path& path) {
   options("COMPRESS", "DEFLATE")("PREDICTOR", "YES")("BLOCKSIZE", absl::StrCat(kBlock))("BIGTIFF", "IF_SAFER");
   options("OVERVIEW_RESAMPLING", "NEAREST")("NUM_THREADS", "ALL_CPUS");
   return Copy(raster, std::numeric_limits<float>::quiet_NaN(), "COG", options, path);
+}
+
+bool HasVerticalSystem(const fs::path& path) {
+  if (!CheckGdal().ok()) return false;
+  const Errors errors;
+  const Dataset file(Gdal::Get().open(path.c_str(), GA_ReadOnly));
+  if (file == nullptr) return false;
+  const std::string wkt = Gdal::Get().projection(file.get());
+  return wkt.find("VERT_CS[") != std::string::npos || wkt.find("VERTCRS[") != std::string::npos;
 }
 
 absl::Status WriteBag(const Raster& raster, const std::string& metadata, const fs::path& path) {

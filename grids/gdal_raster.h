@@ -33,6 +33,9 @@ absl::Status CheckGdal();
 // What is not finished lies in files beside `path`, which must be new, and is removed. Memory is that of some windows.
 absl::Status WriteCog(const Raster& raster, const std::filesystem::path& path);
 
+// Whether GDAL finds a vertical system in a raster. It leaves out of a GeoTIFF one without a code.
+bool HasVerticalSystem(const std::filesystem::path& path);
+
 // `raster` has the bands elevation and uncertainty, upwards and in m. `metadata` is the text of BagMetadata. Fails also
 // where what GDAL reads of the file is not what was to be written.
 absl::Status WriteBag(const Raster& raster, const std::string& metadata, const std::filesystem::path& path);

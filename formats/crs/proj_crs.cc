@@ -70,22 +70,46 @@ VerticalCrs HeightsOf(const PJ* datum) {
                               "\",2005],UNIT[\"metre\",1],AXIS[\"Gravity-related height\",UP]]")};
 }
 
-// nullopt for one whose heights do not count upwards.
-std::optional<VerticalCrs> InMetres(ProjContext& context, const PJ* vertical) {
+// m; nullopt where heights do not count upwards.
+std::optional<double> UnitOfHeights(ProjContext& context, const PJ* vertical) {
   const ProjObject system(proj_crs_get_coordinate_system(context.get(), vertical));
   const char* direction = nullptr;
-  double unit = 0;
   if (system == nullptr ||
-      !proj_cs_get_axis_info(context.get(), system.get(), 0, nullptr, nullptr, &direction, &unit, nullptr, nullptr,
+      !proj_cs_get_axis_info(context.get(), system.get(), 0, nullptr, nullptr, &direction, nullptr, nullptr, nullptr,
                              nullptr) ||
       std::string(direction) != "up")
     return std::nullopt;
-  if (unit != 1) {
-    const ProjObject datum(proj_crs_get_datum_forced(context.get(), vertical));
-    return datum == nullptr ? std::nullopt : std::optional(HeightsOf(datum.get()));
+  return AxisUnit(context, vertical, 0);
+}
+
+VerticalCrs AsItIs(ProjContext& context, const PJ* vertical) {
+  return {.name = TextOrEmpty(proj_get_name(vertical)),
+          .wkt = TextOrEmpty(proj_as_wkt(context.get(), vertical, PJ_WKT1_GDAL, nullptr))};
+}
+
+// The system of the database with heights in metres from a datum, 5703 for that of 6360, some ms. GeoTIFF keeps only
+// systems with a code. If there is none, one that has the name of the datum.
+VerticalCrs MetricHeightsOf(ProjContext& context, const PJ* datum) {
+  std::optional<VerticalCrs> found;
+  const PROJ_STRING_LIST codes = proj_get_codes_from_database(context.get(), "EPSG", PJ_TYPE_VERTICAL_CRS, 0);
+  for (auto code = codes; code != nullptr && *code != nullptr && !found.has_value(); ++code) {
+    const ProjObject crs(proj_create_from_database(context.get(), "EPSG", *code, PJ_CATEGORY_CRS, 0, nullptr));
+    const ProjObject its(crs == nullptr ? nullptr : proj_crs_get_datum_forced(context.get(), crs.get()));
+    if (its != nullptr && proj_is_equivalent_to_with_ctx(context.get(), datum, its.get(), PJ_COMP_EQUIVALENT) != 0 &&
+        UnitOfHeights(context, crs.get()) == 1)
+      found = AsItIs(context, crs.get());
   }
-  return VerticalCrs{.name = TextOrEmpty(proj_get_name(vertical)),
-                     .wkt = TextOrEmpty(proj_as_wkt(context.get(), vertical, PJ_WKT1_GDAL, nullptr))};
+  proj_string_list_destroy(codes);
+  return found.has_value() ? *std::move(found) : HeightsOf(datum);
+}
+
+// nullopt for one whose heights do not count upwards.
+std::optional<VerticalCrs> InMetres(ProjContext& context, const PJ* vertical) {
+  const std::optional<double> unit = UnitOfHeights(context, vertical);
+  if (!unit.has_value()) return std::nullopt;
+  if (unit == 1) return AsItIs(context, vertical);
+  const ProjObject datum(proj_crs_get_datum_forced(context.get(), vertical));
+  return datum == nullptr ? std::nullopt : std::optional(MetricHeightsOf(context, datum.get()));
 }
 
 ProjObject Parse(ProjContext& context, const std::string& text) {
@@ -228,7 +252,7 @@ std::optional<VerticalCrs> VerticalCrsOf(ProjContext& context, int code) {
     return InMetres(context, crs.get());
   if (const ProjObject datum = find(PJ_CATEGORY_DATUM);
       datum != nullptr && proj_get_type(datum.get()) == PJ_TYPE_VERTICAL_REFERENCE_FRAME)
-    return HeightsOf(datum.get());
+    return MetricHeightsOf(context, datum.get());
   return std::nullopt;
 }
 

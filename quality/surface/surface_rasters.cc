@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "annotate/run/file_progress.h"
 #include "grids/bag_metadata.h"
 #include "grids/gdal_raster.h"
 #include "quality/surface/surface_file.h"
@@ -104,8 +105,14 @@ absl::Status WriteRasters(const MadeSurface& surface, const std::vector<SurfaceF
                           const std::string& organisation) {
   constexpr std::size_t kBagBands = 2;  // Elevation and uncertainty.
   const auto path = [&](SurfaceFormat format) { return surface.path.parent_path() / FileOf(format); };
-  if (std::ranges::count(formats, SurfaceFormat::kGeoTiff) > 0)
-    RETURN_IF_ERROR(WriteCog(RasterOf(surface, LayersOfRasters().size()), path(SurfaceFormat::kGeoTiff)));
+  if (std::ranges::count(formats, SurfaceFormat::kGeoTiff) > 0) {
+    const std::filesystem::path tiff = path(SurfaceFormat::kGeoTiff);
+    RETURN_IF_ERROR(WriteCog(RasterOf(surface, LayersOfRasters().size()), tiff));
+    if (!surface.frame.vertical_wkt.empty() && !HasVerticalSystem(tiff))
+      annotate::Note(absl::StrCat(FileOf(SurfaceFormat::kGeoTiff),
+                                  ": GDAL keeps no vertical system without a code, as ", surface.frame.vertical_name,
+                                  " is; the description of the file names it"));
+  }
   if (std::ranges::count(formats, SurfaceFormat::kBag) > 0)
     RETURN_IF_ERROR(
         WriteBag(RasterOf(surface, kBagBands), BagMetadata(FactsOf(surface, organisation)), path(SurfaceFormat::kBag)));

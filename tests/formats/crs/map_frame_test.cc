@@ -209,6 +209,25 @@ TEST(MapFrame, ReadsTextWithoutRemark) {
   EXPECT_EQ(frame->remark(), "");
   EXPECT_NEAR(frame->metres_per_height_unit().value(), kUsFoot, 1e-12);
   EXPECT_NEAR(frame->Project(At(0, -81)).x, 500000, 1e-6);
+  EXPECT_EQ(frame->vertical()->name, "NAVD88 height");
+}
+
+// With the code of the system in metres, without which GeoTIFF does not keep it.
+TEST(MapFrame, RestatesHeightsInFeetInMetres) {
+  const std::pair<int, int> twins[] = {{6360, 5703}, {8228, 5703}, {5702, 7968}, {8050, 5714}, {5703, 5703}};
+  for (const auto& [code, in_metres] : twins) {
+    const auto frame = Frame({.projected = 26917, .vertical = code});
+    ASSERT_TRUE(frame->vertical().has_value()) << code;
+    EXPECT_EQ(LastEpsgCode(frame->vertical()->wkt), in_metres) << code;
+    EXPECT_THAT(frame->vertical()->wkt, HasSubstr("UNIT[\"metre\",1")) << code;
+  }
+  EXPECT_EQ(Frame({.projected = 26917, .vertical = 5103})->vertical()->name, "NAVD88 height");  // Its datum.
+  const auto own = Frame({.wkt = R"wkt(COMPD_CS["a",PROJCS["NAD83 / UTM zone 17N",GEOGCS["NAD83",DATUM["NAD83",
+    SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],
+    PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",-81],
+    PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],
+    UNIT["metre",1]],VERT_CS["of the mine",VERT_DATUM["Datum of Mine",2005],UNIT["foot",0.3048],AXIS["Up",UP]]])wkt"});
+  EXPECT_EQ(own->vertical()->name, "Datum of Mine height");
 }
 
 TEST(MapFrame, ReadsGeoKeys) {

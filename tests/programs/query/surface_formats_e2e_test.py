@@ -222,6 +222,26 @@ class VerticalDatum(programs.Test):
             self.assertIn('VERTCRS["NAVD88 height"', wkt)
             self.assertRegex(wkt, UPWARDS)
 
+    def test_is_in_metres_where_heights_are_in_feet(self):
+        if MISSING:
+            self.skipTest(f"{', '.join(MISSING)} missing; apt-get install gdal-bin")
+        feet, folder, new = self.folder / "flight", self.folder / "feet", self.folder / "new"
+        SimulatedSurvey(feet, "--lines", 2, "--seconds", 2, "--pulse-rate", 1000, "--grid", "florida-east-ft")
+        reported_survey.annotate(feet, folder, programs.PATHS["shipped_table"])
+        for datum in (b"North American Vertical Datum 1988", b"Vertical Datum that has no code 88"):
+            for path in folder.glob("*.las"):
+                path.write_bytes(path.read_bytes().replace(b"North American Vertical Datum 1988", datum))
+            said = query("surface", folder, "--output", new, "--format", "geotiff", "--overwrite", check=0).stderr
+            wkt = json.loads(output_of("gdalinfo", "-json", new / "surface.tif"))["coordinateSystem"]["wkt"]
+            self.assertIn('ID["EPSG",2236]', wkt)
+            if datum.startswith(b"North"):
+                self.assertRegex(wkt, r'VERTCRS\["NAVD88 height"[^"]*(?s:.*)ID\["EPSG",5703\]')
+                self.assertRegex(wkt, UPWARDS)
+                self.assertNotIn("surface.tif", said)
+            else:
+                self.assertIn("surface.tif: GDAL keeps no vertical system without a code, as Vertical Datum that has no"
+                              " code 88 height is", said)
+
 
 class Formats(programs.Test):
     def test_are_written_alone(self):
