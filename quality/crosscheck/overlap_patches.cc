@@ -94,9 +94,12 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points, std::uint16_t 
     const float of_height =
         point.variance_z > 0 ? static_cast<float>(std::sqrt(std::min(own / point.variance_z, 1.0))) : 0;
     const double sea_in_horizontal = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;
-    const double azimuth = RadiansOfDegrees(point.beam_azimuth), outwards = point.bias_along_beam;
-    patch.points.push_back({.x = static_cast<float>(x - outwards * std::sin(azimuth) - patch.x),
-                            .y = static_cast<float>(y - outwards * std::cos(azimuth) - patch.y),
+    const double azimuth = RadiansOfDegrees(point.beam_azimuth);
+    const bool known = std::isfinite(azimuth);
+    const double east = known ? point.bias_along_beam * std::sin(azimuth) : 0;
+    const double north = known ? point.bias_along_beam * std::cos(azimuth) : 0;
+    patch.points.push_back({.x = static_cast<float>(x - east - patch.x),
+                            .y = static_cast<float>(y - north - patch.y),
                             .z = static_cast<float>(point.z - point.bias_vertical),
                             .variance_air = static_cast<float>(air),
                             .variance_sea = static_cast<float>(sea),

@@ -59,7 +59,7 @@ class SharedWaves {
   // The correlations of what slopes do to the heights of two points, and of what heights of unseen waves do.
   SeaParts operator()(const PulseOnWater& a, const PulseOnWater& b) const;
 
-  // What `sea` does to the pulse of `point`: nothing without a sea.
+  // What `sea` does to the pulse of `point`: nothing without a sea, or where the beam is not known.
   SeaOfPulses At(const PointOfBeam& point, std::uint16_t sea) const;
 
  private:

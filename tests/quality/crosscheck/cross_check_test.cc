@@ -228,6 +228,9 @@ TEST(SharedWaves, HaveTheHeightsOfUnseenWaves) {
                  unknown = PartsOfSea(0.01, squared_depth, waves.At(at, PulseOnWater::kNoSea));
   EXPECT_NEAR(shallow.heights, 0.01, 1e-6);
   EXPECT_EQ(unknown.heights, 0);
+  const std::uint16_t calm = waves.Add({.spectrum = FlatSea(SeaWavenumbers(), 1), .water_index = 1.34});
+  EXPECT_EQ(PartsOfSea(0, squared_depth, waves.At(at, calm)).heights, 0);
+  EXPECT_EQ(waves.At({.incidence = NAN}, 0).pulse.height, 0);
   EXPECT_EQ(unknown.slopes, 0.01);
   PairedPoint a{.pulse = PulseOnWater::Of(at, 100, 0), .variance_sea = 0.01F, .variance_heights = 0.01F};
   PairedPoint b = a;
