@@ -114,8 +114,8 @@ TEST(CrossCheckOfBlocks, HoldsWhatIsSound) {
 }
 
 // Where the heights of the waves are not seen, they are most of the sea in shallow water, and neighbours share them.
-// The factor of pulses scatters by 0.025 from block to block, which have four places each: too few for its interval.
-// Taken as independent, heights make it 0.974, and the noise of means 1.10.
+// The factor of pulses scatters by 0.025 from block to block. Taken as independent, heights make it 0.974, and the
+// noise of means 1.10.
 TEST(CrossCheckOfBlocks, KnowsThatHeightsOfUnseenWavesAreShared) {
   const Found found = Blocks("heights of waves unseen", 8, [](SimulatedLines& block) {
     block.wind_speed = 8;
