@@ -16,19 +16,19 @@ namespace albtpu {
 
 // The numbers of a budget, in the order of the wire.
 enum class BudgetQuantity : std::uint8_t {
-  kTotalThu,         // m, at the coverage of the options, of all shares.
-  kTotalTvu,         // m
-  kThuAir,           // m, of the air side alone.
-  kTvuAir,           // m
-  kThuSea,           // m, of sea surface and unseen waves.
-  kTvuSea,           // m
-  kBiasAlongBeam,    // m, of the reported point, that of the water included; in no covariance. NaN if not known.
-  kBiasVertical,     // m
-  kCovarianceTotal,  // m^2, 1 sigma: six columns in the order of kCovarianceNames.
-  kCovarianceAir,    // As BudgetOutputs::air.
-  kCovarianceSea,    // As BudgetOutputs::sea.
-  kCovariancePulse,  // As BudgetOutputs::groups.
-  kCovarianceLine,   // As BudgetOutputs::groups.
+  kTotalThu,          // m, at the coverage of the options, of all shares.
+  kTotalTvu,          // m
+  kThuAir,            // m, of the air side alone.
+  kTvuAir,            // m
+  kThuSea,            // m, of sea surface and unseen waves.
+  kTvuSea,            // m
+  kBiasAlongBeam,     // m, of the reported point, that of the water included; in no covariance. NaN if not known.
+  kBiasVertical,      // m
+  kCovarianceTotal,   // m^2, 1 sigma: six columns in the order of kCovarianceNames.
+  kCovarianceAir,     // As BudgetOutputs::air.
+  kCovarianceSea,     // As BudgetOutputs::sea.
+  kCovariancePulse,   // As BudgetOutputs::groups.
+  kCovarianceLine,    // As BudgetOutputs::groups.
   kCovarianceSurvey,  // As BudgetOutputs::groups.
   kBestS44Order,      // BudgetAnswers::best_s44_orders
   kThuWater,          // m, of the water column.

@@ -13,7 +13,7 @@
 #include "annotate/run/file_progress.h"
 #include "formats/files/file_access.h"
 #include "formats/las/las_points.h"
-#include "formats/las/point_sample.h"
+#include "quality/annotated/point_sample.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -111,7 +111,7 @@ absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotatedOrNone(const std::vec
     if (last.table_digest() != first.table_digest())
       return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
   }
-  const auto sampled = files.size() > 1 ? std::make_shared<formats::SampledFiles>() : nullptr;
+  const auto sampled = files.size() > 1 ? std::make_shared<SampledFiles>() : nullptr;
   for (AnnotatedLasFile& file : files) file.CompareWith(sampled);
   return files;
 }

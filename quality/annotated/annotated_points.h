@@ -21,11 +21,9 @@
 #include "formats/las/las_reader.h"
 #include "tables/coverage.h"
 
-namespace albtpu::formats {
-class SampledFiles;
-}
-
 namespace albtpu::quality {
+
+class SampledFiles;
 
 // Why a point has no number, in order of severity. kNoAnswer: outside the table, or no state of the sea or optics of
 // the water at it. kNoTrajectory: none at its time, or one that is too uncertain. kNoChannel: of a scanner that the
@@ -110,7 +108,7 @@ class AnnotatedLasFile {
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
   // ForEach fails where most points are those of another file.
-  void CompareWith(std::shared_ptr<formats::SampledFiles> files) { files_ = std::move(files); }
+  void CompareWith(std::shared_ptr<SampledFiles> files) { files_ = std::move(files); }
 
   using Visit = std::function<void(std::span<const AnnotatedPoint>)>;
 
@@ -144,8 +142,8 @@ class AnnotatedLasFile {
   std::optional<std::size_t> share_of_;           // In a record; absent: annotated without dry points.
   std::string crs_name_ = "not stated", crs_wkt_, vertical_name_, vertical_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1, seconds_per_time_unit_ = 1;
-  bool has_clock_of_header_ = true;               // Otherwise another one was named or found.
-  std::shared_ptr<formats::SampledFiles> files_;  // Null: there is no other one.
+  bool has_clock_of_header_ = true;      // Otherwise another one was named or found.
+  std::shared_ptr<SampledFiles> files_;  // Null: there is no other one.
 };
 
 }  // namespace albtpu::quality

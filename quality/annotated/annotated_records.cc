@@ -11,9 +11,9 @@
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_points.h"
-#include "formats/las/point_sample.h"
 #include "laz/coding/little_endian.h"
 #include "quality/annotated/annotated_points.h"
+#include "quality/annotated/point_sample.h"
 #include "status/status_macros.h"
 
 namespace albtpu::quality {
@@ -192,9 +192,9 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
   struct Chunk {
     formats::LasRun run;
     MadePoints made;
-    std::vector<formats::PointSample::Point> sample;
+    std::vector<PointSample::Point> sample;
   };
-  const auto sample = std::make_shared<formats::PointSample>(header);
+  const auto sample = std::make_shared<PointSample>(header);
   LeftOutPoints left_out;
   RETURN_IF_ERROR(formats::RunOrderedPipeline(
       [] { return Chunk(); },

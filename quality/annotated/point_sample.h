@@ -14,7 +14,7 @@
 #include "formats/las/las_header.h"
 #include "formats/las/las_points.h"
 
-namespace albtpu::formats {
+namespace albtpu::quality {
 
 // Points of a file that are chosen by their times alone, or by x where they have none: two files with the same points
 // have the same sample, whatever the order of their points, their classes, flags and heights and their format are, and
@@ -26,7 +26,7 @@ class PointSample {
     double x, y;
   };
 
-  explicit PointSample(const LasHeader& header)
+  explicit PointSample(const formats::LasHeader& header)
       : fields_(header), record_length_(header.record_length), x_step_(header.scale[0]), y_step_(header.scale[1]) {}
 
   // Those of some records that may be in the sample. By any thread.
@@ -41,7 +41,7 @@ class PointSample {
  private:
   std::uint64_t Rank(std::string_view record) const;
 
-  LasPointFields fields_;
+  formats::LasPointFields fields_;
   std::size_t record_length_;
   double x_step_, y_step_;
   std::atomic<std::uint64_t> limit_ = UINT64_MAX;  // All points of lower rank are in the sample.
@@ -59,4 +59,4 @@ class SampledFiles {
   std::map<std::filesystem::path, std::shared_ptr<const PointSample>> samples_;
 };
 
-}  // namespace albtpu::formats
+}  // namespace albtpu::quality

@@ -1,4 +1,4 @@
-#include "formats/las/point_sample.h"
+#include "quality/annotated/point_sample.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,13 +7,13 @@
 
 #include "absl/strings/str_format.h"
 
-namespace albtpu::formats {
+namespace albtpu::quality {
 namespace {
 
 constexpr std::size_t kSampled = 512;      // Points of a sample.
 constexpr std::size_t kFewestSampled = 8;  // Points by which files are compared.
 constexpr double kCopyShare = 0.5;         // Above this share of common points, a file is a copy: lines have none.
-constexpr double kTimeStep = 1e-6;         // s; copies may have rounded times.
+constexpr double kRoundedTime = 1e-6;      // s; copies may have rounded times.
 constexpr double kLargestGpsTime = 1e12;   // s; larger numbers are no times.
 constexpr double kStepsApart = 1.01;       // Between places of copies, whose coordinates may have been rounded.
 
@@ -30,7 +30,7 @@ std::uint64_t Mixed(std::uint64_t bits) {
 std::uint64_t PointSample::Rank(std::string_view record) const {
   const double time = fields_.has_gps_time() ? fields_.GpsTime(record) : 0;
   const bool has_time = time != 0 && std::abs(time) < kLargestGpsTime;  // Neither 0 nor NaN.
-  return Mixed(has_time ? static_cast<std::uint64_t>(std::llround(time / kTimeStep))
+  return Mixed(has_time ? static_cast<std::uint64_t>(std::llround(time / kRoundedTime))
                         : std::bit_cast<std::uint64_t>(fields_.X(record)));
 }
 
@@ -91,4 +91,4 @@ absl::Status SampledFiles::Add(const std::filesystem::path& path, std::shared_pt
   return absl::OkStatus();
 }
 
-}  // namespace albtpu::formats
+}  // namespace albtpu::quality

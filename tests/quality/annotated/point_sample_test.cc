@@ -1,4 +1,4 @@
-#include "formats/las/point_sample.h"
+#include "quality/annotated/point_sample.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/formats/las/las_builder.h"
 
-namespace albtpu::formats {
+namespace albtpu::quality {
 namespace {
 
 using albtpu::testing::BuildLas;
@@ -33,7 +33,7 @@ LasSpec Line(int seed, int pulses = 20000) {
 
 std::shared_ptr<const PointSample> SampleOf(const LasSpec& spec) {
   const std::string file = BuildLas(spec);
-  const absl::StatusOr<LasHeader> header = ParseLasHeader("in.las", file, file.size());
+  const absl::StatusOr<formats::LasHeader> header = formats::ParseLasHeader("in.las", file, file.size());
   auto sample = std::make_shared<PointSample>(*header);
   const std::string_view records = std::string_view(file).substr(header->offset_to_points);
   for (std::size_t at = 0; at < records.size(); at += 1000 * header->record_length)
@@ -112,4 +112,4 @@ TEST(SampledFiles, NameTheFileWhosePointsAreThoseOfAnother) {
 }
 
 }  // namespace
-}  // namespace albtpu::formats
+}  // namespace albtpu::quality
