@@ -124,8 +124,7 @@ SeaParts SharedWaves::operator()(const PulseOnWater& a, const PulseOnWater& b) c
 }
 
 SeaOfPulses SharedWaves::At(const PointOfBeam& point, std::uint16_t sea) const {
-  const bool known = std::isfinite(point.incidence) && std::isfinite(point.azimuth) && std::isfinite(point.footprint);
-  if (sea == PulseOnWater::kNoSea || !known) return {};
+  if (sea == PulseOnWater::kNoSea) return {};
   return (*pulses_)(sea, point.incidence, point.azimuth, point.footprint, {});
 }
 

@@ -32,6 +32,8 @@ std::uint16_t SeaSharing::Add(const SeaOfSource& sea) {
 
 SeaOfPulses SeaSharing::operator()(std::uint16_t source, double incidence, double azimuth, double footprint,
                                    std::span<const Eigen::Vector2d> places) const {
+  // A damaged file may have totals beside beams that are not known.
+  if (!std::isfinite(incidence) || !(std::abs(azimuth) <= 360) || !std::isfinite(footprint)) return {};
   const double steep = std::clamp(incidence, 0.0, double{kMostIncidence}) / kIncidenceStep;
   const double turned = azimuth / 360 * kAzimuths;
   constexpr int kLast = kIncidences - 1;

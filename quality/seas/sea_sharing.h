@@ -31,7 +31,8 @@ class SeaSharing {
   std::size_t size() const { return seas_.size(); }
 
   // Angles in degree, `footprint` in m. Between beams at steps of incidence and azimuth it is interpolated, right to
-  // 2 % of the variances, and the footprint is rounded to 4 %, which changes the correlation by less than 0.01.
+  // 2 % of the variances, and the footprint is rounded to 4 %, which changes the correlation by less than 0.01. Nothing
+  // for a beam that is not known.
   SeaOfPulses operator()(std::uint16_t source, double incidence, double azimuth, double footprint,
                          std::span<const Eigen::Vector2d> places) const;
 

@@ -58,6 +58,7 @@ PassSea SeaOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& g, co
   const SeaParts parts = PartsOfSea(beam.sea, beam.squared_depth, waves);
   const double scale = of_slopes > 0 ? parts.slopes / of_slopes * beam.squared_depth : 0;
   sea.whole = scale * waves.pulse.errors;
+  if (scale == 0) sea.whole(2, 2) = parts.slopes;  // Of beams that are not known: of each pulse alone.
   const Eigen::Vector3d by_height = waves.by_height / waves.by_height.z();
   sea.whole += parts.heights * by_height * by_height.transpose();
   sea.of_point = g.dot(sea.whole * g);

@@ -49,6 +49,18 @@ TEST(SeaSharing, IsThatOfTheBeamBetweenItsSteps) {
   }
 }
 
+TEST(SeaSharing, IsNothingForBeamsThatAreNotKnown) {
+  SeaSharing sharing(kSideOfCell);
+  const WindSea wind{.wind_speed_10m = 6, .fetch = 20'000, .model = &kElfouhailyModel};
+  sharing.Add({.spectrum = Sampled(*wind.MakeSpectrum(), SeaWavenumbers(), kSeaHarmonics), .water_index = kIndex});
+  const std::array places = {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.4, -0.25)};
+  for (const auto& [incidence, azimuth, footprint] :
+       {std::array{NAN, 0.0F, 0.6F}, {20.0F, NAN, 0.6F}, {20.0F, 1e30F, 0.6F}, {20.0F, 0.0F, NAN}}) {
+    const SeaOfPulses found = sharing(0, incidence, azimuth, footprint, places);
+    EXPECT_EQ(found.pulse.errors.norm() + found.pairs.errors.norm() + found.pulse.height, 0);
+  }
+}
+
 // By paths: the light meets water that lies h too high 1 / cos(incidence) h earlier. Of the optical path that is left,
 // processing lays an nth along the ray of still water from where it takes the water to be.
 TEST(SeaSharing, HasWhatHeightsDoByPathsOfLight) {

@@ -109,6 +109,12 @@ TEST(Node, TakesTheHeightOfUnseenWavesForWhatTheSlopesDoNotExplain) {
   EXPECT_NEAR(VarianceOf(points, Eigen::Vector2d::Zero(), sources).sea, 0.2 * (kSea - 0.001) + 0.9 * 0.001, 2e-6);
 }
 
+TEST(Node, KeepsTheSeaOfBeamsThatAreNotKnown) {
+  NodeSources sources = Sharing(0.2);
+  sources.sea = [](auto, auto, auto, auto, auto) { return SeaOfPulses(); };
+  EXPECT_NEAR(VarianceOf(std::vector{PointAt(0)}, Eigen::Vector2d::Zero(), sources).sea, kSea, 1e-9);
+}
+
 // Water that lies h too high makes a point too deep by b h, and too far along the beam by a h: at 20 degrees b = 0.232
 // and a = 0.161. Up a slope of 0.3 the height at a fixed place errs by (b + 0.3 a) h, down it by (b - 0.3 a) h.
 TEST(Node, OnASlopeHasWhatHeightsDoAlongTheBeam) {
