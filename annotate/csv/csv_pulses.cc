@@ -323,8 +323,8 @@ void WaveHeightsOfWinds(const PulseBatch& pulses, const std::string& spectrum, s
     return is_new ? at->second = WaveHeightOfWind(wind / kSteps, metres, spectrum) : at->second;
   };
   // Linear between nodes 0.02 m/s and 2 % of the fetch apart. The height grows with the square of the wind and the root
-  // of the fetch at most: from 1 m/s on, it is off by 1e-4 of itself at most. A number of single precision may be a
-  // little beside its node.
+  // of the fetch at most, so that from 1 m/s on the line is right to 1e-4 of it. Single precision may put a number
+  // slightly off its node.
   const auto between = [](double place, const auto& at) {
     const double below = std::floor(place + 1e-3), part = place - below;
     return part > 1e-3 ? std::lerp(at(below), at(below + 1), part) : at(below);

@@ -43,7 +43,7 @@ struct PulseOnWater {
 // The height of a point errs in proportion to the slope of the water along its beam, of which u C(dx, dt) u' is the
 // covariance (sea/correlation), u and u' the directions of the two beams. At nadir, where the height errs by squares of
 // slopes alone, their correlation is the square of this one; in between, by the tangent of the incidence, it is that of
-// the sum of both. Where the waves under a pulse are unseen, it errs by their height as well, in proportion to it.
+// the sum of both. A pulse whose waves nobody saw also errs by their height.
 // Distances are rounded to 5 cm, from 1 m on to 0.25 m, from 4 m on to 1 m, from 16 m on to 4 m and from 64 m on to
 // 8 m, directions to 5 degrees, times to 0.1 s, footprints to 10 %. Not for several threads at a time.
 class SharedWaves {
