@@ -58,7 +58,7 @@ absl::Status RunCheckPoints(const CheckPointsOptions& options) {
     RETURN_IF_ERROR(read.CheckNotReplacedBy(options.points));
     ASSIGN_OR_RETURN(output, OutputFile::Create(options.points, options.existing));
   }
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags, settings));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(annotated));
   ASSIGN_OR_RETURN(const quality::PointCheck check,
                    quality::CheckPointsOf(files, points, options.sigma,
@@ -99,7 +99,7 @@ void AddCheckPointsCommand(CLI::App& program, Run& run) {
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace the file of --points");
   Group(*command, "How check points are compared", {"--radius", "--point-sigma-horizontal", "--point-sigma-vertical"});
   Group(*command, group::kOutput, {"--points", "--json", "--overwrite"});
-  AddSeaFlags(*command, options->flags, kStatedOfWinds);
+  AddSeaFlags(*command, options->flags, kOfWindsAlone);
   EndHelp(
       *command,
       "POINTS.csv has the columns x, y and elevation (or easting, northing, z) in the coordinate system, the units\n"

@@ -38,7 +38,7 @@ struct CrossCheckOptions {
 
 absl::Status RunCrossCheck(const CrossCheckOptions& options) {
   ASSIGN_OR_RETURN(const config::SurveySettings settings, SettingsOf(options.flags));
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags, settings));
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(options.annotated));
   ASSIGN_OR_RETURN(const quality::CrossCheck check,
                    quality::CrossCheckOf(files, options.patch, seas.has_value() ? &*seas : nullptr));
@@ -150,7 +150,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   ASSIGN_OR_RETURN(const config::SurveySettings survey, SettingsOf(flags.flags));
   RETURN_IF_ERROR(CheckReplacesNone(flags, survey));
   ASSIGN_OR_RETURN(quality::ReportOptions options, Options(flags, survey));
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(survey));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(flags.flags, survey));
   options.seas = seas.has_value() ? &*seas : nullptr;
   if (!flags.no_page) RETURN_IF_ERROR(quality::CheckPageCanBeDrawn());
   ASSIGN_OR_RETURN(const std::vector<quality::AnnotatedLasFile> files, quality::OpenAnnotated(flags.annotated));
@@ -184,7 +184,7 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
   command->add_flag("--json", options->json, "JSON, with every band and every two lines");
   Group(*command, "How points are gathered", {"--patch"});
   Group(*command, "Output", {"--json"});
-  AddSeaFlags(*command, options->flags, kStatedOfWinds);
+  AddSeaFlags(*command, options->flags, kOfWindsAlone);
   EndHelp(
       *command,
       "Lines are distinguished by the point source ID, and by pauses where it is equal.\n"
@@ -243,7 +243,7 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   Group(*command, "How points are gathered", {"--cell", "--patch"});
   Group(*command, "What is reported beside", {"--surface"});
   Group(*command, "Output", {"--output", "--no-page", "--json", "--resume", "--overwrite"});
-  AddSeaFlags(*command, options->flags, kStatedOfWinds);
+  AddSeaFlags(*command, options->flags, kOfWindsAlone);
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"
           "[project] and [datum] name of --survey stand in place of those of the annotation. Where the files were\n"

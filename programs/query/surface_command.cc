@@ -83,7 +83,7 @@ std::vector<quality::SurfaceFormat> FormatsOf(const SurfaceCommandOptions& optio
 absl::StatusOr<quality::SurfacePart> Gather(const SurfaceCommandOptions& options,
                                             const config::SurveySettings& settings,
                                             const std::vector<quality::AnnotatedLasFile>& files, const fs::path& path) {
-  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(settings));
+  ASSIGN_OR_RETURN(const std::optional<annotate::SeaTimeline> seas, GivenSeas(options.flags, settings));
   return quality::GatherPoints(
       files, {.cell = options.cell.value_or(kCell), .seas = seas.has_value() ? &*seas : nullptr, .land = options.land},
       path);
@@ -226,7 +226,7 @@ void AddSurfaceCommand(CLI::App& program, Run& run) {
   command->add_flag("--json", options->json, "Print what surface.json has");
   Group(*command, "How points are gathered", {"--cell", "--land"});
   Group(*command, "Output", {"--output", "--format", "--organisation", "--partial", "--json", "--overwrite"});
-  AddSeaFlags(*command, options->flags, kStatedOfWinds);
+  AddSeaFlags(*command, options->flags, kOfWindsAlone);
   EndHelp(*command,
           "Neighbouring pulses share waves; how much follows from the sea. Where the files were annotated with waves,\n"
           "not with a wind, give these again.\n"

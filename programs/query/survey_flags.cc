@@ -174,7 +174,13 @@ void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs) {
   inputs[annotate::PulseInput::kWindFrom] = Rounded(sea.wind_from);
 }
 
-absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveySettings& settings) {
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags,
+                                                               const SurveySettings& settings) {
+  if (const config::SeaSettings& sea = flags.settings.sea;
+      !settings.sea.has_waves() && (sea.wind_speed.has_value() || sea.wind_from.has_value()))
+    return formats::UsageError(
+        "--wind-speed and --wind-from have no effect without waves, because the files state their wind; leave them "
+        "out");
   std::optional<annotate::SeaTimeline> seas;
   if (settings.sea.has_waves()) {
     ASSIGN_OR_RETURN(seas, annotate::SeaTimeline::Open(settings.sea));

@@ -56,9 +56,10 @@ void TakeWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
 void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
 
 // Of commands that read annotated files: the waves that they were annotated with, given again. Absent where none are
-// given. Of a wind all is in the summaries: these flags are not needed.
-inline constexpr std::array<std::string_view, 3> kStatedOfWinds = {"--fetch", "--wind-speed", "--wind-from"};
-absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const config::SurveySettings& settings);
+// given. Of a wind all is in the summaries: its flags are taken beside waves alone, which have no fetch.
+inline constexpr std::array<std::string_view, 1> kOfWindsAlone = {"--fetch"};
+absl::StatusOr<std::optional<annotate::SeaTimeline>> GivenSeas(const SurveyFlags& flags,
+                                                               const config::SurveySettings& settings);
 
 // The files of the survey, of a sea and of a sensor that flags and settings name, for a check of the outputs.
 std::vector<std::filesystem::path> FilesOf(const SurveyFlags& flags, const config::SurveySettings& settings);

@@ -107,7 +107,7 @@ class AnnotatedLasFile {
   double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
   double metres_per_height_unit() const { return metres_per_height_unit_; }
 
-  // ForEach fails where most points are those of another file.
+  // ForEach fails where points are those of another file.
   void CompareWith(std::shared_ptr<SampledFiles> files) { files_ = std::move(files); }
 
   using Visit = std::function<void(std::span<const AnnotatedPoint>)>;

@@ -75,7 +75,13 @@ struct MadePoints {
   std::vector<AnnotatedPoint> points;
   std::vector<DryPoint> dry;
   LeftOutPoints left_out;
+  bool lacks_covariance = false;  // Some point with a total does.
 };
+
+// Angles without a direction give a total, which is that of the worst direction, and no covariance.
+bool LacksCovariance(const AnnotatedPoint& point) {
+  return IsKnown(point.thu) && IsKnown(point.tvu) && std::isnan(point.beam_azimuth) && std::isnan(point.variance_x);
+}
 
 }  // namespace
 
@@ -123,6 +129,7 @@ class AnnotatedLasFile::PointMaker {
     }
     AnnotatedPoint& point = made.points.emplace_back();
     Read(record, point);
+    made.lacks_covariance |= LacksCovariance(point);
     point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
                        IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
     const auto is_its = [&](const formats::ScannerPoints& scanner) { return scanner.Has(fields_, record); };
@@ -158,6 +165,7 @@ class AnnotatedLasFile::PointMaker {
   void AddDry(std::string_view record, int point_class, MadePoints& made) const {
     AnnotatedPoint dry;
     Read(record, dry);
+    made.lacks_covariance |= LacksCovariance(dry);
     if (!(IsKnown(dry.variance_x) && IsKnown(dry.variance_y) && IsKnown(dry.tvu))) return;
     TakeKnown(dry);
     dry.depth = 0;
@@ -194,7 +202,7 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
     MadePoints made;
     std::vector<PointSample::Point> sample;
   };
-  const auto sample = std::make_shared<PointSample>(header);
+  const auto sample = std::make_shared<PointSample>(header, use_withheld_);
   LeftOutPoints left_out;
   RETURN_IF_ERROR(formats::RunOrderedPipeline(
       [] { return Chunk(); },
@@ -203,14 +211,21 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         return more.ok() ? more : reader_.Named(more.status());
       },
       [&](Chunk& chunk) {
-        chunk.made.points.clear(), chunk.made.dry.clear(), chunk.made.left_out = {};
+        chunk.made.points.clear(), chunk.made.dry.clear();
+        chunk.made.left_out = {}, chunk.made.lacks_covariance = false;
         for (std::size_t i = 0; i < chunk.run.own; ++i)
           maker.Add(std::string_view(chunk.run.records).substr(i * header.record_length, header.record_length),
                     static_cast<bool>(visit_dry), chunk.made);
         if (files_ != nullptr) chunk.sample = sample->Choose(chunk.run.records);
         return absl::OkStatus();
       },
-      [&](Chunk& chunk) {
+      [&](Chunk& chunk) -> absl::Status {
+        if (chunk.made.lacks_covariance)
+          return absl::InvalidArgumentError(absl::StrCat(
+              path_.string(),
+              ": was annotated without the directions of its beams, so that its points have no covariance; annotate "
+              "its "
+              "input again with --trajectory, or give --beam-azimuth or --flight-direction beside the angles"));
         for (const DryPoint& dry : chunk.made.dry) visit_dry(dry);
         visit(chunk.made.points);
         left_out.Add(chunk.made.left_out);

@@ -1,6 +1,7 @@
-// Samples of points, by which files with the same points are noticed: copies of a flight line.
+// Samples of points, by which files with the same points are noticed: copies of a flight line, tiles with buffers.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -17,33 +18,37 @@
 namespace albtpu::quality {
 
 // Points of a file that are chosen by their times alone, or by x where they have none: two files with the same points
-// have the same sample, whatever the order of their points, their classes, flags and heights and their format are, and
-// the samples of a file and of a part of it have points in common.
+// have the same sample, whatever the order of their points, their classes and heights and their format are, and the
+// samples of a file and of a part of it have points in common.
 class PointSample {
  public:
   struct Point {
     std::uint64_t rank;  // Random, but a function of the time.
-    double x, y;
+    double x, y, z;
+    bool has_time;
   };
 
-  explicit PointSample(const formats::LasHeader& header)
-      : fields_(header), record_length_(header.record_length), x_step_(header.scale[0]), y_step_(header.scale[1]) {}
+  // Withheld points are in the sample if they are used.
+  PointSample(const formats::LasHeader& header, bool use_withheld)
+      : fields_(header), record_length_(header.record_length), steps_(header.scale), use_withheld_(use_withheld) {}
 
   // Those of some records that may be in the sample. By any thread.
   std::vector<Point> Choose(std::string_view records) const;
   // Adds them. By one thread at a time.
   void Add(const std::vector<Point>& chosen);
 
-  // Of the points that both samples could have, the share that both have: of the file with fewer of them. 0 if there
-  // are too few to judge.
-  static double CommonShare(const PointSample& a, const PointSample& b);
+  // Of the points that both samples could have, the share that both have, of the file with fewer of them: at the same
+  // times and places, and those of them that have a time and the same height, too. 0 if there are too few to judge.
+  struct Common {
+    double share = 0, identical = 0;
+  };
+  static Common CommonOf(const PointSample& a, const PointSample& b);
 
  private:
-  std::uint64_t Rank(std::string_view record) const;
-
   formats::LasPointFields fields_;
   std::size_t record_length_;
-  double x_step_, y_step_;
+  std::array<double, 3> steps_;  // Of coordinates.
+  bool use_withheld_;
   std::atomic<std::uint64_t> limit_ = UINT64_MAX;  // All points of lower rank are in the sample.
   std::vector<Point> points_;
 };
@@ -51,7 +56,7 @@ class PointSample {
 // The files of a run.
 class SampledFiles {
  public:
-  // Fails where most points of a file are those of another one. By any thread, and again for the same file.
+  // Fails where a file has points of another one. By any thread, and again for the same file.
   absl::Status Add(const std::filesystem::path& path, std::shared_ptr<const PointSample> sample);
 
  private:

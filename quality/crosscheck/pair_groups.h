@@ -48,7 +48,7 @@ struct PairGroup {
 
 struct PairGroups {
   double cell = 0;               // m, the side of the cells, within which the errors of a trajectory are constant.
-  double place = 0;              // m, of places, which share no waves but at their sides: kCellsAlongPlace cells.
+  double place = 0;              // m, of places, which share slopes at their sides alone: kCellsAlongPlace cells.
   std::vector<PairGroup> cells;  // In the order of lines and places.
   std::vector<PairGroup> places;
 };

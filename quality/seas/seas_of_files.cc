@@ -1,21 +1,27 @@
 #include "quality/seas/seas_of_files.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "annotate/seas/sea_facts.h"
 #include "sea/angle.h"
 #include "sea/files/sea_series.h"
 #include "sea/sea_state.h"
 #include "sea/sea_time.h"
 #include "sea/water_index.h"
+#include "status/status_macros.h"
 
 namespace albtpu::quality {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double kSameSea = 1e-6;  // m, s, m/s or degree: of numbers that other machines computed.
 
 std::optional<double> NumberOf(const Json& in, const char* key) {
   const Json number = in.is_object() ? in.value(key, Json()) : Json();
@@ -48,6 +54,35 @@ absl::Status NeedsTheSea(const AnnotatedLasFile& file, const std::string& why) {
       "; give the sea that it was annotated with by --survey, or by the same flags as albtpu-query las was given"));
 }
 
+// Whether the sea is the one that a summary states, by its first record: of other waves, points share another part.
+absl::Status CheckStated(const AnnotatedLasFile& file, const annotate::SeaTimeline& seas, const Json& summary) {
+  const Json stated = MemberOf(summary, "first");
+  if (!stated.is_object()) return absl::OkStatus();
+  std::size_t record = 0;
+  if (!seas.by_time()) {
+    record = seas.fixed().first;
+  } else if (const Json text = MemberOf(stated, "time"); text.is_string()) {
+    const std::optional<double> time = ParseSeaTime(text.get<std::string>());
+    const std::optional<annotate::BetweenRecords> between = time.has_value() ? seas.At(*time) : std::nullopt;
+    if (between.has_value()) record = between->weight < 0.5 ? between->first : between->second;
+  }
+  constexpr double kNoPeriod = std::numeric_limits<double>::infinity();
+  constexpr std::pair<const char*, double> kFacts[] = {
+      {"hs", kNoPeriod},  {"tp", kNoPeriod},   {"axis", 180},           {"wind_speed", kNoPeriod},
+      {"x_azimuth", 360}, {"tail", kNoPeriod}, {"tail_from", kNoPeriod}};
+  const Json given = annotate::Json(annotate::FactsOf(seas, record));
+  for (const auto& [key, period] : kFacts) {
+    const Json then = MemberOf(stated, key), now = MemberOf(given, key);
+    const bool same = then.is_number() && now.is_number()
+                          ? std::abs(std::remainder(then.get<double>() - now.get<double>(), period)) <= kSameSea
+                          : then == now || !stated.contains(key);
+    if (!same)
+      return NeedsTheSea(file, absl::StrCat("was annotated for another sea: its ", key, " is ", then.dump(),
+                                            ", and that of the given one is ", now.dump()));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annotate::SeaTimeline* seas) {
@@ -66,6 +101,7 @@ absl::StatusOr<SeaOfSource> SeaOfFile(const AnnotatedLasFile& file, const annota
     } else {
       record = seas->fixed().weight < 0.5 ? seas->fixed().first : seas->fixed().second;
     }
+    RETURN_IF_ERROR(CheckStated(file, *seas, stated));
     DescribedSea sea = Describe(seas->record(record), seas->settings().description());
     return SeaOfSource{.spectrum = std::move(sea.spectrum), .x_azimuth = sea.x_azimuth, .water_index = index};
   }

@@ -62,7 +62,7 @@ MORE = (
     ("noisy.json", "report", "sloped", "--output", "of_noisy", "--no-page", "--survey", "sloped.toml", "--json"),
     ("alone.json", "report", "annotated/flight_1.las", "--output", "alone", "--no-page", "--json"),
     ("", "las", "lines/flight_1.las", "swell.las", "--survey", "sloped.toml", *WAVES),
-    ("swell.json", "report", "swell.las", "--output", "of_swell", "--no-page", "--survey", "sloped.toml", *WAVES[:-2],
+    ("swell.json", "report", "swell.las", "--output", "of_swell", "--no-page", "--survey", "sloped.toml", *WAVES,
      "--json"),
     ("checkpoints.json", "checkpoints", "annotated", "points.csv", "--radius", "20", "--json"))
 WRITTEN = {

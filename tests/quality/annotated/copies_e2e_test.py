@@ -54,8 +54,8 @@ class Copies(Report):
     def assert_noticed(self, folder, copy, of):
         for command in self.commands(folder):
             with self.subTest(command[0], copy=copy):
-                self.assert_fails(query(*command), 1, f"{copy}: 100 % of its points are those of ", of,
-                                  "give one of the two files")
+                self.assert_fails(query(*command), 1, f"{copy}: has points of ", of,
+                                  "100 % of those of the smaller file", "give one of the two files")
 
     def edited(self, edit):
         """The bytes of the second line after a change of its records, of which it may return fewer."""
@@ -106,7 +106,7 @@ class Copies(Report):
             self.add(path, data, path)
         for command in self.commands(folder):
             with self.subTest(command[0]):
-                self.assertNotIn("points are those of", query(*command, check=0).stderr)
+                self.assertNotIn("has points of", query(*command, check=0).stderr)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,13 @@
 #include "quality/annotated/point_sample.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/formats/las/las_builder.h"
@@ -34,14 +37,14 @@ LasSpec Line(int seed, int pulses = 20000) {
 std::shared_ptr<const PointSample> SampleOf(const LasSpec& spec) {
   const std::string file = BuildLas(spec);
   const absl::StatusOr<formats::LasHeader> header = formats::ParseLasHeader("in.las", file, file.size());
-  auto sample = std::make_shared<PointSample>(*header);
+  auto sample = std::make_shared<PointSample>(*header, false);
   const std::string_view records = std::string_view(file).substr(header->offset_to_points);
   for (std::size_t at = 0; at < records.size(); at += 1000 * header->record_length)
     sample->Add(sample->Choose(records.substr(at, 1000 * header->record_length)));
   return sample;
 }
 
-double Common(const LasSpec& a, const LasSpec& b) { return PointSample::CommonShare(*SampleOf(a), *SampleOf(b)); }
+double Common(const LasSpec& a, const LasSpec& b) { return PointSample::CommonOf(*SampleOf(a), *SampleOf(b)).share; }
 
 TEST(PointSample, OfACopyIsTheSameWhateverItsOrderClassesHeightsAndFormatAre) {
   const LasSpec line = Line(1);
@@ -107,8 +110,53 @@ TEST(SampledFiles, NameTheFileWhosePointsAreThoseOfAnother) {
   EXPECT_TRUE(files.Add("b.las", SampleOf(Line(2))).ok());
   EXPECT_TRUE(files.Add("a.las", SampleOf(Line(1))).ok());  // Read again.
   EXPECT_EQ(files.Add("c.laz", SampleOf(Line(2))).message(),
-            "c.laz: 100 % of its points are those of b.las, at the same times and places; give one of the two files, "
-            "because these points would count twice");
+            "c.laz: has points of b.las, at the same times and places: 100 % of those of the smaller file, which would "
+            "count twice; give one of the two files");
+}
+
+// Parts of one line, to x and from x [mm].
+std::pair<LasSpec, LasSpec> Tiles(int to, int from) {
+  LasSpec west = Line(1), east = west;
+  std::erase_if(west.points, [&](const LasPoint& point) { return point.x > to; });
+  std::erase_if(east.points, [&](const LasPoint& point) { return point.x < from; });
+  return {west, east};
+}
+
+TEST(SampledFiles, NameTilesWithBuffers) {
+  const auto [west, east] = Tiles(55'000, 45'000);
+  SampledFiles files;
+  EXPECT_TRUE(files.Add("west.las", SampleOf(west)).ok());
+  const std::string message(files.Add("east.las", SampleOf(east)).message());
+  EXPECT_THAT(message, ::testing::HasSubstr("east.las: has points of west.las"));
+  EXPECT_THAT(message, ::testing::HasSubstr("where these are tiles with buffers, remove the points of the buffers"));
+}
+
+TEST(SampledFiles, TakeTilesThatHaveAnEdgeInCommon) {
+  const auto [west, east] = Tiles(50'050, 49'950);
+  SampledFiles files;
+  EXPECT_TRUE(files.Add("west.las", SampleOf(west)).ok());
+  EXPECT_TRUE(files.Add("east.las", SampleOf(east)).ok());
+}
+
+TEST(SampledFiles, TakeTilesWhoseBuffersAreWithheld) {
+  auto [west, east] = Tiles(55'000, 45'000);
+  for (LasPoint& point : east.points) point.withheld = point.x <= 55'000;
+  SampledFiles files;
+  EXPECT_TRUE(files.Add("west.las", SampleOf(west)).ok());
+  EXPECT_TRUE(files.Add("east.las", SampleOf(east)).ok());
+}
+
+// Two receivers of the same pulses have the same times and places of some points, at heights of their own.
+TEST(SampledFiles, TakeAFewPointsOfTheSameTimesAndPlacesAtOtherHeights) {
+  LasSpec other = Line(2);
+  const LasSpec line = Line(1);
+  for (std::size_t i = 0; i < line.points.size(); i += 10) {
+    other.points[i] = line.points[i];
+    other.points[i].z += 50;
+  }
+  SampledFiles files;
+  EXPECT_TRUE(files.Add("line.las", SampleOf(line)).ok());
+  EXPECT_TRUE(files.Add("other.las", SampleOf(other)).ok());
 }
 
 }  // namespace

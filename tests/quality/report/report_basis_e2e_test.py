@@ -3,6 +3,7 @@ for its points and those that hold for land, and the annotations of its files.""
 
 import json
 import pathlib
+import re
 import shutil
 import sys
 
@@ -194,12 +195,37 @@ class Sea(Basis):
         checked = json.loads(query("crosscheck", folder, "--json", "--survey", survey, check=0).stdout)
         self.assertEqual({key: by_survey["crosscheck"][key] for key in checked}, checked)
         # Waves are a part of what a report is made from.
-        for again, said in ((flags, True), ((*flags, "--tail", "none"), False)):
+        for again, said in ((flags, True), ((), False)):
             stderr = query("report", folder, "--output", self.folder / "report", "--no-page", "--resume", *again,
                            check=0).stderr
             self.assertEqual("already" in stderr, said, again)
-        result = query("report", self.annotated, "--output", self.folder / "of_winds", "--no-page", *flags)
-        self.assert_fails(result, 1, "was annotated for a wind, not for the waves that are given")
+        of_other = self.folder / "of_other"
+        for annotated, given, message in (
+                (self.annotated, flags, "was annotated for a wind, not for the waves that are given"),
+                (folder, (*flags, "--tail", "none"), 'its tail is "relax", and that of the given one is "none"'),
+                (folder, ("--hs", 0.5, "--tp", 3, "--waves-from", 250), "its hs is 0.4, and that of the given one is"),
+                (folder, (*flags, "--wind-speed", 9), "was annotated for another sea: its wind_speed")):
+            result = query("report", annotated, "--output", of_other, "--no-page", *given)
+            self.assert_fails(result, 1, message)
+        result = query("report", folder, "--output", of_other, "--no-page", "--wind-speed", 5)
+        self.assert_fails(result, 2, "--wind-speed and --wind-from have no effect without waves")
+
+
+class Directions(Basis):
+    def test_are_wanted(self):
+        survey, folder = self.folder / "angles.toml", self.folder / "angles"
+        survey.write_text(re.sub(r"\[trajectory\]\n.*\n.*\n", "", reported_survey.SURVEY.format(
+            flight=self.flight, datum=0.05, coverage="p95").replace("wind_from = 250\n", "")))
+        folder.mkdir()
+        query("las", self.flight, "--output-dir", folder, "--survey", survey, "--table", self.one_table,
+              "--incidence", 20, "--altitude", 400, check=0)
+        points = self.folder / "points.csv"
+        points.write_text("x,y,elevation\n500000,4000000,-5\n")
+        for command in (("report", folder, "--output", self.folder / "report", "--no-page"), ("crosscheck", folder),
+                        ("surface", folder, "--output", self.folder / "surface"), ("checkpoints", folder, points)):
+            with self.subTest(command[0]):
+                self.assert_fails(query(*command), 1, "was annotated without the directions of its beams",
+                                  "give --beam-azimuth or --flight-direction")
 
 
 if __name__ == "__main__":
