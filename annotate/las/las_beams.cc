@@ -28,8 +28,9 @@ bool UsesTimes(const LasAnnotation& annotation) {
   return annotation.plan.has_track() || annotation.plan.water_levels != nullptr || GoesByTime(annotation);
 }
 
+// Without a few times far from all others.
 formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
-  return {.span = {prescan.first_time, prescan.last_time},
+  return {.span = prescan.tally.Bulk().value_or(formats::TimeSpan{prescan.first_time, prescan.last_time}),
           .form = reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
                                                     : formats::PointTimeForm::kWeekSeconds,
           .created = formats::GpsTimeOfDay(reader.header().creation_year, reader.header().creation_day),
@@ -98,22 +99,15 @@ formats::ClockReading ReadingOf(const FileTrack& track) {
 }  // namespace
 
 absl::StatusOr<FileTrack> LasBeams::TrackOf(const TrackedFile& file, const BeamPlan& plan) {
-  const auto track_of = [&](const TrackedFile& given) {
-    return std::holds_alternative<TrajectoryFromFiles>(plan.source)
-               ? TrackFromFiles(given, plan)
-               : TrackFromReturns(given, plan.refractive_index, seconds_);
-  };
-  absl::StatusOr<FileTrack> track = track_of(file);
-  const std::optional<formats::TimeSpan> bulk = prescan_.tally.Bulk();
-  if (track.ok() || !bulk.has_value()) return track;
-  TrackedFile others = file;
-  others.times.span = *bulk;
-  track = track_of(others);
-  if (!track.ok()) return track;
-  track->notes.push_back(absl::StrFormat(
-      "%d points have GPS times a month or more from those of all others (%g to %g in a file of %.1f "
-      "to %.1f): they have no trajectory, like points without a time",
-      prescan_.tally.outside_of_bulk(), file.times.span.first, file.times.span.last, bulk->first, bulk->last));
+  absl::StatusOr<FileTrack> track = std::holds_alternative<TrajectoryFromFiles>(plan.source)
+                                        ? TrackFromFiles(file, plan)
+                                        : TrackFromReturns(file, plan.refractive_index, seconds_);
+  if (!track.ok() || !prescan_.tally.Bulk().has_value()) return track;
+  track->notes.push_back(
+      absl::StrFormat("%d points have GPS times a month or more from those of all others (%g to %g in a file of %.1f "
+                      "to %.1f): they have no trajectory, like points without a time",
+                      prescan_.tally.outside_of_bulk(), prescan_.first_time, prescan_.last_time, file.times.span.first,
+                      file.times.span.last));
   return track;
 }
 
@@ -182,14 +176,13 @@ absl::Status LasBeams::FindLevels(const formats::LasReader& reader, const BeamPl
   return absl::OkStatus();
 }
 
-absl::StatusOr<formats::UtcClock> LasBeams::ClockOfSea(const formats::LasReader& reader, const std::string& sea,
-                                                       const formats::TimeSpan& known) {
+absl::StatusOr<formats::UtcClock> LasBeams::ClockOfSea(const std::string& name, const formats::PointTimes& times,
+                                                       const std::string& sea, const formats::TimeSpan& known) {
   std::string note;
-  ASSIGN_OR_RETURN(const formats::UtcClock clock,
-                   formats::FindUtcClock(reader.name(), TimesOf(reader, prescan_), choice_, known, sea, note));
+  ASSIGN_OR_RETURN(const formats::UtcClock clock, formats::FindUtcClock(name, times, choice_, known, sea, note));
   AddNote(note);
-  const double adjusted = formats::GpsOfUtc(clock(prescan_.first_time)) - formats::kAdjustedGpsOffset;
-  readings_.push_back({.of = sea, .scale = clock.scale, .shift = adjusted - clock.scale * prescan_.first_time});
+  const double adjusted = formats::GpsOfUtc(clock(times.span.first)) - formats::kAdjustedGpsOffset;
+  readings_.push_back({.of = sea, .scale = clock.scale, .shift = adjusted - clock.scale * times.span.first});
   return clock;
 }
 
@@ -199,8 +192,9 @@ absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimel
     return CheckOnlyRecord(reader, seas);
   }
   if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a sea.
-  ASSIGN_OR_RETURN(utc_, ClockOfSea(reader, *seas.settings().file, {seas.start(), seas.end()}));
-  records_ = seas.RecordsWithin(utc_(prescan_.first_time), utc_(prescan_.last_time));
+  const formats::PointTimes times = TimesOf(reader, prescan_);
+  ASSIGN_OR_RETURN(utc_, ClockOfSea(reader.name(), times, *seas.settings().file, {seas.start(), seas.end()}));
+  records_ = seas.RecordsWithin(utc_(times.span.first), utc_(times.span.last));
   return absl::OkStatus();
 }
 
@@ -208,7 +202,11 @@ absl::Status LasBeams::CheckOnlyRecord(const formats::LasReader& reader, const S
   const std::optional<double> time = seas.unchosen_time();
   if (!time.has_value() || !(prescan_.first_time <= prescan_.last_time)) return absl::OkStatus();
   const formats::TimeSpan near = {*time - seas.longest_gap(), *time + seas.longest_gap()};
-  return ClockOfSea(reader, *seas.settings().file, near).ok() ? absl::OkStatus() : NotOfOnlyRecord(reader.name(), seas);
+  const formats::PointTimes times = formats::Continued(TimesOf(reader, prescan_));
+  const absl::StatusOr<formats::UtcClock> utc = ClockOfSea(reader.name(), times, *seas.settings().file, near);
+  return utc.ok() && (*utc)(times.span.first) >= near.first && (*utc)(times.span.last) <= near.last
+             ? absl::OkStatus()
+             : NotOfOnlyRecord(reader.name(), formats::DescribePointTimes(times), seas);
 }
 
 void LasBeams::NoteLevel() {

@@ -54,8 +54,8 @@ class LasBeams {
   void FindClock(const formats::LasReader& reader, const LasAnnotation& annotation);
   absl::Status FindLevels(const formats::LasReader& reader, const BeamPlan& plan);
   absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
-  absl::StatusOr<formats::UtcClock> ClockOfSea(const formats::LasReader& reader, const std::string& sea,
-                                               const formats::TimeSpan& known);
+  absl::StatusOr<formats::UtcClock> ClockOfSea(const std::string& name, const formats::PointTimes& times,
+                                               const std::string& sea, const formats::TimeSpan& known);
   // That the only record of a sea, which nobody chose for its time, is of the time of the points.
   absl::Status CheckOnlyRecord(const formats::LasReader& reader, const SeaTimeline& seas);
   // Place and first pass, again if the points show that the header had put the place elsewhere.

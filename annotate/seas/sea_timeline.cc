@@ -173,12 +173,12 @@ std::pair<std::size_t, std::size_t> SeaTimeline::RecordsWithin(double first, dou
   return {begin, end};
 }
 
-absl::Status NotOfOnlyRecord(const std::string& name, const SeaTimeline& seas) {
+absl::Status NotOfOnlyRecord(const std::string& name, const std::string& times, const SeaTimeline& seas) {
   const std::string time = SeaTimeText(*seas.unchosen_time());
   return absl::FailedPreconditionError(absl::StrFormat(
-      "%s: its points were not measured within %g h of %s, the time of the only record of %s; give the sea of their "
-      "time, or take this one all the same by --sea-time %s",
-      name, seas.longest_gap() / kSecondsPerHour, time, *seas.settings().file, time));
+      "%s: its points were not all measured within %g h of %s, the time of the only record of %s (they have %s); give "
+      "the sea of their time, or take this one all the same by --sea-time %s",
+      name, seas.longest_gap() / kSecondsPerHour, time, *seas.settings().file, times, time));
 }
 
 std::string SpanText(const SeaTimeline& seas) {

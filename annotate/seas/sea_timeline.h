@@ -68,7 +68,7 @@ class SeaTimeline {
 };
 
 // That points of `name` were not measured at the time of the only record. Requires seas.unchosen_time().
-absl::Status NotOfOnlyRecord(const std::string& name, const SeaTimeline& seas);
+absl::Status NotOfOnlyRecord(const std::string& name, const std::string& times, const SeaTimeline& seas);
 
 // "from 2020-06-01T00:50Z to 2020-06-08T03:50Z"
 std::string SpanText(const SeaTimeline& seas);

@@ -28,15 +28,22 @@ TimeSpan SpanOf(const DatedClock& clock, const TimeSpan& stated) { return {clock
 // Seconds of the week that start again from 0 where the next one begins.
 bool BeginAgain(const PointTimes& points) {
   const TimeSpan& span = points.span;
-  return points.form == PointTimeForm::kWeekSeconds && span.first >= 0 &&
-         span.last <= kSecondsPerWeek + kSecondsPerDay && span.last - span.first > kSecondsPerWeek / 2;
+  return points.form == PointTimeForm::kWeekSeconds && MayBeOfWeek(span) &&
+         span.last - span.first > kSecondsPerWeek / 2;
 }
 
 std::vector<PointClock> ChosenClocks(const PointTimes& points, const ClockChoice& choice) {
   if (choice.of_track.has_value()) return {*choice.of_track};
   std::vector<PointClock> clocks = ClocksOf(points, choice.format);
-  if (choice.format == TimeFormat::kAuto && IsHeaderPlausible(points)) clocks.resize(1);
+  if (choice.format != TimeFormat::kAuto) return clocks;
+  if (IsHeaderPlausible(points)) clocks.resize(1);
+  if (MayBeOfWeek(points.span)) std::erase_if(clocks, [](const PointClock& each) { return each.scale != 1; });
   return clocks;
+}
+
+// Seconds of a day that start again from 0 at midnight.
+bool BeginAgainAtMidnight(const PointClock& clock, const PointTimes& points) {
+  return clock.is_of_day() && clock.scale * (points.span.last - points.span.first) > kHalfDay;
 }
 
 std::vector<DatedClock> FittingClocks(const PointTimes& points, const ClockChoice& choice, const TimeSpan& known) {
@@ -49,6 +56,7 @@ std::vector<DatedClock> FittingClocks(const PointTimes& points, const ClockChoic
   for (const PointClock& clock : ChosenClocks(points, choice)) {
     // Nothing that has dates changes within the seconds between UTC and GPS.
     if (choice.is_open() && clock.format == TimeFormat::kUtcDay) continue;
+    if (BeginAgainAtMidnight(clock, points)) continue;
     if (clock.form == PointTimeForm::kAdjustedStandard) {
       add(clock, clock.shift);
       continue;
@@ -97,11 +105,11 @@ std::string ReadingText(const ClockReading& reading, double stated) {
   return absl::StrCat(InstantText(time + kAdjustedGpsOffset), " by ", reading.of);
 }
 
-bool AreSame(const ClockReading& a, const ClockReading& b, double stated) {
-  double apart = a(stated) - b(stated);
-  if (a.form == PointTimeForm::kAdjustedStandard && b.form == PointTimeForm::kAdjustedStandard)
+bool AreSame(const ClockReading& a, const ClockReading& b, const PointTimes& points) {
+  double apart = a(points.span.first) - b(points.span.first);
+  if (a.form == PointTimeForm::kAdjustedStandard && b.form == PointTimeForm::kAdjustedStandard && !BeginAgain(points))
     return std::abs(apart) <= kSameInstant;
-  // One of them does not name its week.
+  // One of them does not name its week, or the points have two.
   if (a.form == PointTimeForm::kAdjustedStandard) apart += kAdjustedGpsOffset;
   if (b.form == PointTimeForm::kAdjustedStandard) apart -= kAdjustedGpsOffset;
   return std::abs(std::remainder(apart, kSecondsPerWeek)) <= kSameInstant;
@@ -109,10 +117,19 @@ bool AreSame(const ClockReading& a, const ClockReading& b, double stated) {
 
 }  // namespace
 
-std::string ChoiceText(const ClockChoice& choice) {
-  if (choice.of_track.has_value())
-    return absl::StrCat("the times are ", choice.of_track->description, ", as the trajectory has them");
-  return absl::StrCat("--time-format ", NameOf(choice.format), " is right");
+std::string ChoiceText(const ClockChoice& choice, const PointTimes& points) {
+  const std::vector<PointClock> clocks = ChosenClocks(points, choice);
+  const bool begin_again =
+      std::ranges::any_of(clocks, [&](const PointClock& clock) { return BeginAgainAtMidnight(clock, points); });
+  return absl::StrCat(choice.of_track.has_value()
+                          ? absl::StrCat("the times are ", choice.of_track->description, ", as the trajectory has them")
+                          : absl::StrCat("--time-format ", NameOf(choice.format), " is right"),
+                      begin_again ? " (by which they begin again from 0 at midnight)" : "");
+}
+
+PointTimes Continued(PointTimes points) {
+  if (BeginAgain(points)) points.span = {points.span.last, points.span.first + kSecondsPerWeek};
+  return points;
 }
 
 absl::Status CheckReadingsAgree(const std::string& name, const PointTimes& points,
@@ -120,7 +137,7 @@ absl::Status CheckReadingsAgree(const std::string& name, const PointTimes& point
   const double first = points.span.first;
   for (std::size_t i = 1; i < readings.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (AreSame(readings[k], readings[i], first)) continue;
+      if (AreSame(readings[k], readings[i], points)) continue;
       return absl::FailedPreconditionError(
           absl::StrCat(name, ": its first point is at ", ReadingText(readings[k], first), ", but at ",
                        ReadingText(readings[i], first),
@@ -233,7 +250,7 @@ absl::StatusOr<UtcClock> FindUtcClock(const std::string& name, const PointTimes&
   if (!found->has_value()) {
     if (choice.keeps_header()) return stated.status();
     return absl::FailedPreconditionError(absl::StrCat(name, ": its points were measured outside of ", of, " if ",
-                                                      ChoiceText(choice),
+                                                      ChoiceText(choice, points),
                                                       "; give the sea of that time, or another format"));
   }
   const double first = (**found)(points.span.first);

@@ -34,16 +34,20 @@ struct ClockChoice {
 };
 
 // "--time-format day is right", "the times are seconds of the day, a Wednesday, as the trajectory has them"
-std::string ChoiceText(const ClockChoice& choice);
+std::string ChoiceText(const ClockChoice& choice, const PointTimes& points);
+
+// Seconds of the week that start again from 0 where the next one begins become those that continue beyond its end.
+PointTimes Continued(PointTimes points);
 
 // Of the clocks by which half of the points' time or more lies within `known`, adjusted standard GPS times of what `of`
 // names: the one that is meant. Times that do not name their week or day have one for each that fits. The clock that
 // the header states, or that the user names, comes before all others, and seconds come before milliseconds; where it is
-// plausible (IsHeaderPlausible), no other one counts unless the trajectory has it. Of several,
-// those count that are not later than the creation of the file, and of these the one of that day; a creation before all
-// of them says nothing. nullopt where none fits, and where seconds of the week begin again from 0. The error lists
-// those that remain where they are several. `note` says what was found unless it is what header, user or trajectory
-// say, and is empty then.
+// plausible (IsHeaderPlausible), no other one counts unless the trajectory has it, and neither do milliseconds of what
+// may be seconds of the week, of which a thousandth is a time of any day. Seconds of a day of more than half a day
+// begin again at midnight, and have no date. Of several, those count that are not later than the creation of the file,
+// and of these the one of that day; a creation before all of them says nothing. nullopt where none fits, and where
+// seconds of the week begin again from 0. The error lists those that remain where they are several. `note` says what
+// was found unless it is what header, user or trajectory say, and is empty then.
 absl::StatusOr<std::optional<DatedClock>> FindDatedClock(const PointTimes& points, const ClockChoice& choice,
                                                          const TimeSpan& known, const std::string& of,
                                                          std::string& note);

@@ -38,11 +38,11 @@ PointClock Adjusted(TimeFormat format, double scale, double shift, std::string d
 }
 
 // Those of times of which one is `scale` seconds; `span` is in seconds. Clocks whose dates no survey has are left out.
-void AddClocks(const TimeSpan& span, double scale, double leap_seconds, std::vector<PointClock>& clocks) {
+void AddClocks(const TimeSpan& span, double scale, double leap_seconds, bool named, std::vector<PointClock>& clocks) {
   const bool seconds = scale == 1;
   const std::string unit = seconds ? "seconds" : "milliseconds";
   const auto format = [&](TimeFormat in_seconds) { return seconds ? in_seconds : TimeFormat::kMilliseconds; };
-  if (IsWithin(span, 0, kLastOfWeek)) {
+  if (MayBeOfWeek(span)) {
     clocks.push_back(
         {format(TimeFormat::kWeek), scale, 0, PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the GPS week")});
   }
@@ -59,7 +59,8 @@ void AddClocks(const TimeSpan& span, double scale, double leap_seconds, std::vec
     clocks.push_back(
         Adjusted(format(TimeFormat::kUnix), scale, leap - kGpsEpoch - kAdjustedGpsOffset, absl::StrCat("Unix ", unit)));
   }
-  if (!IsOfDay(span)) return;
+  // Seconds of a day that continue beyond its end are seconds of another day of the week, too.
+  if (!(IsOfDay(span) || (named && IsWithin(span, 0, kLastOfDay)))) return;
   for (std::size_t day = 0; day < kDays.size(); ++day) {
     clocks.push_back({format(TimeFormat::kDay), scale, kSecondsPerDay * static_cast<double>(day),
                       PointTimeForm::kWeekSeconds, absl::StrCat(unit, " of the day, a ", std::string(kDays[day]))});
@@ -77,6 +78,8 @@ bool ReadsAlike(const PointClock& a, const PointClock& b) {
 
 }  // namespace
 
+bool MayBeOfWeek(const TimeSpan& stated) { return IsWithin(stated, 0, kLastOfWeek); }
+
 bool MayBeOfDay(const TimeSpan& stated) { return IsOfDay(stated) && stated.last - stated.first <= kSecondsPerDay; }
 
 bool IsHeaderPlausible(const PointTimes& stated) {
@@ -84,7 +87,7 @@ bool IsHeaderPlausible(const PointTimes& stated) {
   // The date of the header is that of some place, up to half a day from UTC.
   const double latest = *stated.created + 1.5 * kSecondsPerDay;
   return IsWithin(stated.span, kEarliest - kAdjustedGpsOffset, latest - kAdjustedGpsOffset) &&
-         !IsWithin(stated.span, 0, kLastOfWeek);
+         !MayBeOfWeek(stated.span);
 }
 
 std::string HourText(double seconds) {
@@ -105,11 +108,12 @@ std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format, st
   std::vector<PointClock> possible;
   if (!date.has_value()) date = stated.created;
   const double leap_seconds = date.has_value() ? *date + kGpsEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
-  AddClocks(stated.span, 1, leap_seconds, possible);
+  const bool named = format != TimeFormat::kAuto;
+  AddClocks(stated.span, 1, leap_seconds, named, possible);
   const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
   const double duration = std::max(milliseconds.last - milliseconds.first, kShortest);
   if (static_cast<double>(stated.count) <= kMostReturns * duration)
-    AddClocks(milliseconds, kMillisecond, leap_seconds, possible);
+    AddClocks(milliseconds, kMillisecond, leap_seconds, named, possible);
   std::vector<PointClock> clocks;
   if (format == TimeFormat::kAuto) clocks.push_back({TimeFormat::kAuto, 1, 0, stated.form, Describe(stated.form)});
   for (PointClock& clock : possible) {

@@ -34,12 +34,14 @@ struct PointClock {
 // The clocks by which `stated` can be read. kAuto: the one that the header states first, in whatever way, then each
 // other one by which the points have a date between 1990 and 2060, are seconds of the week or of one of its days. Other
 // formats: that one alone, which is several for seconds of a day and for milliseconds. Seconds of a day begin within
-// it, and milliseconds are left out where no scanner has so many returns in their time. `date`: a GPS time since 1980
-// near those of the points, where it is known, whose leap seconds are theirs; else those at the creation of the file,
-// or of today.
+// it unless the format names them, and milliseconds are left out where no scanner has so many returns in their time.
+// `date`: a GPS time since 1980 near those of the points, where it is known, whose leap seconds are theirs; else those
+// at the creation of the file, or of today.
 std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format,
                                  std::optional<double> date = std::nullopt);
 
+// Whether times may be seconds of the week, those of a flight that ends in the next one included.
+bool MayBeOfWeek(const TimeSpan& stated);
 // Whether times may be seconds of a day, as long as a flight is.
 bool MayBeOfDay(const TimeSpan& stated);
 

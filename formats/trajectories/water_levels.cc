@@ -103,8 +103,9 @@ std::string WaterLevelSeries::TimesText() const {
 }
 
 std::optional<ClockReading> WaterLevelSeries::ReadingOf(const PointTimes& points) const {
-  if (!has_dates_ || crosses_week_ || !HasLevelsAt(points.span)) return std::nullopt;
-  return ClockReading{.of = name_, .scale = scale_, .shift = shift_ + week_};
+  if (!has_dates_ || !HasLevelsAt(points.span)) return std::nullopt;
+  const double first = points.span.first, time = Continued(first);
+  return ClockReading{.of = name_, .scale = scale_, .shift = time - scale_ * first + week_};
 }
 
 absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& points, const ClockChoice& choice,
@@ -160,8 +161,7 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points,
     ASSIGN_OR_RETURN(WaterLevelSeries read, ByNumbers(points, choice, note));
     return noted(std::move(read));
   }
-  if (stated.ok() && choice.keeps_header() && (stated->crosses_week_ || stated->HasLevelsAt(points.span)))
-    return noted(*std::move(stated));
+  if (stated.ok() && choice.keeps_header() && stated->HasLevelsAt(points.span)) return stated;
   // Dates of more than a week are an error of seconds of a week alone.
   const absl::StatusOr<std::optional<DatedClock>> clock = FindDatedClock(points, choice, {start(), end()}, name_, note);
   if (!clock.ok()) {
@@ -175,7 +175,7 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points,
       return noted(*std::move(stated));
     }
     return absl::FailedPreconditionError(absl::StrCat(name_, ": has no level at the times of the points if ",
-                                                      ChoiceText(choice),
+                                                      ChoiceText(choice, points),
                                                       "; give the levels of that time, or another --time-format"));
   }
   WaterLevelSeries series = *this;

@@ -133,6 +133,37 @@ TEST(DatedClock, IsOfADayOnlyWithinIt) {
               HasSubstr("measured outside of sea.csv"));
 }
 
+TEST(DatedClock, IsNotInMillisecondsOfWhatMayBeSecondsOfTheWeek) {
+  // Half an hour of Wednesday afternoon, of which a thousandth is 6 minutes after any midnight.
+  PointTimes points = HalfHourOfWeek(kOfWeek);
+  for (const PointTimeForm form : {PointTimeForm::kWeekSeconds, PointTimeForm::kAdjustedStandard}) {
+    points.form = form;
+    EXPECT_THAT(ErrorOfClock(points, Span("2016-05-10T23:00Z", "2016-05-11T02:00Z")),
+                HasSubstr("measured outside of sea.csv"));
+  }
+}
+
+// A flight over midnight in UTC, of which only a part has the day of the first point.
+TEST(DatedClock, IsNoneWhereSecondsOfTheDayBeginAgain) {
+  const PointTimes points = {{5, 86395}, PointTimeForm::kWeekSeconds, GpsTimeOfDay(2016, 132)};
+  std::string note;
+  for (const TimeFormat format : {TimeFormat::kDay, TimeFormat::kUtcDay}) {
+    const absl::StatusOr<UtcClock> clock = Find(points, Span("2016-05-11T00:00Z", "2016-05-13T00:00Z"), note, format);
+    EXPECT_THAT(std::string(clock.status().message()), HasSubstr("by which they begin again from 0 at midnight"));
+  }
+}
+
+TEST(DatedClock, IsOfADayThatContinuesOnlyWhereTheUserNamesIt) {
+  // 10:00 of the day after.
+  const PointTimes points = HalfHourOfWeek(122400, GpsTimeOfDay(2016, 132));
+  const TimeSpan known = Span("2016-05-12T09:00Z", "2016-05-12T12:00Z");
+  std::string note;
+  EXPECT_FALSE(Find(points, known, note).ok());
+  const absl::StatusOr<UtcClock> clock = Find(points, known, note, TimeFormat::kDay);
+  ASSERT_TRUE(clock.ok()) << clock.status();
+  EXPECT_NEAR((*clock)(122400), kUnix + 20 * 3600 - 17, 1e-6);
+}
+
 TEST(ClockReading, AgreesWithThoseOfOtherSources) {
   const PointTimes points = HalfHourOfWeek(kOfDay, GpsTimeOfDay(2016, 132));
   const double wednesday = 1896 * kSecondsPerWeek + 3 * 86400 - kAdjustedGpsOffset;
@@ -157,6 +188,10 @@ TEST(ClockReading, AgreesWithThoseOfOtherSources) {
   EXPECT_THAT(CreationNote(points, std::vector{track, later}),
               ::testing::AllOf(HasSubstr("measured at 2017-05-10T"),
                                HasSubstr("by later.csv, after their file was created on 2016-05-11 by its header")));
+  // Points of two weeks have two beginnings.
+  EXPECT_TRUE(
+      CheckReadingsAgree("in.las", {{0, kSecondsPerWeek - 1}, PointTimeForm::kWeekSeconds}, std::vector{levels, later})
+          .ok());
 }
 
 TEST(DatedClock, DoesNotBeginAgain) {

@@ -83,6 +83,39 @@ TEST(WaterLevelsFor, ReadsTheTimesOfThePointsByWhatFits) {
   EXPECT_THAT(std::string(other.status().message()), HasSubstr("if --time-format unix is right"));
 }
 
+// Levels from Friday to Monday.
+std::filesystem::path WriteOverTheEndOfAWeek(const TemporaryFolder& folder) {
+  std::string text = "time,water_level\n";
+  for (int day = 13; day <= 16; ++day)
+    for (int hour = 0; hour < 24; ++hour) absl::StrAppendFormat(&text, "2016-05-%02dT%02d:00:00Z,%d\n", day, hour, day);
+  return folder.Write("tide.csv", text);
+}
+
+TEST(WaterLevelsFor, ReadsTheTimesOfThePointsByWhatFitsOverTheEndOfAWeek) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = WriteOverTheEndOfAWeek(folder);
+  constexpr double kSaturday = 1463227200 + 7200 - 315964800 + 17 - 1e9;  // 2016-05-14T14:00:00Z, adjusted.
+  std::string note;
+  const auto levels = Find(path, {{kSaturday, kSaturday + 60}, kWeekSeconds}, TimeFormat::kAuto, note);
+  ASSERT_TRUE(levels.ok()) << levels.status();
+  EXPECT_EQ(levels->At(kSaturday), 14);
+  EXPECT_THAT(note, HasSubstr("--time-format adjusted says so"));
+}
+
+TEST(WaterLevelsReadingOf, NamesTheWeekOfThePoints) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = WriteOverTheEndOfAWeek(folder);
+  constexpr double kBegin = 1896 * kSecondsPerWeek - kAdjustedGpsOffset;  // 2016-05-08
+  std::string note;
+  for (const auto& [first, weeks] : {std::pair(5 * 86400 + 7200.0, 0), {604790.0, 0}, {7200.0, 1}}) {
+    const PointTimes points = {{first, first + 60}, kWeekSeconds};
+    const auto levels = Find(path, points, TimeFormat::kAuto, note);
+    const std::optional<ClockReading> reading = levels->ReadingOf(points);
+    ASSERT_TRUE(reading.has_value()) << first;
+    EXPECT_NEAR((*reading)(first), kBegin + weeks * kSecondsPerWeek + first, 1e-6);
+  }
+}
+
 TEST(WaterLevelsFor, TakesTheWeekOfTheCreationOfThePoints) {
   constexpr double kOfWeek = 4 * 86400 + 600 + 17;
   const TemporaryFolder folder;

@@ -109,8 +109,37 @@ class DatedClocksTest(ClockedSurvey):
             if fits:
                 self.assertEqual(result.returncode, 0, result.stderr)
                 continue
-            self.assert_fails(result, 1, "not measured within 3 h of ", "the only record of", "by --sea-time")
+            self.assert_fails(result, 1, "not all measured within 3 h of ", "the only record of", "by --sea-time")
             self.assertEqual(self.without_trajectory(self.survey.las, *flags, "--sea-time", at).returncode, 0)
+
+    def test_the_only_record_of_a_sea_is_of_all_points(self):
+        """But for a few whose times are far from all others."""
+        flight = round(self.unix_times().min())
+        middle = np.median(self.unix_times()) - UNIX_EPOCH + 18  # GPS seconds since 1980
+        year = 365 * 86400
+        for name, change, bit, at, fits in (
+                ("half", lambda i, t: self.gps(t) - 1e9 - year * (i % 2), 1, flight, False),
+                ("stray", lambda i, t: self.gps(t) - 1e9 - year * (i == 7), 1, flight, True),
+                ("stray_of_week", lambda i, t: 3e8 if i == 7 else self.gps(t) % WEEK, 0, flight, True),
+                # Over the end of the week in which seconds begin again.
+                ("again", lambda i, t: (self.gps(t) - middle) % WEEK, 0, flight - middle % WEEK + WEEK, True)):
+            with self.subTest(name):
+                sea = self.write_sea(at, 0)
+                result = self.without_trajectory(self.with_times(f"{name}.las", change, bit), "--water-level",
+                                                 self.survey.water_level, "--sea", sea, "--wind-speed", 6)
+                if fits:
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                else:
+                    self.assert_fails(result, 1, "not all measured within 3 h of ")
+
+    def test_seconds_of_the_week_are_not_taken_for_milliseconds(self):
+        """Of which a thousandth is some minutes after any midnight."""
+        midnight = self.unix_times().min() // 86400 * 86400
+        las = self.with_times("week.las", lambda _, t: self.gps(t) % WEEK, 0)
+        result = self.without_trajectory(las, "--water-level", self.write_levels_around(midnight), "--wind-speed", 6,
+                                         "--table", self.table)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("tide.csv: has no level at the times of the points", result.stderr)
 
     def test_the_creation_of_the_file_is_evidence_for_its_day(self):
         """Levels of a month, points of seconds of the week."""
