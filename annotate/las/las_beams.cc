@@ -28,13 +28,10 @@ bool UsesTimes(const LasAnnotation& annotation) {
   return annotation.plan.has_track() || annotation.plan.water_levels != nullptr || GoesByTime(annotation);
 }
 
-// Without a few times far from all others.
+// Without a few that are far from all others.
 formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
-  return {.span = prescan.tally.Bulk().value_or(formats::TimeSpan{prescan.first_time, prescan.last_time}),
-          .form = reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
-                                                    : formats::PointTimeForm::kWeekSeconds,
-          .created = formats::GpsTimeOfDay(reader.header().creation_year, reader.header().creation_day),
-          .count = prescan.numbered};
+  const formats::TimeSpan all = {prescan.first_time, prescan.last_time};
+  return formats::PointTimesOf(reader.header(), prescan.tally.Bulk().value_or(all), prescan.numbered);
 }
 
 // Times are needed to find the position of the sensor or the water level at a point.
@@ -75,7 +72,7 @@ TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, cons
   return {.name = reader.name(),
           .frame = place.frame,
           .map = place.map,
-          .times = TimesOf(reader, prescan),
+          .times = formats::PointTimesOf(reader.header(), {prescan.first_time, prescan.last_time}, prescan.numbered),
           .extent = {.x_min = prescan.of_numbered.least[0],
                      .x_max = prescan.of_numbered.greatest[0],
                      .y_min = prescan.of_numbered.least[1],
@@ -99,15 +96,22 @@ formats::ClockReading ReadingOf(const FileTrack& track) {
 }  // namespace
 
 absl::StatusOr<FileTrack> LasBeams::TrackOf(const TrackedFile& file, const BeamPlan& plan) {
-  absl::StatusOr<FileTrack> track = std::holds_alternative<TrajectoryFromFiles>(plan.source)
-                                        ? TrackFromFiles(file, plan)
-                                        : TrackFromReturns(file, plan.refractive_index, seconds_);
-  if (!track.ok() || !prescan_.tally.Bulk().has_value()) return track;
-  track->notes.push_back(
-      absl::StrFormat("%d points have GPS times a month or more from those of all others (%g to %g in a file of %.1f "
-                      "to %.1f): they have no trajectory, like points without a time",
-                      prescan_.tally.outside_of_bulk(), prescan_.first_time, prescan_.last_time, file.times.span.first,
-                      file.times.span.last));
+  const auto track_of = [&](const TrackedFile& given) {
+    return std::holds_alternative<TrajectoryFromFiles>(plan.source)
+               ? TrackFromFiles(given, plan)
+               : TrackFromReturns(given, plan.refractive_index, seconds_);
+  };
+  absl::StatusOr<FileTrack> track = track_of(file);
+  const std::optional<formats::TimeSpan> bulk = prescan_.tally.Bulk();
+  if (track.ok() || !bulk.has_value()) return track;
+  TrackedFile others = file;
+  others.times.span = *bulk;
+  track = track_of(others);
+  if (!track.ok()) return track;
+  track->notes.push_back(absl::StrFormat(
+      "%d points have GPS times a month or more from those of all others (%g to %g in a file of %.1f "
+      "to %.1f): they have no trajectory, like points without a time",
+      prescan_.tally.outside_of_bulk(), file.times.span.first, file.times.span.last, bulk->first, bulk->last));
   return track;
 }
 
@@ -192,9 +196,9 @@ absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimel
     return CheckOnlyRecord(reader, seas);
   }
   if (prescan_.numbered == 0) return absl::OkStatus();  // No point needs a sea.
-  const formats::PointTimes times = TimesOf(reader, prescan_);
-  ASSIGN_OR_RETURN(utc_, ClockOfSea(reader.name(), times, *seas.settings().file, {seas.start(), seas.end()}));
-  records_ = seas.RecordsWithin(utc_(times.span.first), utc_(times.span.last));
+  ASSIGN_OR_RETURN(
+      utc_, ClockOfSea(reader.name(), TimesOf(reader, prescan_), *seas.settings().file, {seas.start(), seas.end()}));
+  records_ = seas.RecordsWithin(utc_(prescan_.first_time), utc_(prescan_.last_time));
   return absl::OkStatus();
 }
 

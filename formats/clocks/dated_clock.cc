@@ -13,6 +13,8 @@ namespace albtpu::formats {
 namespace {
 
 constexpr double kHalfDay = kSecondsPerDay / 2;
+// s; a flight of less than 6 hours over midnight seems to be longer.
+constexpr double kLongestOfDay = 0.75 * kSecondsPerDay;
 
 // s; sources in UTC are read as GPS time where nothing changes within the seconds between the two.
 constexpr double kSameInstant = 60;
@@ -43,7 +45,8 @@ std::vector<PointClock> ChosenClocks(const PointTimes& points, const ClockChoice
 
 // Seconds of a day that start again from 0 at midnight.
 bool BeginAgainAtMidnight(const PointClock& clock, const PointTimes& points) {
-  return clock.is_of_day() && clock.scale * (points.span.last - points.span.first) > kHalfDay;
+  const TimeSpan span = {clock.scale * points.span.first, clock.scale * points.span.last};
+  return clock.is_of_day() && span.last <= kSecondsPerDay && span.last - span.first > kLongestOfDay;
 }
 
 std::vector<DatedClock> FittingClocks(const PointTimes& points, const ClockChoice& choice, const TimeSpan& known) {
@@ -121,10 +124,11 @@ std::string ChoiceText(const ClockChoice& choice, const PointTimes& points) {
   const std::vector<PointClock> clocks = ChosenClocks(points, choice);
   const bool begin_again =
       std::ranges::any_of(clocks, [&](const PointClock& clock) { return BeginAgainAtMidnight(clock, points); });
-  return absl::StrCat(choice.of_track.has_value()
-                          ? absl::StrCat("the times are ", choice.of_track->description, ", as the trajectory has them")
-                          : absl::StrCat("--time-format ", NameOf(choice.format), " is right"),
-                      begin_again ? " (by which they begin again from 0 at midnight)" : "");
+  return absl::StrCat(
+      choice.of_track.has_value()
+          ? absl::StrCat("the times are ", choice.of_track->description, ", as the trajectory has them")
+          : absl::StrCat("--time-format ", NameOf(choice.format), " is right"),
+      begin_again ? " (by which they span more than 18 hours, as if they began again at midnight)" : "");
 }
 
 PointTimes Continued(PointTimes points) {

@@ -43,7 +43,7 @@ PointTimes Continued(PointTimes points);
 // names: the one that is meant. Times that do not name their week or day have one for each that fits. The clock that
 // the header states, or that the user names, comes before all others, and seconds come before milliseconds; where it is
 // plausible (IsHeaderPlausible), no other one counts unless the trajectory has it, and neither do milliseconds of what
-// may be seconds of the week, of which a thousandth is a time of any day. Seconds of a day of more than half a day
+// may be seconds of the week, of which a thousandth is a time of any day. Seconds of a day of more than 18 hours
 // begin again at midnight, and have no date. Of several, those count that are not later than the creation of the file,
 // and of these the one of that day; a creation before all of them says nothing. nullopt where none fits, and where
 // seconds of the week begin again from 0. The error lists those that remain where they are several. `note` says what

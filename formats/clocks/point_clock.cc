@@ -108,7 +108,7 @@ std::vector<PointClock> ClocksOf(const PointTimes& stated, TimeFormat format, st
   std::vector<PointClock> possible;
   if (!date.has_value()) date = stated.created;
   const double leap_seconds = date.has_value() ? *date + kGpsEpoch - UtcOfGps(*date) : kGpsMinusUtcNow;
-  const bool named = format != TimeFormat::kAuto;
+  const bool named = format == TimeFormat::kDay || format == TimeFormat::kUtcDay;
   AddClocks(stated.span, 1, leap_seconds, named, possible);
   const TimeSpan milliseconds = {stated.span.first * kMillisecond, stated.span.last * kMillisecond};
   const double duration = std::max(milliseconds.last - milliseconds.first, kShortest);

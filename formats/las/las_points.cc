@@ -11,6 +11,14 @@
 #include "status/status_macros.h"
 
 namespace albtpu::formats {
+
+PointTimes PointTimesOf(const LasHeader& header, const TimeSpan& span, std::uint64_t count) {
+  return {.span = span,
+          .form = header.adjusted_gps_time ? PointTimeForm::kAdjustedStandard : PointTimeForm::kWeekSeconds,
+          .created = GpsTimeOfDay(header.creation_year, header.creation_day),
+          .count = count};
+}
+
 void LasClassCounts::Merge(const LasClassCounts& other) {
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
 }

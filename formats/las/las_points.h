@@ -12,12 +12,16 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "formats/clocks/trajectory_time.h"
 #include "formats/las/las_header.h"
 #include "formats/las/las_reader.h"
 #include "laz/coding/little_endian.h"
 #include "laz/laz_points.h"
 
 namespace albtpu::formats {
+
+// `count` times of a file, as its header states them.
+PointTimes PointTimesOf(const LasHeader& header, const TimeSpan& span, std::uint64_t count);
 
 inline constexpr int kFirstModernFormat = 6;           // Formats 6-10 have a byte for the class and finer scan angles.
 inline constexpr double kModernScanAngleStep = 0.006;  // degree

@@ -104,8 +104,10 @@ std::string WaterLevelSeries::TimesText() const {
 
 std::optional<ClockReading> WaterLevelSeries::ReadingOf(const PointTimes& points) const {
   if (!has_dates_ || !HasLevelsAt(points.span)) return std::nullopt;
-  const double first = points.span.first, time = Continued(first);
-  return ClockReading{.of = name_, .scale = scale_, .shift = time - scale_ * first + week_};
+  const double first = scale_ * points.span.first + shift_;
+  const bool is_in_second_week = crosses_week_ && first < start() && first + kSecondsPerWeek <= end();
+  return ClockReading{
+      .of = name_, .scale = scale_, .shift = shift_ + week_ + (is_in_second_week ? kSecondsPerWeek : 0)};
 }
 
 absl::StatusOr<WaterLevelSeries> WaterLevelSeries::ByNumbers(const PointTimes& points, const ClockChoice& choice,
@@ -161,7 +163,10 @@ absl::StatusOr<WaterLevelSeries> WaterLevelSeries::For(const PointTimes& points,
     ASSIGN_OR_RETURN(WaterLevelSeries read, ByNumbers(points, choice, note));
     return noted(std::move(read));
   }
-  if (stated.ok() && choice.keeps_header() && stated->HasLevelsAt(points.span)) return stated;
+  // Over the end of a week, seconds of the week are those of several days: a clock that fits is found by chance.
+  const bool keeps_week = stated.ok() && stated->crosses_week_ && MayBeOfWeek(points.span);
+  if (stated.ok() && choice.keeps_header() && (keeps_week || stated->HasLevelsAt(points.span)))
+    return noted(*std::move(stated));
   // Dates of more than a week are an error of seconds of a week alone.
   const absl::StatusOr<std::optional<DatedClock>> clock = FindDatedClock(points, choice, {start(), end()}, name_, note);
   if (!clock.ok()) {

@@ -173,10 +173,7 @@ std::vector<int> LasLook::water_surface() const {
 }
 
 formats::PointTimes LasLook::times() const {
-  return {.span = {contents.first_time, contents.last_time},
-          .form = header.adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
-                                           : formats::PointTimeForm::kWeekSeconds,
-          .created = formats::GpsTimeOfDay(header.creation_year, header.creation_day)};
+  return formats::PointTimesOf(header, {contents.first_time, contents.last_time}, 0);
 }
 
 bool LasLook::has_bottom_by_default() const {

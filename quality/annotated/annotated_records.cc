@@ -223,9 +223,8 @@ absl::StatusOr<LeftOutPoints> AnnotatedLasFile::ForEach(annotate::FileProgress& 
         if (chunk.made.lacks_covariance)
           return absl::InvalidArgumentError(absl::StrCat(
               path_.string(),
-              ": was annotated without the directions of its beams, so that its points have no covariance; annotate "
-              "its "
-              "input again with --trajectory, or give --beam-azimuth or --flight-direction beside the angles"));
+              ": was annotated without the directions of its beams, so that its points have no covariance; annotate it "
+              "again with --trajectory, or give --beam-azimuth or --flight-direction beside the angles"));
         for (const DryPoint& dry : chunk.made.dry) visit_dry(dry);
         visit(chunk.made.points);
         left_out.Add(chunk.made.left_out);

@@ -149,8 +149,23 @@ TEST(DatedClock, IsNoneWhereSecondsOfTheDayBeginAgain) {
   std::string note;
   for (const TimeFormat format : {TimeFormat::kDay, TimeFormat::kUtcDay}) {
     const absl::StatusOr<UtcClock> clock = Find(points, Span("2016-05-11T00:00Z", "2016-05-13T00:00Z"), note, format);
-    EXPECT_THAT(std::string(clock.status().message()), HasSubstr("by which they begin again from 0 at midnight"));
+    EXPECT_THAT(std::string(clock.status().message()), HasSubstr("as if they began again at midnight"));
   }
+}
+
+TEST(DatedClock, IsOfADayOfSeveralFlights) {
+  const PointTimes points = {{7 * 3600, 20 * 3600}, PointTimeForm::kWeekSeconds, GpsTimeOfDay(2016, 132)};
+  std::string note;
+  const absl::StatusOr<UtcClock> clock =
+      Find(points, Span("2016-05-11T00:00Z", "2016-05-12T00:00Z"), note, TimeFormat::kDay);
+  ASSERT_TRUE(clock.ok()) << clock.status();
+  EXPECT_NEAR((*clock)(points.span.first), kUnix - 7 * 3600 - 17, 1e-6);
+}
+
+TEST(DatedClock, OfAMondayInMillisecondsIsNotOfADay) {
+  const PointTimes points = {{1e3 * 130000, 1e3 * 131800}, PointTimeForm::kWeekSeconds};
+  std::string note;
+  EXPECT_TRUE(Find(points, Span("2016-05-09T00:00Z", "2016-05-11T00:00Z"), note, TimeFormat::kMilliseconds).ok());
 }
 
 TEST(DatedClock, IsOfADayThatContinuesOnlyWhereTheUserNamesIt) {

@@ -102,12 +102,26 @@ TEST(WaterLevelsFor, ReadsTheTimesOfThePointsByWhatFitsOverTheEndOfAWeek) {
   EXPECT_THAT(note, HasSubstr("--time-format adjusted says so"));
 }
 
+// Sunday afternoon after the last level, and the same hour of Saturday with levels.
+TEST(WaterLevelsFor, TakesNoDayByChanceOverTheEndOfAWeek) {
+  const TemporaryFolder folder;
+  const auto path = folder.Write("tide.csv",
+                                 "time,water_level\n2016-05-14T12:00:00Z,1\n2016-05-14T14:00:00Z,1\n"
+                                 "2016-05-15T12:00:00Z,1\n");
+  std::string note;
+  const auto levels = Find(path, {{48000, 48060}, kWeekSeconds, GpsTimeOfDay(2016, 200)}, TimeFormat::kAuto, note);
+  ASSERT_TRUE(levels.ok()) << levels.status();
+  EXPECT_FALSE(levels->At(48000).has_value());
+  EXPECT_THAT(note, HasSubstr("has no level at the times of the points"));
+}
+
 TEST(WaterLevelsReadingOf, NamesTheWeekOfThePoints) {
   const TemporaryFolder folder;
   const std::filesystem::path path = WriteOverTheEndOfAWeek(folder);
   constexpr double kBegin = 1896 * kSecondsPerWeek - kAdjustedGpsOffset;  // 2016-05-08
   std::string note;
-  for (const auto& [first, weeks] : {std::pair(5 * 86400 + 7200.0, 0), {604790.0, 0}, {7200.0, 1}}) {
+  // The first ones begin before the levels do.
+  for (const auto& [first, weeks] : {std::pair(5 * 86400 - 30.0, 0), {604790.0, 0}, {7200.0, 1}}) {
     const PointTimes points = {{first, first + 60}, kWeekSeconds};
     const auto levels = Find(path, points, TimeFormat::kAuto, note);
     const std::optional<ClockReading> reading = levels->ReadingOf(points);
