@@ -134,7 +134,7 @@ class Service(UncertaintySource):
                 raise ArgumentError(f"dt has {later.size} numbers (expected 1 or {len(pairs)}, as dx has): give one "
                                     "for each pair")
             count = max(later.size, len(pairs))
-            for (x, y), seconds in zip(np.broadcast_to(pairs, (count, 2)), np.broadcast_to(later, count)):
+            for x, y, seconds in zip(*(np.broadcast_to(each, count) for each in (pairs[:, 0], pairs[:, 1], later))):
                 question.separations.add(x=x, y=y, seconds=seconds)
         answer = self._call(self._stub.CompileSea,
                             wire.CompileSeaRequest(sea=sea.message(), correlation=question)).correlation
