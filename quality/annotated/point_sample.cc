@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -59,10 +60,11 @@ PointSample::Common PointSample::CommonOf(const PointSample& a, const PointSampl
   const std::uint64_t limit = std::min(a.limit_.load(), b.limit_.load());
   std::array<double, 3> most = {};
   for (std::size_t i = 0; i < most.size(); ++i) most[i] = kStepsApart * std::max(a.steps_[i], b.steps_[i]);
-  const auto below = [limit](const PointSample& sample) {
+  const auto by_rank = [](const Point& point, const Point& other) { return point.rank < other.rank; };
+  const auto below = [limit, by_rank](const PointSample& sample) {
     std::vector<Point> points = sample.points_;
     std::erase_if(points, [limit](const Point& point) { return point.rank >= limit; });
-    std::ranges::sort(points, {}, &Point::rank);
+    std::ranges::sort(points, by_rank);
     return points;
   };
   std::vector<Point> fewer = below(a), more = below(b);
@@ -71,7 +73,8 @@ PointSample::Common PointSample::CommonOf(const PointSample& a, const PointSampl
   std::size_t common = 0, identical = 0;
   for (const Point& point : fewer) {
     bool is_common = false, is_identical = false;
-    for (const Point& other : std::ranges::equal_range(more, point.rank, {}, &Point::rank)) {
+    const auto [begin, end] = std::equal_range(more.begin(), more.end(), point, by_rank);
+    for (const Point& other : std::span(begin, end)) {
       if (std::abs(point.x - other.x) > most[0] || std::abs(point.y - other.y) > most[1]) continue;
       is_common = true;
       is_identical = is_identical || (point.has_time && std::abs(point.z - other.z) <= most[2]);
