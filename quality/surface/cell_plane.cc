@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "budget/total/error_ellipse.h"
 #include "sea/angle.h"
 #include "tables/coverage.h"
 

@@ -14,6 +14,7 @@
 #include "absl/status/statusor.h"
 #include "quality/annotated/annotated_points.h"
 #include "quality/seas/sea_sharing.h"
+#include "quality/surface/node.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {

@@ -12,6 +12,7 @@
 #include "grids/netcdf_grid.h"
 #include "quality/annotated/annotated_points.h"
 #include "quality/seas/sea_sharing.h"
+#include "quality/surface/node.h"
 #include "quality/surface/surface_part.h"
 #include "quality/surface/surface_point.h"
 #include "tables/coverage.h"
