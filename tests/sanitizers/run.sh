@@ -27,7 +27,8 @@ for preset in "${presets[@]}"; do
   mkdir "$findings"
   ALBTPU_FINDINGS=log_path=$findings/report ctest --preset "$preset" --parallel 2 "$@" |
     tee "build/$preset/test.log" || status=1
-  reports=$(find "$findings" -type f | wc -l)
+  # HDF5 is refused what a damaged table makes it ask for (tests/fuzz/fuzz_target.cc): a warning, which is no finding.
+  reports=$(grep -rlv "WARNING: .*Sanitizer failed to allocate" "$findings" | wc -l || true)
   if ((reports > 0)); then
     status=1
     cat "$findings"/*
