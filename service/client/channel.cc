@@ -12,11 +12,14 @@
 #include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "service/client/proxy.h"
+#include "service/openssl_at_exit.h"
 #include "service/text_file.h"
 #include "status/status_macros.h"
 
 namespace albtpu::client {
 namespace {
+
+[[maybe_unused]] const bool kOpenSslIsKept = KeepOpenSslAtExit();
 
 // A server whose machine or network has failed stays silent. After this much silence the client pings it, and gives
 // it up if it does not respond within the timeout. The server allows a ping every 10 s. The timeout also bounds how

@@ -11,11 +11,14 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "service/openssl_at_exit.h"
 #include "service/text_file.h"
 #include "status/status_macros.h"
 
 namespace albtpu::server {
 namespace {
+
+[[maybe_unused]] const bool kOpenSslIsKept = KeepOpenSslAtExit();
 
 using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;

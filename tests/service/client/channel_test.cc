@@ -1,6 +1,10 @@
 #include "service/client/channel.h"
 
 #include <gmock/gmock.h>
+#include <openssl/crypto.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 #include "tests/service/client/running_server.h"
 #include "tests/temporary_folder.h"
@@ -52,6 +56,18 @@ TEST_F(ChannelCredentials, MayBeATokenAlone) {
 TEST(ServerHealth, IsOkWhileTheServerServes) {
   const RunningServer server;
   EXPECT_TRUE(CheckHealth(server.address()).ok());
+}
+
+// Threads of gRPC may still use OpenSSL when a program ends. A handler that is registered before OpenSSL's own would
+// run after it.
+TEST(OpenSsl, IsUsableUntilTheProcessIsGone) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto use_and_exit = [] {
+    std::atexit([] { _exit(OPENSSL_init_crypto(0, nullptr) == 1 ? 0 : 3); });
+    (void)OPENSSL_init_crypto(OPENSSL_INIT_LOAD_CRYPTO_STRINGS, nullptr);
+    std::exit(1);
+  };
+  EXPECT_EXIT(use_and_exit(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(ServerHealth, IsOkWhenOneOfSeveralServersServes) {
