@@ -23,7 +23,7 @@ MOST_SLOWDOWN = 2.0  # At the 99th percentile: users notice longer waits.
 
 @dataclass(frozen=True)
 class Service:
-    pulses_a_core: float = 26e6  # Per second, six quantities over TLS; measured by tests/bench/sizing.py.
+    pulses_a_core: float = 23e6  # Per second, six quantities over TLS; measured by tests/bench/sizing.py.
     bytes_there: float = 8  # Per pulse, incidence and depth in columns; measured likewise.
     bytes_back: float = 26
     cores: int = 2  # Of a replica.
